@@ -1,0 +1,59 @@
+"""Parameter files and projects: values in memory, on disk, and what becomes of them.
+
+Saves are atomic and leave a backup, unsaved work survives a killed program,
+two programs on one file notice each other, and a file that is not fully
+understood is refused or kept whole.
+"""
+
+from .atomic import ChangedOnDisk, SaveFault, backup_path, digest_of, write_atomic
+from .axes import AxisFault, axis_instances, axis_title, axis_type, copy_axis, delete_axis, fitted_axes, name_axes
+from .diff import Comparison, Conflict, Difference, compare, merge
+from .document import Document, HistoryEntry, Unsaved, recover_backup
+from .lock import InUse
+from .parameter_file import Change, Header, ParameterFile, RangeFault, describe, fill_defaults, new_file
+from .project import ENDING, NameFault, Project, ProjectInfo
+from .storage import FORMAT, FileFault, Opened, content_of, open_file, read_content, save_file
+
+__all__ = [
+    "ENDING",
+    "FORMAT",
+    "AxisFault",
+    "Change",
+    "ChangedOnDisk",
+    "Comparison",
+    "Conflict",
+    "Difference",
+    "Document",
+    "FileFault",
+    "Header",
+    "HistoryEntry",
+    "InUse",
+    "NameFault",
+    "Opened",
+    "ParameterFile",
+    "Project",
+    "ProjectInfo",
+    "RangeFault",
+    "SaveFault",
+    "Unsaved",
+    "axis_instances",
+    "axis_title",
+    "axis_type",
+    "backup_path",
+    "compare",
+    "content_of",
+    "copy_axis",
+    "delete_axis",
+    "describe",
+    "digest_of",
+    "fill_defaults",
+    "fitted_axes",
+    "merge",
+    "name_axes",
+    "new_file",
+    "open_file",
+    "read_content",
+    "recover_backup",
+    "save_file",
+    "write_atomic",
+]

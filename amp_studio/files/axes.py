@@ -1,0 +1,123 @@
+"""The axis operations of the editor: name, configure, copy, delete.
+
+They act on the parameters that the family's axis profile names, and return the
+changes they made, so that each is one step to undo.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from amp_studio.schema import Address, AxisProfile, Value, ValueFault
+
+from .parameter_file import Change, ParameterFile
+
+
+class AxisFault(ValueError):
+    """An axis operation that cannot be done; the text is one clear sentence."""
+
+
+def axis_instances(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes a file can have; empty for a family without an axis profile."""
+    profile = file.schema.family.axes
+    return file.schema.instances(file.schema.parameters[profile.type], file.machine) if profile else ()
+
+
+def axis_type(file: ParameterFile, axis: str) -> str:
+    """Return the type key of an axis; the unfitted one when it is not set."""
+    profile = _profile(file)
+    value = file.get((profile.type, axis))
+    return str(value.value) if value else profile.unfitted
+
+
+def axis_title(file: ParameterFile, axis: str) -> str:
+    """Return ``1 X linear`` for a column head."""
+    profile = _profile(file)
+    name = file.get((profile.name, axis))
+    parameter = file.schema.parameters[profile.name]
+    labels = {c.key: c.label for c in parameter.choices or ()}
+    return f"{axis} {labels.get(str(name.value), '?') if name else '–'} {axis_type(file, axis)}"
+
+
+def fitted_axes(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes that are not unfitted."""
+    if file.schema.family.axes is None:
+        return ()
+    unfitted = file.schema.family.axes.unfitted
+    return tuple(a for a in axis_instances(file) if axis_type(file, a) != unfitted)
+
+
+def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
+    """Name the axes in order and fit as many; the others become unfitted.
+
+    A spindle's name makes a spindle; A, B and C are fitted as rotary, every
+    other as linear, as is usual; raises AxisFault for a name that is not
+    offered and for too many axes.
+    """
+    profile = _profile(file)
+    instances = axis_instances(file)
+    if len(names) > len(instances):
+        raise AxisFault(f"{len(names)} axes are too many: {file.schema.family.name} has {len(instances)}")
+    wanted: dict[Address, Value | None] = {}
+    for axis, name in zip(instances, names, strict=False):
+        try:
+            wanted[(profile.name, axis)] = file.read((profile.name, axis), name)
+        except ValueFault as error:
+            raise AxisFault(str(error)) from None
+        wanted[(profile.type, axis)] = Value(profile.types.get(name.upper(), profile.usual_type))
+    for axis in instances[len(names) :]:
+        wanted[(profile.type, axis)] = Value(profile.unfitted)
+    return file.set_many(wanted)
+
+
+def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
+    """Copy every per-axis value of one axis to another of the same type, except its name.
+
+    Raises AxisFault when the types differ or an axis does not exist.
+    """
+    profile = _profile(file)
+    for axis in (source, target):
+        if axis not in axis_instances(file):
+            raise AxisFault(f"there is no axis {axis}")
+    if source == target:
+        raise AxisFault(f"axis {source} cannot be copied to itself")
+    if axis_type(file, source) != axis_type(file, target):
+        raise AxisFault(
+            f"axis {source} is {axis_type(file, source)} and axis {target} is {axis_type(file, target)}: "
+            "only axes of the same type can be copied"
+        )
+    changes = []
+    for parameter_id, instance in file.addresses():
+        if instance == target and parameter_id != profile.name and _is_axis(file, parameter_id):
+            change = file.set((parameter_id, target), file.get((parameter_id, source)))
+            if change:
+                changes.append(change)
+    return changes
+
+
+def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
+    """Make an axis unfitted and put its values back to their printed defaults; a value without one is unset."""
+    profile = _profile(file)
+    if axis not in axis_instances(file):
+        raise AxisFault(f"there is no axis {axis}")
+    changes = []
+    change = file.set((profile.type, axis), Value(profile.unfitted))
+    if change:
+        changes.append(change)
+    for address in file.addresses():
+        if address[1] == axis and address[0] not in (profile.type, profile.name) and _is_axis(file, address[0]):
+            change = file.set(address, file.default(address))
+            if change:
+                changes.append(change)
+    return changes
+
+
+def _is_axis(file: ParameterFile, parameter_id: str) -> bool:
+    layout = file.schema.layout(file.schema.parameters[parameter_id], file.machine)
+    return layout is not None and layout.scope == "axis"
+
+
+def _profile(file: ParameterFile) -> AxisProfile:
+    if file.schema.family.axes is None:
+        raise AxisFault(f"{file.schema.family.name} has no axes to configure")
+    return file.schema.family.axes

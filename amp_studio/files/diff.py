@@ -1,0 +1,84 @@
+"""Differences between two files, and the three-way merge, by parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from amp_studio.schema import Address, Schema, Value, canonical_value
+
+from .parameter_file import ParameterFile
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One address at which two sides differ; None is absent on that side."""
+
+    address: Address
+    a: Value | None
+    b: Value | None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All differences of two sides, in the manual's order, and how many addresses are the same."""
+
+    differences: tuple[Difference, ...]
+    same: int
+
+    @property
+    def absent_in_a(self) -> int:
+        """Addresses that only the second side has."""
+        return sum(d.a is None for d in self.differences)
+
+    @property
+    def absent_in_b(self) -> int:
+        """Addresses that only the first side has."""
+        return sum(d.b is None for d in self.differences)
+
+
+def compare(schema: Schema, a: Mapping[Address, Value], b: Mapping[Address, Value]) -> Comparison:
+    """Compare two sets of values exactly; 1 in and 25.4 mm are the same value."""
+    order = {p: n for n, p in enumerate(schema.parameters)}
+    both = sorted({*a, *b}, key=lambda address: (order.get(address[0], len(order)), address[1]))
+    found = [Difference(address, a.get(address), b.get(address)) for address in both if not _same(a, b, address)]
+    return Comparison(tuple(found), len(both) - len(found))
+
+
+def _same(a: Mapping[Address, Value], b: Mapping[Address, Value], address: Address) -> bool:
+    left, right = a.get(address), b.get(address)
+    if left is None or right is None:
+        return left is right
+    return left == right or canonical_value(left) == canonical_value(right)
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """An address that both sides changed, and not to the same value."""
+
+    address: Address
+    base: Value | None
+    ours: Value | None
+    theirs: Value | None
+
+
+def merge(base: ParameterFile, ours: ParameterFile, theirs: ParameterFile) -> tuple[ParameterFile, list[Conflict]]:
+    """Return ours with the changes that theirs made to base, and the conflicts, at which ours stands.
+
+    Raises ValueError when the three are not of one family.
+    """
+    families = {f.schema.family.family for f in (base, ours, theirs)}
+    if len(families) > 1:
+        raise ValueError(f"files of different control families cannot be merged: {', '.join(sorted(families))}")
+    merged, conflicts = ours.copy(), []
+    for difference in compare(base.schema, base.values, theirs.values).differences:
+        address = difference.address
+        if _same(ours.values, base.values, address):
+            merged.set(address, theirs.get(address))
+            if address in theirs.forced:
+                merged.forced[address] = theirs.forced[address]
+        elif not _same(ours.values, theirs.values, address):
+            conflicts.append(Conflict(address, base.get(address), ours.get(address), theirs.get(address)))
+    for key, text in theirs.unknown.items():
+        merged.unknown.setdefault(key, text)
+    return merged, conflicts

@@ -1,0 +1,232 @@
+"""An open parameter file: its place on disk, its lock, its unsaved work, its history.
+
+Two programs on one file notice each other through an operating-system lock,
+which ends with its program; the unsaved work of a killed program lies in a
+journal beside the file and is offered when the file is opened again.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import getpass
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from amp_studio.schema import Address, ValueFault, read_address, write_value, written
+
+from .atomic import backup_path, digest_of, write_atomic
+from .lock import EditLock, beside, now
+from .parameter_file import Change, ParameterFile
+from .storage import open_file, read_stored, save_file
+
+
+@dataclass(frozen=True)
+class HistoryEntry:
+    """One value replaced in a saved file."""
+
+    when: str
+    who: str
+    how: str
+    param: str
+    old: str
+    new: str
+
+
+@dataclass(frozen=True)
+class Unsaved:
+    """The work of a program that ended before it saved."""
+
+    when: str
+    who: str
+    changes: tuple[Change, ...]
+    fits: bool
+    """Whether the file is still the one the work was done on."""
+
+
+class Document:
+    """A parameter file that is open for editing. Close it, or leave the ``with``, to give up the lock."""
+
+    def __init__(self, file: ParameterFile, path: Path, digest: str | None) -> None:
+        self.file, self.path, self.digest = file, path, digest
+        self.saved = dict(file.values)
+        """The values as they are on disk."""
+        self._lock = EditLock(path)
+
+    # -- opening ---------------------------------------------------------------
+
+    @classmethod
+    def open(cls, path: Path) -> Document:
+        """Open a file for editing; raises FileFault, and InUse while another program edits it."""
+        document = cls._of(path)
+        document._lock.take()
+        try:  # the file may have changed while its lock was waited for
+            return document if digest_of(path) == document.digest else document._again()
+        except BaseException:
+            document.close()
+            raise
+
+    @classmethod
+    def view(cls, path: Path) -> Document:
+        """Open a file only to look at it; it cannot be saved in place."""
+        return cls._of(path)
+
+    @classmethod
+    def _of(cls, path: Path) -> Document:
+        opened = open_file(path)
+        return cls(opened.file, path, opened.digest)
+
+    def _again(self) -> Document:
+        fresh = self._of(self.path)
+        fresh._lock = self._lock
+        return fresh
+
+    @classmethod
+    def create(cls, file: ParameterFile, path: Path) -> Document:
+        """Save a new file and open it; refuses to overwrite with FileExistsError."""
+        if path.exists():
+            raise FileExistsError(f"{path} exists already")
+        document = cls(file, path, None)
+        document._lock.take()
+        try:
+            document.save("new")
+        except BaseException:
+            document.close()
+            raise
+        return document
+
+    def __enter__(self) -> Document:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give up the lock and the journal of unsaved work."""
+        if self._lock.is_taken:
+            with contextlib.suppress(OSError):
+                self.journal_path.unlink(missing_ok=True)
+            self._lock.release()
+
+    @property
+    def is_locked(self) -> bool:
+        """Whether this program may save the file in place."""
+        return self._lock.is_taken
+
+
+    # -- saving ----------------------------------------------------------------
+
+    @property
+    def is_dirty(self) -> bool:
+        """Whether the values differ from those on disk."""
+        return self.digest is None or self.saved != self.file.values
+
+    def unsaved_changes(self) -> list[Change]:
+        """Return what a save would change, in the manual's order."""
+        addresses = dict.fromkeys([*self.file.addresses(), *self.saved, *self.file.values])
+        pairs = ((a, self.saved.get(a), self.file.values.get(a)) for a in addresses)
+        return [Change(a, old, new) for a, old, new in pairs if old != new]
+
+    def save(self, how: str = "edit") -> None:
+        """Save in place; the previous file becomes the backup. Raises ChangedOnDisk, SaveFault, InUse."""
+        self._lock.take()
+        changes = self.unsaved_changes() if self.digest is not None else []
+        self.digest = save_file(self.file, self.path, self.digest)
+        self.saved = dict(self.file.values)
+        self._remember(changes, how)
+        with contextlib.suppress(OSError):
+            self.journal_path.unlink(missing_ok=True)
+
+    def save_as(self, path: Path, how: str = "save as") -> Document:
+        """Save under a new name and return that document; the original stays as it is on disk."""
+        twin = self.file.copy()
+        twin.header.name = path.stem
+        return Document.create(twin, path)
+
+    def changed_on_disk(self) -> bool:
+        """Tell whether another program has changed or removed the file since it was opened."""
+        return self.digest is not None and digest_of(self.path) != self.digest
+
+    # -- history ---------------------------------------------------------------
+
+    @property
+    def history_path(self) -> Path:
+        """Where the history is kept: one JSON line for each value replaced by a save."""
+        return self.path.with_name(self.path.name + ".history")
+
+    def _remember(self, changes: list[Change], how: str) -> None:
+        """Append to the history; a history that cannot be written does not undo the save."""
+        if not changes:
+            return
+        lines = "".join(
+            json.dumps([now(), getpass.getuser(), how, written(c.address), self._text(c.address, c.old),
+                        self._text(c.address, c.new)]) + "\n"
+            for c in changes
+        )  # fmt: skip
+        with contextlib.suppress(OSError), self.history_path.open("a", encoding="utf-8") as stream:
+            stream.write(lines)
+
+    def history(self, address: Address | None = None) -> list[HistoryEntry]:
+        """Return what was saved before, newest first; of one address, or of all."""
+        try:
+            lines = self.history_path.read_text(encoding="utf-8").splitlines()
+        except OSError:
+            return []
+        found = []
+        for line in lines:
+            with contextlib.suppress(ValueError, TypeError):
+                entry = HistoryEntry(*json.loads(line))
+                if address is None or entry.param == written(address):
+                    found.append(entry)
+        return found[::-1]
+
+    def _text(self, address: Address, value: object) -> str:
+        return write_value(self.file.schema.parameters[address[0]], value) if value is not None else ""  # type: ignore[arg-type]
+
+    # -- unsaved work ----------------------------------------------------------
+
+    @property
+    def journal_path(self) -> Path:
+        """Where unsaved work is kept while the file is open."""
+        return beside(self.path, ".unsaved")
+
+    def keep_unsaved(self) -> None:
+        """Write the unsaved work beside the file, so that a killed program loses none; no change removes it."""
+        changes = self.unsaved_changes()
+        if not changes:
+            self.journal_path.unlink(missing_ok=True)
+            return
+        entries = [[written(c.address), self._text(c.address, c.new)] for c in changes]
+        content = json.dumps({"when": now(), "who": getpass.getuser(), "digest": self.digest, "changes": entries})
+        write_atomic(self.journal_path, content.encode(), keep_backup=False)
+
+    def find_unsaved(self) -> Unsaved | None:
+        """Return the work a killed program left for this file, or None."""
+        try:
+            left = json.loads(self.journal_path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        changes = []
+        for entry, text in left["changes"]:
+            address = read_address(entry)
+            parameter = self.file.schema.parameters.get(address[0])
+            if parameter is None:
+                continue
+            with contextlib.suppress(ValueFault):
+                value = read_stored(self.file.schema, parameter, text) if text else None
+                changes.append(Change(address, self.file.get(address), value))
+        return Unsaved(left["when"], left["who"], tuple(changes), left["digest"] == self.digest)
+
+    def discard_unsaved(self) -> None:
+        """Throw away the work a killed program left."""
+        self.journal_path.unlink(missing_ok=True)
+
+
+def recover_backup(path: Path, expected: str | None = "") -> str:
+    """Make the backup the file again; what stood there becomes the backup. Raises FileNotFoundError, SaveFault."""
+    backup = backup_path(path)
+    if not backup.is_file():
+        raise FileNotFoundError(f"{path.name} has no backup")
+    open_file(backup)  # a backup that cannot be read is not put in place
+    return write_atomic(path, backup.read_bytes(), expected)
+

@@ -1,0 +1,245 @@
+"""A parameter file in memory: values, changes, and the situation they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from amp_studio.schema import (
+    Address,
+    Schema,
+    Situation,
+    Value,
+    canonical_value,
+    fault,
+    load_schema,
+    read_value,
+    written,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One value replaced by another; None is unset."""
+
+    address: Address
+    old: Value | None
+    new: Value | None
+
+    def reversed(self) -> Change:
+        """Return the change that takes this one back."""
+        return Change(self.address, self.new, self.old)
+
+
+class RangeFault(ValueError):
+    """A value that its parameter does not allow; ``faults`` holds one sentence for each address."""
+
+    def __init__(self, faults: dict[Address, str]) -> None:
+        self.faults = faults
+        super().__init__("; ".join(faults.values()))
+
+
+@dataclass
+class Header:
+    """What a parameter file says of itself."""
+
+    name: str = ""
+    application: str = ""
+    revision: str = ""
+    """Control software revision."""
+    machine: str = ""
+    """Machine type, for a family that has no parameter for it."""
+    units: str = "metric"
+    """Unit system of display and entry; values keep the unit they were entered in."""
+    notes: str = ""
+    signature: str = ""
+    extra: dict[str, object] = field(default_factory=dict)
+    """Keys this program does not know, kept as they are."""
+
+
+class ParameterFile:
+    """The values of one machine, in the light of its family's schema."""
+
+    def __init__(self, schema: Schema, header: Header | None = None) -> None:
+        self.schema = schema
+        self.header = header or Header()
+        self.values: dict[Address, Value] = {}
+        self.forced: dict[Address, str] = {}
+        """Addresses set out of range on purpose, and when."""
+        self.unknown: dict[str, str] = {}
+        """Entries of the file that name no parameter of this schema, kept as they are."""
+        self.situation = Situation(schema, self.values.get, lambda: self.machine)
+        self._listeners: list[Callable[[Change], None]] = []
+
+    @property
+    def machine(self) -> str:
+        """The machine type: the value of the family's machine parameter, or what the header says."""
+        family = self.schema.family
+        if family.machine_parameter:
+            value = self.values.get((family.machine_parameter, ""))
+            known = {m.key for m in family.machines}
+            if value is not None and value.value in known:
+                return str(value.value)
+            return family.default_machine
+        return self.header.machine or family.default_machine
+
+    # -- reading ---------------------------------------------------------------
+
+    def get(self, address: Address) -> Value | None:
+        """Return a value, or None when it is not set."""
+        return self.values.get(address)
+
+    def addresses(self) -> tuple[Address, ...]:
+        """Return every addressable value of this machine type, in the manual's order."""
+        return self.schema.addresses(self.machine)
+
+    def find(self, text: str) -> Address:
+        """Return the instance a person means; raises UnknownParameter."""
+        return self.situation.find(text)
+
+    def default(self, address: Address) -> Value | None:
+        """Return the printed default of an instance, in the unit system of the file where it is metric."""
+        return default_value(self.schema, self.situation, address)
+
+    def is_default(self, address: Address) -> bool:
+        """Tell whether a value equals the printed default, whatever the unit."""
+        value, default = self.get(address), self.default(address)
+        if value is None or default is None:
+            return value is default
+        return canonical_value(value) == canonical_value(default)
+
+    def read(self, address: Address, text: str) -> Value:
+        """Read a value a person wrote for an instance; raises ValueFault."""
+        unit = self.situation.unit(address, self.header.units)
+        return read_value(self.schema.parameters[address[0]], text, unit)
+
+    # -- changing --------------------------------------------------------------
+
+    def set(self, address: Address, value: Value | None) -> Change | None:
+        """Set one value without asking whether it is allowed; returns the change, or None if it was so already."""
+        old = self.values.get(address)
+        if old == value:
+            return None
+        change = Change(address, old, value)
+        self.apply(change)
+        return change
+
+    def apply(self, change: Change) -> None:
+        """Make a change and tell everyone who listens."""
+        if change.new is None:
+            self.values.pop(change.address, None)
+        else:
+            self.values[change.address] = change.new
+        self.forced.pop(change.address, None)
+        self.situation.changed(change.address)
+        for listener in list(self._listeners):
+            listener(change)
+
+    def set_many(self, wanted: Mapping[Address, Value | None], force: str = "") -> list[Change]:
+        """Set several values, all or none.
+
+        Ranges are checked after all of them are in, so that a pair that bounds
+        each other can move together. With ``force`` (a text that says by whom
+        and when) values out of range are taken and marked; without it they
+        raise RangeFault and nothing is changed.
+        """
+        changes = [c for c in (self.set(a, v) for a, v in wanted.items()) if c]
+        faults = {a: said for a, v in wanted.items() if v is not None and (said := fault(self.situation, a, v))}
+        if faults and not force:
+            for change in reversed(changes):
+                self.apply(change.reversed())
+            raise RangeFault(faults)
+        for address in faults:
+            self.forced[address] = force
+        return changes
+
+    def listen(self, listener: Callable[[Change], None]) -> Callable[[], None]:
+        """Call ``listener`` after every change; returns the function that ends it."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    def copy(self) -> ParameterFile:
+        """Return an independent copy."""
+        twin = ParameterFile(self.schema, Header(**{**vars(self.header), "extra": dict(self.header.extra)}))
+        twin.values.update(self.values)
+        twin.forced.update(self.forced)
+        twin.unknown.update(self.unknown)
+        return twin
+
+
+def default_value(schema: Schema, situation: Situation, address: Address) -> Value | None:
+    """Return the printed default of an instance; None where the manual prints none."""
+    parameter = schema.parameters[address[0]]
+    default = parameter.default
+    if default is None:
+        return None
+    value = (default.instances or {}).get(address[1], default.value)
+    if parameter.type == "boolean":
+        return Value(value in ("yes", True))
+    if isinstance(value, (str, bool)):
+        return Value(value)
+    unit = default.unit
+    if situation.turns(address):
+        from amp_studio.schema import angular
+
+        unit = angular(unit)
+    return Value(int(value) if parameter.type == "integer" else float(value), unit)
+
+
+def new_file(family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = "") -> ParameterFile:
+    """Return a new file with the family's printed defaults.
+
+    ``axes`` names the axes in order; the rest is unfitted. Without it the
+    family's own default axes stay. Raises KeyError for an unknown family,
+    ValueError for a machine type or an axis name the family does not have.
+    """
+    from .axes import name_axes
+
+    schema = load_schema(family)
+    known = [m.key for m in schema.family.machines]
+    if machine is not None and machine not in known:
+        raise ValueError(f"{schema.family.name} has no machine type '{machine}': {', '.join(known)}")
+    applications = schema.family.applications
+    file = ParameterFile(
+        schema,
+        Header(
+            name=name,
+            application=applications[0] if applications else "",
+            machine="" if schema.family.machine_parameter else machine or schema.family.default_machine,
+            signature=schema.signature,
+        ),
+    )
+    if schema.family.machine_parameter:
+        file.set((schema.family.machine_parameter, ""), Value(machine or schema.family.default_machine))
+    if file.schema.family.axes:
+        profile = file.schema.family.axes
+        for instance in schema.instances(schema.parameters[profile.type], file.machine):
+            default = file.default((profile.type, instance))
+            if default is not None:
+                file.set((profile.type, instance), default)
+    axes = list(axes)
+    if axes:
+        name_axes(file, axes)
+    fill_defaults(file)
+    return file
+
+
+def fill_defaults(file: ParameterFile, instances: Iterable[str] | None = None) -> list[Change]:
+    """Give every unset value its printed default; returns the changes."""
+    only = None if instances is None else set(instances)
+    changes = []
+    for address in file.addresses():
+        if (only is None or address[1] in only) and address not in file.values:
+            default = file.default(address)
+            if default is not None and (change := file.set(address, default)):
+                changes.append(change)
+    return changes
+
+
+def describe(file: ParameterFile, address: Address) -> str:
+    """Return ``1300 Home Calibration`` for messages."""
+    return file.schema.label(address, file.machine)
+
+
+__all__ = ["Change", "Header", "ParameterFile", "RangeFault", "default_value", "describe", "fill_defaults", "new_file",
+           "written"]  # fmt: skip

@@ -1,0 +1,190 @@
+"""A project: a folder with ``project.yaml`` and the parameter files of one machine."""
+
+from __future__ import annotations
+
+import io
+import re
+import shutil
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any
+
+from amp_studio.schema import family_ids, load_schema
+
+from .atomic import backup_path, digest_of, write_atomic
+from .document import recover_backup
+from .lock import EditLock
+from .storage import FileFault, open_file
+
+PROJECT_FORMAT = 1
+ENDING = ".amp"
+
+
+class NameFault(ValueError):
+    """A project or file name that cannot be used; the text is one clear sentence."""
+
+
+@dataclass(frozen=True)
+class ProjectInfo:
+    """What a project says of its machine and of the way to its control."""
+
+    name: str
+    family: str
+    application: str = ""
+    machine: str = ""
+    control: str = ""
+    """Address of the control: ``tcp://host:port`` or ``serial:/dev/ttyUSB0?baud=115200``."""
+    control_name: str = ""
+    """The name the control goes by (``CNC_1``)."""
+    revision: str = ""
+    """Control software revision."""
+    notes: str = ""
+    extra: dict[str, Any] = field(default_factory=dict, compare=False)
+
+
+class Project:
+    """One project on disk. Every operation on its files is here, with one clear sentence when it cannot be done."""
+
+    def __init__(self, folder: Path, info: ProjectInfo) -> None:
+        self.folder, self.info = folder, info
+
+    # -- the project itself ----------------------------------------------------
+
+    @classmethod
+    def create(cls, folder: Path, info: ProjectInfo) -> Project:
+        """Make a new project folder; raises NameFault when there is a project already, KeyError for the family."""
+        _check(info)
+        if (folder / "project.yaml").exists():
+            raise NameFault(f"{folder} is a project already")
+        folder.mkdir(parents=True, exist_ok=True)
+        project = cls(folder, info)
+        project.save()
+        return project
+
+    @classmethod
+    def open(cls, folder: Path) -> Project:
+        """Read a project; raises FileFault."""
+        from ruamel.yaml import YAML
+        from ruamel.yaml.error import YAMLError
+
+        path = folder / "project.yaml"
+        try:
+            data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError) as error:
+            raise FileFault(path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        except YAMLError as error:
+            mark = getattr(error, "problem_mark", None)
+            raise FileFault(path, mark.line + 1 if mark else None, "is not readable YAML") from None
+        if not isinstance(data, dict) or not isinstance(data.get("amp_studio_project"), int):
+            raise FileFault(path, None, "is not an AMP Studio project")
+        if data["amp_studio_project"] > PROJECT_FORMAT:
+            raise FileFault(path, None, f"was written by a newer AMP Studio (project format {data['amp_studio_project']})")
+        known = {f.name for f in fields(ProjectInfo)} - {"extra"}
+        said = {k: str(v) for k, v in data.items() if k in known and v is not None}
+        extra = {k: v for k, v in data.items() if k not in known and k != "amp_studio_project"}
+        try:
+            info = ProjectInfo(**said, extra=extra)
+            _check(info)
+        except (TypeError, NameFault, KeyError) as error:
+            raise FileFault(path, None, str(error)) from None
+        return cls(folder, info)
+
+    def change(self, **changes: str) -> None:
+        """Change the project information and save it; raises NameFault."""
+        info = replace(self.info, **changes)  # type: ignore[arg-type]  # all of them are texts
+        _check(info)
+        self.info = info
+        self.save()
+
+    def save(self) -> None:
+        """Write ``project.yaml``; comments in it survive."""
+        from ruamel.yaml import YAML
+
+        path, yaml = self.folder / "project.yaml", YAML(typ="rt")
+        yaml.width = 4096
+        tree: Any = yaml.load(path.read_text(encoding="utf-8")) if path.exists() else {}
+        tree["amp_studio_project"] = PROJECT_FORMAT
+        for item in fields(ProjectInfo):
+            value = getattr(self.info, item.name)
+            if item.name != "extra" and (value or item.name in tree):
+                tree[item.name] = value
+        stream = io.StringIO()
+        yaml.dump(tree, stream)
+        write_atomic(path, stream.getvalue().encode("utf-8"))
+
+    # -- its files -------------------------------------------------------------
+
+    def files(self) -> list[Path]:
+        """Return the parameter files, by name."""
+        return sorted(self.folder.glob(f"*{ENDING}"))
+
+    def backups(self) -> list[Path]:
+        """Return the files that have a backup."""
+        return sorted(p.with_name(p.name.removesuffix(".bak")) for p in self.folder.glob(f"*{ENDING}.bak"))
+
+    def path(self, name: str) -> Path:
+        """Return the path of a file by name; raises NameFault for a name that no system can keep."""
+        name = name.removesuffix(ENDING)
+        if not re.fullmatch(r"[^\W_][\w .-]{0,63}", name) or name.endswith((".", " ")):
+            raise NameFault(f"'{name}' is no file name: letters, digits, '_', '-', '.' and spaces, at most 64")
+        if name.upper() in _RESERVED:
+            raise NameFault(f"'{name}' is a name that Windows keeps for itself")
+        return self.folder / f"{name}{ENDING}"
+
+    def copy(self, source: Path, name: str) -> Path:
+        """Copy a file, also one of another project, under a new name; raises NameFault, FileFault."""
+        target = self._free(name)
+        opened = open_file(source)
+        if opened.file.schema.family.family != self.info.family:
+            raise NameFault(
+                f"{source.name} is for {opened.file.schema.family.name}, this project for {load_schema(self.info.family).family.name}"
+            )
+        write_atomic(target, source.read_bytes(), None)
+        return target
+
+    def rename(self, source: Path, name: str) -> Path:
+        """Rename a file, its backup and its history; raises NameFault, and InUse while it is open."""
+        target = self._free(name)
+        with EditLock(source):
+            _move(source, target)
+        return target
+
+    def delete(self, source: Path) -> None:
+        """Delete a file; its last content stays as its backup, so that it can be recovered. Raises InUse."""
+        with EditLock(source):
+            source.replace(backup_path(source))
+
+    def recover(self, path: Path) -> None:
+        """Make a backup the file again; raises FileNotFoundError, FileFault, InUse."""
+        with EditLock(path):
+            recover_backup(path, digest_of(path))
+
+    def _free(self, name: str) -> Path:
+        target = self.path(name)
+        taken = {p.name.casefold() for p in self.files()}
+        if target.exists() or target.name.casefold() in taken:
+            raise NameFault(f"there is a file '{target.stem}' already")
+        return target
+
+
+_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for n in range(1, 10))}
+
+
+def _check(info: ProjectInfo) -> None:
+    if not info.name.strip():
+        raise NameFault("a project needs a name")
+    if info.family not in family_ids():
+        raise NameFault(f"'{info.family}' is no control family: {', '.join(family_ids())}")
+    machines = [m.key for m in load_schema(info.family).family.machines]
+    if info.machine and info.machine not in machines:
+        raise NameFault(f"'{info.machine}' is no machine type: {', '.join(machines)}")
+
+
+def _move(source: Path, target: Path) -> None:
+    for ending in (".history", ".bak"):
+        side = source.with_name(source.name + ending)
+        if side.exists():
+            shutil.copy2(side, target.with_name(target.name + ending))
+    source.rename(target)
+    for ending in (".history", ".bak"):
+        source.with_name(source.name + ending).unlink(missing_ok=True)

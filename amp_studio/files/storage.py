@@ -1,0 +1,251 @@
+"""Parameter files on disk.
+
+The format is YAML: a header, then one line a value (``home.calibration@1: 0 mm``),
+closed by the document end mark ``...``, without which a file counts as cut
+off. Comments and keys that this program does not know survive every save.
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    Schema,
+    UnitError,
+    Value,
+    ValueFault,
+    dimension,
+    load_schema,
+    read_address,
+    read_value,
+    shown,
+    unit_named,
+    write_value,
+    written,
+)
+
+from .atomic import digest, write_atomic
+from .parameter_file import Header, ParameterFile
+
+FORMAT = 1
+"""Version of the file format; a file of a newer one is refused."""
+
+_HEADER = ("name", "application", "revision", "machine", "units", "notes", "signature")
+_KNOWN = {"amp_studio", "family", "values", "forced", *_HEADER}
+
+
+class FileFault(ValueError):
+    """A file that cannot be used: path, line and one clear sentence; nothing was changed."""
+
+    def __init__(self, path: Path, line: int | None, what: str) -> None:
+        self.path, self.line, self.what = path, line, what
+        super().__init__(f"{path}{f', line {line}' if line else ''}: {what}")
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A file as it was read: what it holds, and what it was on disk."""
+
+    file: ParameterFile
+    path: Path
+    digest: str
+
+
+def open_file(path: Path) -> Opened:
+    """Read a parameter file; raises FileFault and changes nothing when it cannot be used."""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise FileFault(path, None, f"cannot be read: {error.strerror or error}") from None
+    return Opened(read_content(path, content), path, digest(content))
+
+
+def read_content(path: Path, content: bytes) -> ParameterFile:
+    """Read the content of a parameter file; ``path`` is for messages. Raises FileFault."""
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise FileFault(path, content[: error.start].count(b"\n") + 1, "is not UTF-8 text") from None
+    data = _parse(path, text)
+    schema = _family(path, data)
+    file = ParameterFile(schema, _header(data))
+    entries = data.get("values") or {}
+    if not isinstance(entries, dict):
+        raise FileFault(path, _line(text, "values:"), "'values' is not a list of parameters with values")
+    _read_entries(path, text, file, entries)
+    forced = data.get("forced") or {}
+    if isinstance(forced, dict):
+        for key, why in forced.items():
+            file.forced[read_address(str(key))] = str(why)
+    return file
+
+
+def _parse(path: Path, text: str) -> dict[str, Any]:
+    from ruamel.yaml import YAML
+    from ruamel.yaml.constructor import DuplicateKeyError
+    from ruamel.yaml.error import MarkedYAMLError, YAMLError
+
+    try:
+        data = YAML(typ="safe").load(text)
+    except DuplicateKeyError as error:
+        line = error.problem_mark.line + 1
+        key = text.splitlines()[line - 1].split(":")[0].strip() if line <= text.count("\n") + 1 else ""
+        raise FileFault(path, line, f"'{key}' stands twice") from None
+    except MarkedYAMLError as error:
+        mark = error.problem_mark
+        raise FileFault(path, mark.line + 1 if mark else None, f"is not readable: {error.problem}") from None
+    except YAMLError as error:
+        raise FileFault(path, None, f"is not readable: {str(error).splitlines()[0]}") from None
+    if not isinstance(data, dict) or "amp_studio" not in data:
+        raise FileFault(path, None, "is not an AMP Studio parameter file")
+    version = data["amp_studio"]
+    if not isinstance(version, int) or isinstance(version, bool):
+        raise FileFault(path, _line(text, "amp_studio:"), f"'{version}' is no version of the file format")
+    if version > FORMAT:
+        raise FileFault(
+            path, _line(text, "amp_studio:"), f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})"
+        )
+    if not text.rstrip().endswith("\n..."):
+        raise FileFault(path, text.count("\n") + 1, "ends without its end mark '...': it has been cut off")
+    return data
+
+
+def _family(path: Path, data: dict[str, Any]) -> Schema:
+    try:
+        return load_schema(str(data.get("family")))
+    except KeyError:
+        raise FileFault(path, None, f"is for the control family '{data.get('family')}', which is not known here") from None
+
+
+def _header(data: dict[str, Any]) -> Header:
+    header = Header(**{key: str(data[key]) for key in _HEADER if data.get(key) is not None})
+    header.extra = {k: v for k, v in data.items() if k not in _KNOWN}
+    return header
+
+
+def _read_entries(path: Path, text: str, file: ParameterFile, entries: dict[Any, Any]) -> None:
+    schema = file.schema
+    machine = schema.family.machine_parameter
+    ordered = sorted(entries, key=lambda k: k != machine)  # the machine type decides what the others are
+    for key in ordered:
+        address = read_address(str(key))
+        said = _scalar(entries[key])
+        if said is None:
+            raise FileFault(path, _line(text, f"{key}:"), f"{key} has no single value")
+        value = _value(schema, file, address, said)
+        if isinstance(value, str):
+            raise FileFault(path, _line(text, f"{key}:"), f"{key}: {value}")
+        if value is None:
+            file.unknown[str(key)] = said
+        else:
+            file.values[address] = value
+    file.situation.forget()
+
+
+def _value(schema: Schema, file: ParameterFile, address: Address, said: str) -> Value | str | None:
+    """Return the value, None for an address the schema does not have, or what is wrong as a text."""
+    parameter = schema.parameters.get(address[0])
+    if parameter is None or address[1] not in schema.instances(parameter, file.machine):
+        return None
+    try:
+        return read_stored(schema, parameter, said)
+    except ValueFault as error:
+        return str(error)
+
+
+def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:
+    """Read a stored value, which names its own unit; raises ValueFault."""
+    if parameter.choices or parameter.type == "text":
+        return read_value(parameter, said, "")
+    units = schema.units_of(parameter)
+    named = said.partition(" ")[2]
+    if not named and "" not in units:
+        raise ValueFault(f"'{said}' has no unit: write {said} {shown(units[0])}")
+    unit = named if named in units else units[0]
+    return read_value(parameter, said, _alike(units, named, unit))
+
+
+def _alike(units: tuple[str, ...], named: str, unit: str) -> str:
+    """Return the unit of the parameter that measures the same as the one named, so that it is accepted."""
+    try:
+        wanted = dimension(unit_named(named))
+    except UnitError:
+        return unit
+    return next((u for u in units if dimension(u) == wanted), unit)
+
+
+def _scalar(value: object) -> str | None:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, (str, int, float)):
+        return str(value)
+    return None
+
+
+def _line(text: str, start: str) -> int | None:
+    """Return the line on which an entry stands."""
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.strip().strip("'\"").startswith(start) or line.strip().startswith((f"'{start[:-1]}'", f'"{start[:-1]}"')):
+            return number
+    return None
+
+
+def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
+    """Return a file's content; with the ``previous`` content its comments and order survive."""
+    from ruamel.yaml import YAML
+    from ruamel.yaml.comments import CommentedMap
+
+    yaml = YAML(typ="rt")
+    yaml.width, yaml.explicit_end = 4096, True
+    tree: Any = yaml.load(previous.decode("utf-8")) if previous and b"#" in previous else CommentedMap()
+    header: dict[str, Any] = {"amp_studio": FORMAT, "family": file.schema.family.family}
+    header |= {key: getattr(file.header, key) for key in _HEADER if getattr(file.header, key)}
+    header |= file.header.extra
+    for key in [k for k in tree if k not in header and k not in ("values", "forced")]:
+        del tree[key]
+    for key, value in header.items():
+        if tree.get(key) != value:
+            tree[key] = value
+    _fill(tree, "values", _entries(file), CommentedMap)
+    _fill(tree, "forced", {written(a): why for a, why in file.forced.items()}, CommentedMap)
+    stream = io.StringIO()
+    yaml.dump(tree, stream)
+    return stream.getvalue().encode("utf-8")
+
+
+def _entries(file: ParameterFile) -> dict[str, str]:
+    order = {a: n for n, a in enumerate(file.addresses())}
+    known = sorted(file.values, key=lambda a: order.get(a, len(order)))
+    entries = {written(a): write_value(file.schema.parameters[a[0]], file.values[a]) for a in known}
+    return entries | file.unknown
+
+
+def _fill(tree: Any, section: str, entries: dict[str, str], empty: type) -> None:
+    """Bring one section of the tree to the entries, touching only what differs."""
+    if not entries:
+        tree.pop(section, None)
+        return
+    if section not in tree or not isinstance(tree[section], dict):
+        tree[section] = empty()
+    part = tree[section]
+    for key in [k for k in part if str(k) not in entries]:
+        del part[key]
+    for key, text in entries.items():
+        if key not in part or _scalar(part[key]) != text:
+            part[key] = text
+
+
+def save_file(file: ParameterFile, path: Path, expected: str | None = None) -> str:
+    """Save a file, all or nothing; the previous file becomes the backup.
+
+    ``expected`` is the digest the file had when it was opened, None for a new
+    one. Returns the new digest; raises ChangedOnDisk or SaveFault.
+    """
+    file.header.signature = file.schema.signature
+    previous = path.read_bytes() if path.exists() else None
+    return write_atomic(path, content_of(file, previous), expected)

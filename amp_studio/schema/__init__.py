@@ -1,0 +1,58 @@
+"""What a parameter is: family, group, parameter, instance, unit, choice, state, range.
+
+Loads ``parameter_db`` once into a compiled cache and answers questions about
+it; every other room asks here and knows no parameter by heart.
+"""
+
+from .catalog import Address, Schema, UnknownParameter, load_schema, read_address, written
+from .constraint import Limits, clip, fault, limits
+from .load import DatabaseFault, database_folder, family_ids, read_rules
+from .model import AxisProfile, Choice, Condition, Erratum, Group, Parameter, Rule
+from .situation import IN_FORCE, Reading, Situation, StateInfo, canonical_value, program
+from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
+from .values import Value, ValueFault, label_of, read_value, show_value, write_number, write_value
+
+__all__ = [
+    "IN_FORCE",
+    "Address",
+    "AxisProfile",
+    "Choice",
+    "Condition",
+    "DatabaseFault",
+    "Erratum",
+    "Group",
+    "Limits",
+    "Parameter",
+    "Reading",
+    "Rule",
+    "Schema",
+    "Situation",
+    "StateInfo",
+    "UnitError",
+    "UnknownParameter",
+    "Value",
+    "ValueFault",
+    "angular",
+    "canonical",
+    "canonical_unit",
+    "canonical_value",
+    "clip",
+    "convert",
+    "dimension",
+    "database_folder",
+    "family_ids",
+    "fault",
+    "label_of",
+    "limits",
+    "load_schema",
+    "program",
+    "read_address",
+    "read_rules",
+    "read_value",
+    "show_value",
+    "shown",
+    "unit_named",
+    "write_number",
+    "write_value",
+    "written",
+]

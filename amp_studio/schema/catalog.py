@@ -1,0 +1,213 @@
+"""A family's parameters, ready to be asked: instances, numbers, groups, signature."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+
+from .load import load_compiled
+from .model import Erratum, Family, Group, Layout, Numbers, Parameter, Rule
+from .units import angular
+
+Address = tuple[str, str]
+"""Parameter id and instance; the instance of a global parameter is ``""``."""
+
+
+class UnknownParameter(KeyError):
+    """A number or an id that the family does not have; the text is one clear sentence."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Schema:
+    """One family. Built by ``load_schema``, once; never changed."""
+
+    family: Family
+    groups: tuple[Group, ...]
+    rules: tuple[Rule, ...]
+    errata: dict[str, Erratum]
+    parameters: dict[str, Parameter]
+    group_of: dict[str, Group] = field(repr=False)
+
+    # -- instances and numbers -------------------------------------------------
+
+    def layout(self, parameter: Parameter, machine: str) -> Layout | None:
+        """Return scope, instances and numbers on this machine type; None where it does not exist there."""
+        if parameter.layouts is None:
+            return Layout(scope=parameter.scope, numbers=parameter.numbers, instances=parameter.instances)
+        for layout in parameter.layouts:
+            if layout.machines is None or machine in layout.machines:
+                return layout
+        return None
+
+    def instances(self, parameter: Parameter, machine: str) -> tuple[str, ...]:
+        """Return the instances a parameter has on this machine type."""
+        layout = self.layout(parameter, machine)
+        if layout is None:
+            return ()
+        return layout.instances or self.family.scopes[layout.scope].instances
+
+    def addresses(self, machine: str) -> tuple[Address, ...]:
+        """Return every addressable value, in the manual's order."""
+        if machine not in self._addresses:
+            self._addresses[machine] = tuple(
+                (p.id, i) for p in self.parameters.values() for i in self.instances(p, machine)
+            )
+        return self._addresses[machine]
+
+    def number(self, address: Address, machine: str) -> str | None:
+        """Return the number the manual gives an instance; None for a field that has none."""
+        return self._numbers(machine).get(address)
+
+    def numbers(self, parameter: Parameter, machine: str) -> dict[str, str]:
+        """Return instance -> number, empty where there are no numbers."""
+        layout = self.layout(parameter, machine)
+        if layout is None or layout.numbers is None:
+            return {}
+        return {
+            i: number_of(layout.numbers, k, i)
+            for k, i in enumerate(self.instances(parameter, machine))
+            if layout.numbers.listed is None or i in layout.numbers.listed
+        }
+
+    def addressed_by(self, number: str, machine: str) -> list[Address]:
+        """Return every instance that claims a number: the undisputed claims where there are any."""
+        claims = self._claims(machine).get(number.strip().casefold(), [])
+        clear = [a for a in claims if not self.is_disputed(a[0], machine)]
+        return clear or claims
+
+    def is_disputed(self, parameter_id: str, machine: str) -> bool:
+        """Tell whether the manual's number of a parameter really belongs to another one."""
+        layout = self.layout(self.parameters[parameter_id], machine)
+        return bool(layout and layout.numbers and layout.numbers.disputed)
+
+    def _claims(self, machine: str) -> dict[str, list[Address]]:
+        if machine not in self._claim_tables:
+            table: dict[str, list[Address]] = {}
+            for address, number in self._numbers(machine).items():
+                table.setdefault(number.casefold(), []).append(address)
+            self._claim_tables[machine] = table
+        return self._claim_tables[machine]
+
+    def _numbers(self, machine: str) -> dict[Address, str]:
+        if machine not in self._number_tables:
+            self._number_tables[machine] = {
+                (p.id, i): n for p in self.parameters.values() for i, n in self.numbers(p, machine).items()
+            }
+        return self._number_tables[machine]
+
+    @cached_property
+    def _addresses(self) -> dict[str, tuple[Address, ...]]:
+        return {}
+
+    @cached_property
+    def _number_tables(self) -> dict[str, dict[Address, str]]:
+        return {}
+
+    @cached_property
+    def _claim_tables(self) -> dict[str, dict[str, list[Address]]]:
+        return {}
+
+    # -- words -----------------------------------------------------------------
+
+    def parameter(self, parameter_id: str) -> Parameter:
+        """Return a parameter by id; raises UnknownParameter."""
+        try:
+            return self.parameters[parameter_id]
+        except KeyError:
+            raise UnknownParameter(f"'{parameter_id}' is no parameter of {self.family.name}") from None
+
+    def label(self, address: Address, machine: str) -> str:
+        """Return ``1300 Home Calibration`` or, without a number, the name and the instance."""
+        parameter = self.parameters[address[0]]
+        number = self.number(address, machine)
+        if number and not self.is_disputed(address[0], machine):
+            return f"{number} {parameter.name}"
+        return f"{parameter.name} {self.instance_label(address, machine)}".rstrip()
+
+    def short(self, address: Address, machine: str) -> str:
+        """Return what addresses an instance: its own number, else ``id@instance``."""
+        claims = self.addressed_by(self.number(address, machine) or "", machine)
+        return str(self.number(address, machine)) if claims == [address] else written(address)
+
+    def instance_label(self, address: Address, machine: str) -> str:
+        """Return ``Axis 3``; empty for the only instance of a global parameter."""
+        layout = self.layout(self.parameters[address[0]], machine)
+        if layout is None or address[1] == "":
+            return ""
+        return self.family.scopes[layout.scope].label.format(i=address[1])
+
+    def unit(self, parameter: Parameter, system: str, turns: bool) -> str:
+        """Return the unit of entry in a unit system (``metric``, ``inch``); degrees where the axis turns."""
+        if parameter.unit is not None:
+            return parameter.unit
+        unit = self.family.units.get(system, {}).get(parameter.quantity) or _PLAIN_UNITS.get(parameter.quantity, "")
+        return angular(unit) if turns else unit
+
+    def units_of(self, parameter: Parameter) -> tuple[str, ...]:
+        """Return every unit a parameter can be entered in, in any unit system, straight or turning."""
+        if parameter.id not in self._unit_table:
+            units = [self.unit(parameter, system, turns) for turns in (False, True) for system in self.family.units]
+            self._unit_table[parameter.id] = tuple(dict.fromkeys(units)) or ("",)
+        return self._unit_table[parameter.id]
+
+    @cached_property
+    def _unit_table(self) -> dict[str, tuple[str, ...]]:
+        return {}
+
+    @cached_property
+    def signature(self) -> str:
+        """Checksum over numbers, names, types, units and choices; travels with every file and exchange."""
+        lines = []
+        for parameter in self.parameters.values():
+            numbers = {m.key: self.numbers(parameter, m.key) for m in self.family.machines}
+            choices = [(c.key, c.label, c.raw) for c in parameter.choices or ()]
+            lines.append([parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit,
+                          numbers, choices])  # fmt: skip
+        text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()
+
+
+_PLAIN_UNITS = {
+    "angle": "deg", "time": "ms", "percent": "%", "voltage": "V", "current": "A", "frequency": "Hz",
+    "rotation": "rpm", "counts": "counts", "power": "W",
+}  # fmt: skip
+
+
+def number_of(numbers: Numbers, index: int, instance: str) -> str:
+    """Return the number of the instance at ``index``."""
+    if numbers.listed is not None:
+        return numbers.listed[instance]
+    plain = "" if numbers.start is None else numbers.start + index * numbers.step
+    return numbers.format.format(n=plain, i=instance)
+
+
+def written(address: Address) -> str:
+    """Write an address the way files do: ``home.calibration@1``, a global one without the ``@``."""
+    return f"{address[0]}@{address[1]}" if address[1] else address[0]
+
+
+def read_address(text: str) -> Address:
+    """Read ``id@instance``."""
+    parameter_id, _, instance = text.partition("@")
+    return parameter_id, instance
+
+
+@lru_cache(maxsize=None)
+def load_schema(family_id: str) -> Schema:
+    """Return a family's schema; raises KeyError for an unknown family, DatabaseFault for a bad fact."""
+    compiled = load_compiled(family_id)
+    parameters = {p.id: p for group in compiled.groups for p in group.parameters}
+    group_of = {p.id: group for group in compiled.groups for p in group.parameters}
+    return Schema(
+        family=compiled.family,
+        groups=compiled.groups,
+        rules=compiled.rules,
+        errata={e.id: e for e in compiled.errata},
+        parameters=parameters,
+        group_of=group_of,
+    )

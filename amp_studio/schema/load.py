@@ -1,0 +1,168 @@
+"""Reads ``parameter_db`` into one compiled family, and keeps it compiled.
+
+YAML is parsed only when a file of the family has changed: the compiled form
+is JSON in the user's cache folder, keyed by the content of every file and of
+the models. A fault in a fact is told with file and line.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import tempfile
+from functools import lru_cache
+from pathlib import Path
+from typing import TypeVar
+
+import platformdirs
+from pydantic import TypeAdapter, ValidationError
+from pydantic_core import ErrorDetails
+
+from .model import Errata, Erratum, Family, Group, Model, Rule, Rules
+
+T = TypeVar("T", bound=Model)
+
+
+class DatabaseFault(Exception):
+    """A fact file that cannot be used: file, line and what is wrong with it."""
+
+    def __init__(self, path: Path, line: int | None, what: str) -> None:
+        self.path, self.line, self.what = path, line, what
+        super().__init__(f"{path}{f', line {line}' if line else ''}: {what}")
+
+
+class Compiled(Model):
+    """A family as it is kept in the cache."""
+
+    family: Family
+    groups: tuple[Group, ...]
+    rules: tuple[Rule, ...]
+    errata: tuple[Erratum, ...]
+
+
+def database_folder() -> Path:
+    """Return the folder of facts: inside the installed package, or at the top of the checkout."""
+    package = Path(__file__).resolve().parent.parent
+    inside = package / "parameter_db"
+    return inside if inside.is_dir() else package.parent / "parameter_db"
+
+
+def family_ids() -> tuple[str, ...]:
+    """Return the families that have a folder of facts, in alphabetical order."""
+    return tuple(sorted(p.parent.name for p in database_folder().glob("*/family.yaml")))
+
+
+@lru_cache(maxsize=None)
+def load_compiled(family_id: str) -> Compiled:
+    """Return the compiled facts of a family; raises KeyError for an unknown one, DatabaseFault for a bad fact."""
+    folder = database_folder() / family_id
+    if not (folder / "family.yaml").is_file():
+        raise KeyError(family_id)
+    files = sorted(p for p in folder.rglob("*.yaml"))
+    key = _content_key(files)
+    cached = Path(platformdirs.user_cache_dir("amp-studio")) / f"{family_id}-{key}.json"
+    try:
+        return Compiled.model_validate_json(cached.read_bytes())
+    except (OSError, ValidationError):
+        pass
+    compiled = compile_family(folder)
+    _keep(cached, compiled)
+    return compiled
+
+
+def compile_family(folder: Path) -> Compiled:
+    """Parse and check every fact file of one family; raises DatabaseFault with file and line."""
+    family = _read(folder / "family.yaml", Family)
+    groups = tuple(_read(folder / "groups" / f"{key}.yaml", Group) for key in family.groups)
+    for key, group in zip(family.groups, groups, strict=True):
+        if group.key != key:
+            raise DatabaseFault(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
+    rules_file, errata_file = folder / "rules.yaml", folder / "errata.yaml"
+    rules = read_rules(rules_file) if rules_file.is_file() else ()
+    errata = _read(errata_file, Errata).errata if errata_file.is_file() else ()
+    seen: set[str] = set()
+    for key, group in zip(family.groups, groups, strict=True):
+        for parameter in group.parameters:
+            if parameter.id in seen:
+                raise DatabaseFault(folder / "groups" / f"{key}.yaml", None, f"{parameter.id} stands twice")
+            seen.add(parameter.id)
+    return Compiled(family=family, groups=groups, rules=rules, errata=errata)
+
+
+def read_rules(path: Path) -> tuple[Rule, ...]:
+    """Read a ``rules.yaml``; raises DatabaseFault with file and line."""
+    return _read(path, Rules).rules
+
+
+def _read(path: Path, model: type[T]) -> T:
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import MarkedYAMLError, YAMLError
+
+    try:
+        data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+    except MarkedYAMLError as error:
+        mark = error.problem_mark
+        raise DatabaseFault(path, mark.line + 1 if mark else None, str(error.problem)) from None
+    except (YAMLError, UnicodeDecodeError, OSError) as error:
+        raise DatabaseFault(path, None, str(error).splitlines()[0]) from None
+    try:
+        return TypeAdapter(model).validate_python(data)
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise DatabaseFault(path, _line_of(path, first), f"{_place(data, first)}{first['msg']}") from None
+
+
+def _line_of(path: Path, fault: ErrorDetails) -> int | None:
+    """Return the line of a pydantic fault by walking the YAML once more with its line marks."""
+    from ruamel.yaml import YAML
+
+    node = YAML(typ="rt").load(path.read_text(encoding="utf-8"))
+    line: int | None = None
+    for step in fault["loc"]:
+        try:
+            marks = node.lc
+            line = (marks.key(step) if isinstance(step, str) else marks.item(step))[0] + 1
+            node = node[step]
+        except (AttributeError, KeyError, TypeError, IndexError):
+            break
+    return line
+
+
+def _place(data: object, fault: ErrorDetails) -> str:
+    """Name the parameter or rule a fault lies in, and the key."""
+    where, node = [], data
+    for step in fault["loc"]:
+        try:
+            node = node[step]  # type: ignore[index]  # walks plain YAML of unknown shape
+        except (KeyError, TypeError, IndexError):
+            where.append(str(step))
+            break
+        if isinstance(node, dict) and "id" in node:
+            where = [str(node["id"])]
+        elif isinstance(step, str):
+            where.append(step)
+    return ": ".join(where) + ": " if where else ""
+
+
+def _content_key(files: list[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in [Path(__file__).with_name("model.py"), *files]:
+        content = path.read_bytes()
+        digest.update(f"{path.name}:{len(content)}:".encode())
+        digest.update(content)
+    return digest.hexdigest()[:24]
+
+
+def _keep(cached: Path, compiled: Compiled) -> None:
+    """Write the cache file; a cache that cannot be written costs time only."""
+    try:
+        cached.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=cached.parent, suffix=".tmp")
+        with os.fdopen(handle, "w", encoding="utf-8") as stream:
+            stream.write(compiled.model_dump_json(exclude_defaults=True))
+        os.replace(name, cached)
+    except OSError:
+        return
+    for old in cached.parent.glob(f"{cached.name.rsplit('-', 1)[0]}-*.json"):
+        if old != cached:
+            old.unlink(missing_ok=True)

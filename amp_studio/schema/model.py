@@ -1,0 +1,379 @@
+"""The words the parameter database is written in.
+
+Every YAML file under ``parameter_db`` is read into these models, and into
+nothing else: what a family can say is exactly what stands here. A model
+forbids unknown keys, so a typing error in a fact cannot hide.
+
+``docs/schema.md`` explains the same words to somebody who writes YAML.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+
+ParameterId = Annotated[str, Field(pattern=r"^[a-z0-9_]+(\.[a-z0-9_]+)+$")]
+Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_+-]*$")]
+Page = Annotated[str, Field(pattern=r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$")]
+
+Scope = Literal["global", "axis", "spindle", "process", "group", "word", "register"]
+ValueType = Literal["integer", "real", "choice", "boolean", "bits", "text", "format"]
+State = Literal["in-force", "ignored", "unusable", "hidden"]
+Severity = Literal["error", "warning", "advice"]
+Quantity = Literal[
+    "",
+    "length",
+    "angle",
+    "velocity",
+    "acceleration",
+    "acceleration-per-minute",
+    "jerk",
+    "time",
+    "percent",
+    "voltage",
+    "current",
+    "frequency",
+    "rotation",
+    "counts",
+    "power",
+    "register",
+]
+
+
+class Model(BaseModel):
+    """A frozen record that refuses keys it does not know."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class BoundRef(Model):
+    """A bound that is the value of another parameter of the same instance."""
+
+    param: ParameterId
+
+
+Bound = float | BoundRef | None
+Range = tuple[Bound, Bound]
+
+
+class RangeVariant(Model):
+    """Ranges that hold instead of the plain ones while a condition is true."""
+
+    when: str
+    ranges: dict[str, Range]
+
+
+class Choice(Model):
+    """One of the fixed values of a choice or a yes/no parameter."""
+
+    key: Key
+    label: str
+    code: str | None = None
+    """The letter the manual prints before the choice; the order of the letters is not that of the codes."""
+    raw: int | None = None
+    """What the control stores; None where no code is printed."""
+    note: str | None = None
+
+
+class Bit(Model):
+    """One bit, or a field of several bits, of a packed word."""
+
+    bit: int
+    width: int = 1
+    label: str
+    choices: tuple[Choice, ...] | None = None
+    unknown: bool = False
+    """The manual's figure is lost: the bit is kept and shown raw."""
+
+
+class Storage(Model):
+    """How the control itself holds the value."""
+
+    unit: str | None = None
+    decimals: int | None = None
+    scale: float = 1.0
+    """Stored number per unit of ``unit`` (65.536 for counts/s in a 1.25 ms scan)."""
+    bits: int | None = None
+    signed: bool = True
+    notation: Literal["decimal", "hex", "binary", "ascii"] = "decimal"
+    words: int = 1
+    word_order: Literal["high-first", "low-first"] = "high-first"
+
+
+class Numbers(Model):
+    """By which numbers people and controls address the instances of a parameter.
+
+    Instance number k (counting from 0) has number ``start + k * step`` written
+    through ``format``; ``listed`` names instances one by one instead.
+    """
+
+    start: int | None = None
+    step: int = 0
+    format: str = "{n}"
+    """``{n}`` is the number, ``{i}`` the instance (``P21N{i}``, ``Pr{n}``, ``R{n}``)."""
+    listed: dict[str, str] | None = None
+    disputed: bool = False
+    """The manual prints this number for another parameter too, and that other one is right."""
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Numbers:
+        if self.start is None and self.listed is None and "{n}" in self.format:
+            raise ValueError("numbers need 'start', 'listed' or a format without {n}")
+        return self
+
+
+class Layout(Model):
+    """Scope, instances and numbers of a parameter on some machine types (mill against lathe)."""
+
+    machines: tuple[str, ...] | None = None
+    scope: Scope
+    instances: tuple[str, ...] | None = None
+    """Only where they differ from those of the scope in the family (``("0", …, "31")`` for 32 words)."""
+    numbers: Numbers | None = None
+    """None for a field that has no number at all."""
+
+
+class StateRule(Model):
+    """Puts a parameter out of force while a named condition of the family holds."""
+
+    state: Literal["ignored", "unusable", "hidden"]
+    when: str | None = None
+    unless: str | None = None
+    page: Page | None = None
+
+    @model_validator(mode="after")
+    def _one_condition(self) -> StateRule:
+        if (self.when is None) == (self.unless is None):
+            raise ValueError("a state takes either 'when' or 'unless'")
+        return self
+
+
+class Effect(Model):
+    """When a change takes effect."""
+
+    level: Literal["at-once", "reset", "restart", "command"]
+    command: str | None = None
+    """The command that makes the device read the value (level ``command``)."""
+
+
+class Help(Model):
+    """The parameter in our own words; ``find`` and ``wrong`` may be empty for a plain choice."""
+
+    what: str
+    find: str = ""
+    wrong: str = ""
+    related: tuple[ParameterId, ...] = ()
+
+
+class Default(Model):
+    """A printed default, and where it stands."""
+
+    value: float | bool | str
+    """A number in ``unit``, a choice key, or a text."""
+    unit: str = ""
+    page: Page
+    instances: dict[str, float | bool | str] | None = None
+    """Instances whose default differs from ``value``."""
+
+
+class Parameter(Model):
+    """Everything the database says about one parameter."""
+
+    id: ParameterId
+    name: str
+    scope: Scope = "global"
+    numbers: Numbers | None = None
+    instances: tuple[str, ...] | None = None
+    layouts: tuple[Layout, ...] | None = None
+    """Instead of scope, numbers and instances where they depend on the machine type."""
+    type: ValueType
+    quantity: Quantity = ""
+    unit: str | None = None
+    """Fixes the unit where the quantity alone leaves it open (``ms``, ``s``; ``counts``)."""
+    decimals: int | None = None
+    ranges: dict[str, Range] | None = None
+    range_variants: tuple[RangeVariant, ...] = ()
+    choices: tuple[Choice, ...] | None = None
+    bits: tuple[Bit, ...] | None = None
+    default: Default | None = None
+    storage: Storage | None = None
+    states: tuple[StateRule, ...] = ()
+    effect: Effect | None = None
+    tunable: bool = False
+    """Can be changed on line, at the running machine."""
+    patchable: bool = False
+    """Stands in the table of values that can be keyed in at the control."""
+    help: Help
+    page: Page
+    errata: tuple[str, ...] = ()
+
+    @model_validator(mode="after")
+    def _whole(self) -> Parameter:
+        if self.type == "choice" and not self.choices:
+            raise ValueError("a choice parameter needs choices")
+        if self.type == "boolean" and (not self.choices or len(self.choices) != 2):
+            raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
+        if self.choices:
+            for field in ("key", "label"):
+                seen = [getattr(c, field) for c in self.choices]
+                if len(set(seen)) != len(seen):
+                    raise ValueError(f"two choices share a {field}")
+        if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:
+            raise ValueError("the choices of a yes/no parameter have the keys 'yes' and 'no'")
+        if isinstance(self.default, Default) and self.choices:
+            keys = {c.key for c in self.choices}
+            for value in (self.default.value, *(self.default.instances or {}).values()):
+                if value not in keys:
+                    raise ValueError(f"default {value!r} is none of its choices")
+        return self
+
+
+class Group(Model):
+    """One file of ``groups/``: the parameters of a group in the manual's order."""
+
+    key: Key
+    name: str
+    section: str = ""
+    """The part of a long group that stands in this file (``Position Loop Parameters``)."""
+    chapter: str
+    parameters: tuple[Parameter, ...]
+
+
+class Condition(Model):
+    """A named condition on the values of one machine, in CEL."""
+
+    reads: dict[str, str] = {}
+    when: str
+    why: str
+    """What a person is told when the condition puts a parameter out of force."""
+    page: Page | None = None
+
+
+class ScopeInfo(Model):
+    """The instances a scope has in this family."""
+
+    instances: tuple[str, ...]
+    label: str
+    """``Axis {i}``."""
+
+
+class Machine(Model):
+    """A machine type the family can be told to be."""
+
+    key: Key
+    name: str
+
+
+class AxisProfile(Model):
+    """Which parameters the axis operations of the files room act on."""
+
+    name: ParameterId
+    type: ParameterId
+    unfitted: Key
+    usual_type: Key
+    """Type of an axis that is only named."""
+    types: dict[str, Key] = {}
+    """Types that go with a name (``S`` with spindle)."""
+    hardware: ParameterId | None = None
+    loop: ParameterId | None = None
+
+
+class Family(Model):
+    """``family.yaml``: identity, scopes, units and the order of the groups."""
+
+    family: Key
+    name: str
+    document: str
+    title: str
+    applications: tuple[str, ...] = ()
+    machines: tuple[Machine, ...]
+    default_machine: Key
+    machine_parameter: ParameterId | None = None
+    """The parameter whose choice keys are the machine types, where there is one."""
+    revisions: tuple[str, ...] = ()
+    scopes: dict[Scope, ScopeInfo]
+    units: dict[str, dict[str, str]]
+    """Per unit system (``metric``, ``inch``) the unit of each quantity."""
+    angular_when: str | None = None
+    """Condition under which length-like quantities of an axis are entered in degrees."""
+    axes: AxisProfile | None = None
+    effect: Effect
+    groups: tuple[str, ...]
+    conditions: dict[str, Condition] = {}
+
+
+class Fix(Model):
+    """A repair: the parameter's new value as a CEL expression over the rule's names."""
+
+    set: str
+    """The name, out of ``reads``, of the parameter to change."""
+    value: str
+    unit: str = ""
+    safe: bool = False
+    """Cannot change motion."""
+
+
+class Rule(Model):
+    """A constraint between parameters, in CEL.
+
+    ``reads`` binds short names to parameters of the instance at hand:
+    ``id`` the same instance, ``id@*`` the list over all instances, ``id@<`` and
+    ``id@>`` those before and after, ``id@3`` one of them, and a plain ``id`` of
+    global scope wherever it stands. Numbers arrive in the quantity's canonical unit.
+    """
+
+    id: Annotated[str, Field(pattern=r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]
+    title: str
+    severity: Severity
+    reads: dict[str, str]
+    optional: tuple[str, ...] = ()
+    """Names that may be unset or out of force: they arrive as null then."""
+    when: str = "true"
+    check: str
+    message: str
+    """With ``{name}`` for the value of a read parameter, ``{instance}`` for the instance."""
+    values: dict[str, str] = {}
+    """Further names for the message, as CEL expressions."""
+    units: dict[str, str] = {}
+    """Unit of each of ``values`` that has one, in canonical units."""
+    fix: tuple[Fix, ...] = ()
+    page: Page
+
+    @field_validator("reads")
+    @classmethod
+    def _names(cls, reads: dict[str, str]) -> dict[str, str]:
+        for name in reads:
+            if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+                raise ValueError(f"{name!r} is not a name")
+        return reads
+
+
+class Rules(Model):
+    """A ``rules.yaml``."""
+
+    rules: tuple[Rule, ...]
+
+
+class Reading(Model):
+    """What one place of the manual says."""
+
+    page: str
+    says: str
+
+
+class Erratum(Model):
+    """Where the manual contradicts itself, and what was decided."""
+
+    id: Key
+    params: tuple[ParameterId, ...]
+    readings: tuple[Reading, ...]
+    taken: str
+    why: str
+
+
+class Errata(Model):
+    """An ``errata.yaml``."""
+
+    errata: tuple[Erratum, ...]

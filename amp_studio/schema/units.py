@@ -1,0 +1,117 @@
+"""Units of entry, and the canonical unit of each quantity.
+
+Rules compare in the canonical unit (mm, deg, mm/min, ms, …); a value keeps the
+unit it was entered in. Factors are exact: an inch is 25.4 mm by definition.
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from fractions import Fraction
+
+# unit -> (dimension, factor to the canonical unit of the dimension)
+UNITS: dict[str, tuple[str, Fraction]] = {
+    "": ("", Fraction(1)),
+    "mm": ("length", Fraction(1)),
+    "in": ("length", Fraction(254, 10)),
+    "deg": ("angle", Fraction(1)),
+    "mm/min": ("velocity", Fraction(1)),
+    "in/min": ("velocity", Fraction(254, 10)),
+    "mm/s": ("velocity", Fraction(60)),
+    "in/s": ("velocity", Fraction(1524)),
+    "deg/min": ("angular velocity", Fraction(1)),
+    "deg/s": ("angular velocity", Fraction(60)),
+    "mm/s2": ("acceleration", Fraction(1)),
+    "in/s2": ("acceleration", Fraction(254, 10)),
+    "mm/min/s": ("acceleration", Fraction(1, 60)),
+    "in/min/s": ("acceleration", Fraction(254, 600)),
+    "deg/s2": ("angular acceleration", Fraction(1)),
+    "deg/min/s": ("angular acceleration", Fraction(1, 60)),
+    "mm/s3": ("jerk", Fraction(1)),
+    "in/s3": ("jerk", Fraction(254, 10)),
+    "deg/s3": ("angular jerk", Fraction(1)),
+    "ms": ("time", Fraction(1)),
+    "s": ("time", Fraction(1000)),
+    "%": ("percent", Fraction(1)),
+    "V": ("voltage", Fraction(1)),
+    "A": ("current", Fraction(1)),
+    "Hz": ("frequency", Fraction(1)),
+    "rpm": ("rotation", Fraction(1)),
+    "counts": ("counts", Fraction(1)),
+    "W": ("power", Fraction(1)),
+}
+
+# How people write them.
+ALIASES: dict[str, str] = {
+    "inch": "in", "inches": "in", "in.": "in", '"': "in", "millimeter": "mm", "millimeters": "mm",
+    "degree": "deg", "degrees": "deg", "°": "deg", "mmpm": "mm/min", "mm/m": "mm/min", "ipm": "in/min",
+    "inch/min": "in/min", "dpm": "deg/min", "mm/sec": "mm/s", "in/sec": "in/s", "inch/sec": "in/s",
+    "deg/sec": "deg/s", "ips": "in/s", "mm/s/s": "mm/s2", "mm/sec/sec": "mm/s2", "mm/s²": "mm/s2",
+    "mm/sec2": "mm/s2", "in/s/s": "in/s2", "in/sec/sec": "in/s2", "inch/sec/sec": "in/s2", "in/s²": "in/s2",
+    "deg/s/s": "deg/s2", "deg/sec/sec": "deg/s2", "deg/s²": "deg/s2", "mm/min/sec": "mm/min/s",
+    "in/min/sec": "in/min/s", "mm/s/s/s": "mm/s3", "mm/sec/sec/sec": "mm/s3", "mm/s³": "mm/s3",
+    "in/s/s/s": "in/s3", "in/sec/sec/sec": "in/s3", "in/s³": "in/s3", "deg/s/s/s": "deg/s3",
+    "deg/sec/sec/sec": "deg/s3", "deg/s³": "deg/s3", "msec": "ms", "sec": "s", "second": "s", "seconds": "s",
+    "percent": "%", "volt": "V", "volts": "V", "v": "V", "amp": "A", "amps": "A", "a": "A", "hz": "Hz",
+    "r/min": "rpm", "1/min": "rpm", "count": "counts", "cts": "counts", "watt": "W", "w": "W", "teeth": "",
+}  # fmt: skip
+
+SHOWN: dict[str, str] = {"mm/s2": "mm/s²", "in/s2": "in/s²", "deg/s2": "deg/s²", "mm/s3": "mm/s³",
+                         "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°"}  # fmt: skip
+
+_FLOATS = {unit: float(factor) for unit, (_, factor) in UNITS.items()}
+
+
+class UnitError(ValueError):
+    """A unit that is not known, or does not measure what is asked for."""
+
+
+def unit_named(text: str) -> str:
+    """Return the unit a person wrote in any of its usual spellings; raises UnitError."""
+    word = text.strip().replace(" ", "")
+    if word in UNITS:
+        return word
+    unit = ALIASES.get(word, ALIASES.get(word.lower()))
+    if unit is None:
+        unit = word.lower() if word.lower() in UNITS else None
+    if unit is None:
+        raise UnitError(f"'{text.strip()}' is not a unit")
+    return unit
+
+
+def dimension(unit: str) -> str:
+    """Return what a unit measures (``length``, ``angular velocity``, …)."""
+    return UNITS[unit][0]
+
+
+def canonical(value: float, unit: str) -> float:
+    """Return ``value`` in the canonical unit of its dimension."""
+    return value * _FLOATS[unit]
+
+
+def convert(value: float, unit: str, to: str) -> float:
+    """Return ``value`` in another unit of the same dimension, exact before one rounding; raises UnitError."""
+    if unit == to:
+        return value
+    if UNITS[unit][0] != UNITS[to][0]:
+        raise UnitError(f"{unit or 'a bare number'} cannot be given in {to or 'a bare number'}")
+    return float(Fraction(Decimal(repr(float(value)))) * UNITS[unit][1] / UNITS[to][1])
+
+
+def canonical_unit(unit: str) -> str:
+    """Return the canonical unit of the dimension of ``unit``."""
+    measured = UNITS[unit][0]
+    return next(u for u, (d, f) in UNITS.items() if d == measured and f == 1)
+
+
+def angular(unit: str) -> str:
+    """Return the unit in degrees that stands where an axis turns (mm/min and in/min give deg/min)."""
+    head, _, tail = unit.partition("/")
+    if head in ("mm", "in"):
+        return "deg/" + tail if tail else "deg"
+    return unit
+
+
+def shown(unit: str) -> str:
+    """Return the unit as it is shown to a person."""
+    return SHOWN.get(unit, unit)
