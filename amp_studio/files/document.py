@@ -52,6 +52,7 @@ class Document:
         self.saved = dict(file.values)
         """The values as they are on disk."""
         self._lock = EditLock(path)
+        self._journal_is_ours = False
 
     # -- opening ---------------------------------------------------------------
 
@@ -104,8 +105,7 @@ class Document:
     def close(self) -> None:
         """Give up the lock and the journal of unsaved work."""
         if self._lock.is_taken:
-            with contextlib.suppress(OSError):
-                self.journal_path.unlink(missing_ok=True)
+            self._drop_journal()
             self._lock.release()
 
     @property
@@ -134,8 +134,7 @@ class Document:
         self.digest = save_file(self.file, self.path, self.digest)
         self.saved = dict(self.file.values)
         self._remember(changes, how)
-        with contextlib.suppress(OSError):
-            self.journal_path.unlink(missing_ok=True)
+        self._drop_journal()
 
     def save_as(self, path: Path, how: str = "save as") -> Document:
         """Save under a new name and return that document; the original stays as it is on disk."""
@@ -194,11 +193,19 @@ class Document:
         """Write the unsaved work beside the file, so that a killed program loses none; no change removes it."""
         changes = self.unsaved_changes()
         if not changes:
-            self.journal_path.unlink(missing_ok=True)
+            self._drop_journal()
             return
         entries = [[written(c.address), self._text(c.address, c.new)] for c in changes]
         content = json.dumps({"when": now(), "who": getpass.getuser(), "digest": self.digest, "changes": entries})
         write_atomic(self.journal_path, content.encode(), keep_backup=False)
+        self._journal_is_ours = True
+
+    def _drop_journal(self) -> None:
+        """Remove the journal, if it is this document's: one that a killed program left waits for its offer."""
+        if self._journal_is_ours:
+            with contextlib.suppress(OSError):
+                self.journal_path.unlink(missing_ok=True)
+            self._journal_is_ours = False
 
     def find_unsaved(self) -> Unsaved | None:
         """Return the work a killed program left for this file, or None."""
