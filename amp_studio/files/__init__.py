@@ -6,7 +6,17 @@ understood is refused or kept whole.
 """
 
 from .atomic import ChangedOnDisk, SaveFault, backup_path, digest_of, write_atomic
-from .axes import AxisFault, axis_instances, axis_title, axis_type, copy_axis, delete_axis, fitted_axes, name_axes
+from .axes import (
+    AxisFault,
+    axis_instances,
+    axis_title,
+    axis_type,
+    copy_axis,
+    delete_axis,
+    fitted_axes,
+    name_axes,
+    retype_axis,
+)
 from .diff import Comparison, Conflict, Difference, compare, merge
 from .document import Document, HistoryEntry, Unsaved, recover_backup
 from .lock import InUse
@@ -54,6 +64,7 @@ __all__ = [
     "open_file",
     "read_content",
     "recover_backup",
+    "retype_axis",
     "save_file",
     "write_atomic",
 ]

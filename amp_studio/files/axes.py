@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.schema import Address, AxisProfile, Value, ValueFault
+from amp_studio.schema import Address, AxisProfile, Value, ValueFault, angular
 
 from .parameter_file import Change, ParameterFile
 
@@ -68,6 +68,38 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     for axis in instances[len(names) :]:
         wanted[(profile.type, axis)] = Value(profile.unfitted)
     return file.set_many(wanted)
+
+
+def retype_axis(file: ParameterFile, axis: str, type_key: str) -> list[Change]:
+    """Change the type of an axis; its lengths become angles, or its angles lengths, with the same figures.
+
+    The control knows only the figure: its values are in millimetres or degrees as the axis moves.
+    """
+    profile = _profile(file)
+    if axis not in axis_instances(file):
+        raise AxisFault(f"there is no axis {axis}")
+    change = file.set((profile.type, axis), Value(type_key))
+    return ([change] if change else []) + refit_units(file, axis)
+
+
+def refit_units(file: ParameterFile, axis: str) -> list[Change]:
+    """Give each value of an axis a unit that fits the way it moves; returns the changes."""
+    changes = []
+    for address in file.addresses():
+        value = file.get(address)
+        if address[1] != axis or value is None or not value.unit or not _is_axis(file, address[0]):
+            continue
+        unit = refitted(value.unit, file.situation.turns(address), file.situation.unit(address, "metric"))
+        if unit != value.unit and (change := file.set(address, Value(value.value, unit))):
+            changes.append(change)
+    return changes
+
+
+def refitted(unit: str, turns: bool, metric: str) -> str:
+    """Return the unit that stands for ``unit`` on an axis that turns, or moves straight."""
+    if turns:
+        return angular(unit) if "deg" in metric else unit
+    return "mm" + unit[3:] if unit.startswith("deg") and metric.startswith("mm") else unit
 
 
 def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:

@@ -139,11 +139,17 @@ class ParameterFile:
         """Set several values, all or none.
 
         Ranges are checked after all of them are in, so that a pair that bounds
-        each other can move together. With ``force`` (a text that says by whom
+        each other can move together; an axis that changes its type takes its
+        values along as angles or lengths. With ``force`` (a text that says by whom
         and when) values out of range are taken and marked; without it they
         raise RangeFault and nothing is changed.
         """
+        from .axes import refit_units
+
         changes = [c for c in (self.set(a, v) for a, v in wanted.items()) if c]
+        profile = self.schema.family.axes
+        for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
+            changes += refit_units(self, axis)
         faults = {a: said for a, v in wanted.items() if v is not None and (said := fault(self.situation, a, v))}
         if faults and not force:
             for change in reversed(changes):

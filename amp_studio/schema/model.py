@@ -330,6 +330,8 @@ class Rule(Model):
     reads: dict[str, str]
     optional: tuple[str, ...] = ()
     """Names that may be unset or out of force: they arrive as null then."""
+    any_state: tuple[str, ...] = ()
+    """Names whose value counts even where the parameter is ignored or unusable."""
     when: str = "true"
     check: str
     message: str

@@ -19,7 +19,7 @@ from . import kernel
 Engine = Literal["auto", "plain", "compiled"]
 RunMove = Callable[[kernel.Loop, kernel.Profile, int, npt.NDArray[np.float64]], int]
 
-PLAIN_ROWS = 100_000
+PLAIN_ROWS = 60_000
 """Rows plain Python fills in about the time that loading numba and its cache takes (docs/simulation.md)."""
 
 _PARTS = (
@@ -47,7 +47,7 @@ def compiled_run_move() -> RunMove:
     for part in _PARTS:
         register_jitable(part)
     floats = [
-        numba.types.NamedUniTuple(numba.float64, len(record._fields), record)
+        numba.types.NamedUniTuple(numba.float64, len(record._fields), record)  # type: ignore[no-untyped-call]  # numba's types have none
         for record in (kernel.Loop, kernel.Profile)
     ]
     signature = numba.int64(*floats, numba.int64, numba.float64[:, ::1])

@@ -72,7 +72,7 @@ class Loop(NamedTuple):
     """unit/s2."""
     coulomb_speed: float
     """unit/s below which dry friction is taken proportional to speed, above 0."""
-    count: float
+    resolution: float
     """Travel of one encoder count; 0 for ideal feedback."""
     feedrate_suppression: float
     excess_error: float
@@ -115,9 +115,9 @@ def velocity_asked(f: Loop, following_error: float) -> float:
 
 def measured(f: Loop, position: float) -> float:
     """Return the position the encoder tells: the nearest whole count (7-33)."""
-    if f.count == 0.0:
+    if f.resolution == 0.0:
         return position
-    return math.floor(position / f.count + 0.5) * f.count
+    return math.floor(position / f.resolution + 0.5) * f.resolution
 
 
 def wanted_torque(f: Loop, velocity_command: float, speed: float, error_sum: float) -> float:

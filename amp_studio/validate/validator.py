@@ -171,7 +171,9 @@ class Validator:
                                for a in reading.addresses]  # fmt: skip
                 continue
             address = reading.addresses[0]
-            found = situation.canonical(address) if situation.state(address).state == "in-force" else None
+            state = situation.state(address).state
+            counts = state == "in-force" or (state != "hidden" and name in check.rule.any_state)
+            found = situation.canonical(address) if counts else None
             if found is None and name not in check.rule.optional:
                 return None
             names[name] = found

@@ -1,0 +1,55 @@
+# AMP Studio. "make run" and "make test" set up everything they need in .venv; "make" lists the targets.
+# PYTHON=python3.13 chooses the interpreter, WORKERS=4 the number of test processes, COV=1 adds coverage,
+# TESTS=tests/files the tests to run.
+
+MAKEFLAGS += --no-print-directory
+WORKERS ?= 2
+TESTS ?=
+BIN := .venv/bin
+LOCK_TOOL := uv==0.13.9
+LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --python-version 3.11 --fork-strategy fewest \
+	--generate-hashes --no-emit-index-url --no-emit-find-links --no-annotate --custom-compile-command "make lock" \
+	$(if $(UPGRADE),--upgrade)
+
+.DEFAULT_GOAL := help
+.PHONY: help run test check format lock bench wheel clean setup setup-run
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+run: setup-run ## set up what is missing and show the program on an example machine
+	@$(BIN)/amp-studio demo
+
+test: setup ## set up what is missing and run all tests
+	@$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile $(if $(COV),--cov --cov-report=term) $(TESTS)
+
+check: setup ## format, lint, types and the import contracts
+	@$(BIN)/ruff format --check
+	@$(BIN)/ruff check
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports --no-cache --no-logo
+
+format: setup ## put the code into the one format and mend what ruff can mend
+	@$(BIN)/ruff format
+	@$(BIN)/ruff check --fix
+
+bench: setup ## measure (results on standard output)
+	@for file in bench/bench_*.py; do echo "== $$file"; $(BIN)/python "$$file" || exit 1; done
+
+wheel: setup ## build dist/*.whl and the source archive, without the network
+	@$(BIN)/python -m build --no-isolation --outdir dist
+
+lock: ## write requirements/*.lock anew; UPGRADE=1 takes the newest versions
+	@test -x build/lock/bin/uv || { $(or $(PYTHON),python3) -m venv build/lock && build/lock/bin/pip install --quiet $(LOCK_TOOL); }
+	@$(LOCK) --group dev --output-file requirements/dev.lock
+	@$(LOCK) --group build --constraint requirements/dev.lock --output-file requirements/run.lock
+
+clean: ## remove everything that make made, .venv too
+	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache .coverage
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+setup:
+	@sh scripts/bootstrap.sh dev
+
+setup-run:
+	@sh scripts/bootstrap.sh run

@@ -1,0 +1,32 @@
+"""Numbers for people: few digits in a suggestion, the shortest text in a sentence."""
+
+from __future__ import annotations
+
+import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+
+
+def _rounded(value: float, digits: int, way: str) -> float:
+    if value == 0.0 or not math.isfinite(value):
+        return value
+    exact = Decimal(repr(value))
+    return float(exact.quantize(Decimal(1).scaleb(exact.adjusted() - digits + 1), rounding=way))
+
+
+def rounded_up(value: float, digits: int = 3) -> float:
+    """Return the least number of so many digits that is not below the value."""
+    return _rounded(value, digits, ROUND_CEILING)
+
+
+def rounded_down(value: float, digits: int = 3) -> float:
+    """Return the greatest number of so many digits that is not above the value."""
+    return _rounded(value, digits, ROUND_FLOOR)
+
+
+def shown(value: float, unit: str = "", digits: int = 4) -> str:
+    """Write a value of so many digits, and its unit, without trailing zeros and without an exponent."""
+    near = _rounded(value, digits, ROUND_HALF_EVEN)
+    text = format(Decimal(repr(near)), "f") if math.isfinite(near) else repr(near)
+    if "." in text:
+        text = text.rstrip("0").rstrip(".")
+    return f"{text} {unit}".rstrip()

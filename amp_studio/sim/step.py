@@ -1,0 +1,322 @@
+"""Scenario `step`: one commanded move of one axis, from rest to rest.
+
+The axis runs by its own parameters; the result compares what the manual's equations predict with what the
+simulated axis does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from . import kernel
+from .advice import advise
+from .engine import Engine, run_move_by
+from .laws import RESPONSE_SHARE, response_time, steady_following_error
+from .rounding import rounded_up
+from .servo import RAMPS, AxisServo, SimulationError
+from .trace import Alarm, Figure, Trace
+
+MOST_ROWS = 4_000_000
+"""Rows a move may take, 16 minutes at the longest physics step; one row is 56 bytes."""
+STEADY_SPEED = 1e-3
+"""Share by which the command speed may differ from the feedrate and still count as constant."""
+STEADY_LAGS = 6.0
+"""Time constants of the position loop after which a constant speed counts as steady."""
+
+MODEL = (
+    "position loop P with gain break and feed-forward, velocity loop PI, torque limit, rigid axis, counted feedback"
+)
+
+TEXTBOOK = (
+    "The axis is one rigid mass; screw, coupling and bearings have no spring and no play (Gross, Hamann, Wiegärtner,"
+    " Electrical Feed Drives in Automation, 2001).",
+    "The current loop is ideal: the torque follows its command at once (same source; it is 5 to 10 times faster than"
+    " the velocity loop).",
+    "Position is measured and the velocity command set once a servo period and held in between (Franklin, Powell,"
+    " Workman, Digital Control of Dynamic Systems, 1998).",
+    "The velocity loop is continuous and its feedback has no counts; the position feedback is rounded to the nearest"
+    " count.",
+    "The sum of the velocity error holds while the torque is cut and the error would push it further (Åström,"
+    " Hägglund, PID Controllers, 1995).",
+    "While the feedrate is suppressed the command goes to half the feedrate and back by the same ramp as any other"
+    " change of speed.",
+    "The simulated motion ends with an excess error alarm; how the axis then stops is not simulated.",
+)
+
+
+@dataclass(frozen=True)
+class StepMove:
+    """One move from rest: distance with its sign in the axis' unit, feedrate in unit/min, ramp, time in s.
+
+    `mode` None takes the axis' ramp for positioning; `duration` None ends when the axis has come to rest. Raises
+    SimulationError for a move that is none.
+    """
+
+    distance: float
+    feedrate: float
+    mode: str | None = None
+    duration: float | None = None
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.distance) and self.distance != 0.0):
+            raise SimulationError(f"the distance of the move is {self.distance!r}; it must not be 0")
+        if not (math.isfinite(self.feedrate) and self.feedrate > 0.0):
+            raise SimulationError(f"the feedrate of the move is {self.feedrate!r}; it must be above 0")
+        if self.mode is not None and self.mode not in RAMPS:
+            raise SimulationError(f"the ramp of the move is '{self.mode}'; it must be one of {', '.join(RAMPS)}")
+        if self.duration is not None and not 0.0 < self.duration < math.inf:
+            raise SimulationError(f"the duration is {self.duration!r} s; it must be above 0")
+
+
+def default_move(
+    servo: AxisServo,
+    distance: float | None = None,
+    feedrate: float | None = None,
+    mode: str | None = None,
+    duration: float | None = None,
+) -> StepMove:
+    """Return a move that shows the axis at a steady speed: at rapid, long enough for following error to settle.
+
+    Raises SimulationError where no feedrate is known.
+    """
+    speed = feedrate or servo.rapid_feedrate or servo.cutting_feedrate
+    if speed is None:
+        raise SimulationError("neither the move nor the axis names a feedrate", servo.parameter("rapid_feedrate"))
+    if distance is None:
+        probe = StepMove(1.0, speed, mode)
+        ramps = _ramp_time(servo, probe)
+        distance = rounded_up(speed / 60.0 * (ramps + 2.0 * STEADY_LAGS * _slowest_lag(servo)), 2)
+    return StepMove(distance, speed, mode, duration)
+
+
+def run_step(servo: AxisServo, move: StepMove, *, engine: Engine = "auto") -> Trace:
+    """Run the move and return its trace.
+
+    Columns are one row a physics step (at most 0.25 ms): time_s in s, command_position, position and
+    following_error in the axis' unit, command_velocity and velocity in unit/min, torque_percent in %. Raises
+    SimulationError where the move cannot be made (no time constant for an exponential ramp, a move that would
+    take longer than MOST_ROWS rows).
+    """
+    loop, profile = servo.loop(), _profile(servo, move)
+    substeps = servo.substeps
+    likely, most = _rows(servo, move, profile)
+    rows = np.empty((most, len(kernel.COLUMNS)))
+    filled = run_move_by(engine, likely)(loop, profile, substeps, rows)
+    rows = np.ascontiguousarray(rows[:filled].T)
+    rows[4:6] *= 60.0
+    columns = dict(zip(kernel.COLUMNS, rows, strict=True))
+    alarms = _alarms(servo, columns)
+    result = _figures(servo, move, columns, substeps, bool(alarms))
+    return Trace(
+        scenario="step",
+        axis=servo.axis,
+        model=f"{servo.model}: {MODEL}" if servo.model else MODEL,
+        columns=columns,
+        units=_units(servo.unit),
+        result=result,
+        alarms=alarms,
+        advice=advise(servo, move.feedrate, ramp_of(servo, move), result),
+        assumptions=servo.assumptions + TEXTBOOK,
+        limits=_limits(servo),
+    )
+
+
+def ramp_of(servo: AxisServo, move: StepMove) -> str:
+    """Return the ramp in force: a linear ramp of 0 is none (10-8)."""
+    mode = move.mode or servo.positioning_ramp
+    return "none" if mode == "linear" and servo.linear_acceleration == 0.0 else mode
+
+
+def _ramp_time(servo: AxisServo, move: StepMove) -> float:
+    """Return in s what speeding up and slowing down adds to distance / feedrate."""
+    mode, speed = ramp_of(servo, move), move.feedrate / 60.0
+    if mode == "linear":
+        down = servo.linear_deceleration or servo.linear_acceleration
+        return 0.5 * speed / servo.linear_acceleration + 0.5 * speed / down
+    if mode == "exponential":
+        constant = _time_constant(servo)
+        return constant * max(1.0, math.log(max(speed * constant / _snap(servo, move), 1.0)))
+    return 0.0
+
+
+def _time_constant(servo: AxisServo) -> float:
+    if servo.exponential_time is None:
+        raise SimulationError(
+            f"{servo.described('exponential_time')} is not set, and the move has an exponential ramp",
+            servo.parameter("exponential_time"),
+        )
+    return servo.exponential_time / 1000.0
+
+
+def _snap(servo: AxisServo, move: StepMove) -> float:
+    """An exponential command ends within one count of its end, or a billionth of the move."""
+    return max(0.0 if servo.ideal_feedback else servo.count, 1e-9 * abs(move.distance))
+
+
+def _profile(servo: AxisServo, move: StepMove) -> kernel.Profile:
+    mode = ramp_of(servo, move)
+    return kernel.Profile(
+        ramp={"none": kernel.NONE, "linear": kernel.LINEAR, "exponential": kernel.EXPONENTIAL}[mode],
+        sign=math.copysign(1.0, move.distance),
+        distance=abs(float(move.distance)),
+        feedrate=move.feedrate / 60.0,
+        acceleration=float(servo.linear_acceleration),
+        deceleration=float(servo.linear_deceleration or servo.linear_acceleration),
+        time_constant=_time_constant(servo) if mode == "exponential" else 1.0,
+        snap=_snap(servo, move),
+        settle=math.inf if move.duration is not None else _settling(servo, move),
+    )
+
+
+def _slowest_lag(servo: AxisServo) -> float:
+    """Return the longest time constant of the position loop in s, above the gain break if it has one."""
+    return 1.0 / (servo.position_rate * (servo.break_ratio or 1.0))
+
+
+def _settling(servo: AxisServo, move: StepMove) -> float:
+    """Return how long to wait in s after the command has ended: twelve time constants, and the way to the break."""
+    lag = 1.0 / servo.position_rate
+    wait = 12.0 * lag + 20.0 * servo.servo_period / 1000.0 + 0.05
+    if servo.break_ratio < 1.0 and servo.gain_break_point < abs(move.distance):
+        slow = 12.0 * lag / servo.break_ratio if servo.break_ratio else math.inf
+        furthest = min(servo.excess_error, abs(move.distance))
+        steady = furthest * lag / servo.gain_break_point if servo.gain_break_point else math.inf
+        extra = min(slow, steady)
+        wait += extra if math.isfinite(extra) else 0.0
+    return wait
+
+
+def _rows(servo: AxisServo, move: StepMove, profile: kernel.Profile) -> tuple[int, int]:
+    """Return (rows to expect, rows to allow for); the move may take twice as long at half the feedrate."""
+    period = servo.servo_period / 1000.0
+    if move.duration is not None:
+        likely = most = move.duration
+    else:
+        moving = abs(move.distance) / profile.feedrate + _ramp_time(servo, move) + 4.0 * period
+        likely, most = moving + profile.settle, 2.0 * moving + profile.settle
+    per_second = servo.substeps / period
+    if likely * per_second > MOST_ROWS:
+        raise SimulationError(
+            f"the move takes about {likely:.0f} s, more than can be simulated ({MOST_ROWS / per_second:.0f} s);"
+            " take a shorter distance or a higher feedrate"
+        )
+    return math.ceil(likely * per_second), min(math.ceil(most * per_second) + 1, MOST_ROWS)
+
+
+def _alarms(servo: AxisServo, columns: Mapping[str, npt.NDArray[np.float64]]) -> tuple[Alarm, ...]:
+    """Return the excess error alarm if the last measured following error is above it."""
+    last = float(abs(columns["following_error"][-1]))
+    if not last > servo.excess_error or len(columns["time_s"]) % servo.substeps != 1 % servo.substeps:
+        return ()
+    moment = float(columns["time_s"][-1])
+    return (
+        Alarm(
+            "EXCESS FOLLOWING ERROR",
+            moment,
+            f"Following error {last!r} {servo.unit} passed {servo.described('excess_error')},"
+            f" {servo.excess_error!r} {servo.unit}; the control goes into E-STOP and the move ends.",
+        ),
+    )
+
+
+def _figures(
+    servo: AxisServo,
+    move: StepMove,
+    columns: Mapping[str, npt.NDArray[np.float64]],
+    substeps: int,
+    stopped: bool,
+) -> dict[str, Figure]:
+    """Return the named figures. Following error is judged at the servo periods, where the control sees it."""
+    unit, period = servo.unit, servo.servo_period / 1000.0
+    error = np.abs(columns["following_error"][::substeps])
+    torque, speed = columns["torque_percent"], np.abs(columns["velocity"])
+    forward = columns["position"] * math.copysign(1.0, move.distance)
+    predicted = steady_following_error(servo, move.feedrate)
+    limited = (torque >= servo.torque_limit_positive) | (torque <= -servo.torque_limit_negative)
+    quick = np.flatnonzero(speed >= RESPONSE_SHARE * move.feedrate)
+    in_position, settle = (None, None) if stopped else _settled(servo, move, columns, substeps)
+    return {
+        "distance": (move.distance, unit),
+        "feedrate": (move.feedrate, f"{unit}/min"),
+        "predicted_following_error": (predicted if math.isfinite(predicted) else None, unit),
+        "steady_following_error": (_steady(servo, move, columns, substeps), unit),
+        "peak_following_error": (float(error.max()), unit),
+        "peak_torque": (float(np.abs(torque).max()), "%"),
+        "time_at_torque_limit": (float(limited.sum()) * period / substeps, "s"),
+        "predicted_response_time": (response_time(servo), "s"),
+        "response_time": (float(columns["time_s"][quick[0]]) if quick.size else None, "s"),
+        "in_position_time": (in_position, "s"),
+        "settle_time": (settle, "s"),
+        "overshoot": (max(0.0, float(forward.max()) - abs(move.distance)), unit),
+        "time_in_feedrate_suppression": (float((error > servo.feedrate_suppression).sum()) * period, "s"),
+    }
+
+
+def _steady(
+    servo: AxisServo, move: StepMove, columns: Mapping[str, npt.NDArray[np.float64]], substeps: int
+) -> float | None:
+    """Return the mean following error (without sign) at the end of the longest stretch of constant feedrate.
+
+    None where the stretch is shorter than STEADY_LAGS time constants or the error still changes in it.
+    """
+    error = np.abs(columns["following_error"][::substeps])
+    constant = np.abs(np.abs(columns["command_velocity"][::substeps]) / move.feedrate - 1.0) <= STEADY_SPEED
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], constant.astype(np.int8), [0]))))
+    starts, ends = edges[::2], edges[1::2]
+    if starts.size == 0:
+        return None
+    longest = int(np.argmax(ends - starts))
+    start, end = int(starts[longest]), int(ends[longest])
+    if (end - start) * servo.servo_period / 1000.0 < STEADY_LAGS * _slowest_lag(servo):
+        return None
+    # The first sample of the stretch ends the ramp; the sample after it still belongs to the constant speed.
+    window = error[end - max(1, (end - start) // 10) : end]
+    mean = float(window.mean())
+    counts = 0.0 if servo.ideal_feedback else 3.0 * servo.count
+    if float(window.max() - window.min()) > max(counts, 0.01 * mean, 1e-9 * abs(move.distance)):
+        return None
+    return mean
+
+
+def _settled(
+    servo: AxisServo, move: StepMove, columns: Mapping[str, npt.NDArray[np.float64]], substeps: int
+) -> tuple[float | None, float | None]:
+    """Return (time in s from the start of the move, time in s from the end of the command) of coming into position.
+
+    In position is the first servo period from which the measured position stays within the inposition band of the
+    end of the move (7-24). (None, None) where the command or the axis does not get there.
+    """
+    time = columns["time_s"][::substeps]
+    command = columns["command_position"][::substeps]
+    arrived = np.flatnonzero(command == move.distance)
+    if arrived.size == 0:
+        return None, None
+    off = np.abs(move.distance - (command - columns["following_error"][::substeps]))
+    outside = np.flatnonzero(off > servo.inposition_band)
+    first = int(outside[-1]) + 1 if outside.size else 0
+    if first >= time.size:
+        return None, None
+    moment = float(time[first])
+    return moment, max(0.0, moment - float(time[arrived[0]]))
+
+
+def _limits(servo: AxisServo) -> dict[str, Figure]:
+    levels = {
+        "excess error": servo.excess_error,
+        "feedrate suppression": servo.feedrate_suppression,
+        "inposition band": servo.inposition_band,
+    }
+    if servo.break_ratio < 1.0:
+        levels["gain break point"] = servo.gain_break_point
+    return {name: (level, servo.unit) for name, level in levels.items() if math.isfinite(level)}
+
+
+def _units(unit: str) -> dict[str, str]:
+    return dict(
+        zip(kernel.COLUMNS, ("s", unit, unit, unit, f"{unit}/min", f"{unit}/min", "%"), strict=True)
+    )

@@ -1,0 +1,76 @@
+"""Writes a trace to a file (CSV, SVG, PNG by the ending) and as the JSON the command line promises."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from .servo import SimulationError
+from .svg import plot_svg
+from .trace import Trace
+
+PIXELS_PER_INCH = 144
+"""Of a PNG; a point of the SVG is 1/72 inch."""
+
+ENDINGS = (".csv", ".svg", ".png")
+
+
+def trace_csv(trace: Trace) -> str:
+    """Return the trace as CSV: a line of column names, then a line a row, numbers by shortest round trip."""
+    lines = [",".join(_heading(trace))]
+    columns = [column.tolist() for column in trace.columns.values()]
+    lines += [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
+    return "\n".join(lines) + "\n"
+
+
+def _heading(trace: Trace) -> list[str]:
+    """Name the columns; a column of the time or the torque has its unit in its name already."""
+    return [
+        name if name in ("time_s", "torque_percent") else f"{name} [{trace.units[name]}]"
+        for name in trace.columns
+    ]
+
+
+def plot_png(trace: Trace) -> bytes:
+    """Return the plot as PNG: a Typst page of the size of the SVG, drawn by Typst."""
+    import typst  # only a PNG needs it
+
+    page = (
+        "#set page(width: auto, height: auto, margin: 0pt)\n"
+        '#image(bytes(sys.inputs.at("plot")), format: "svg")\n'
+    )
+    image = typst.compile(
+        page.encode(), format="png", ppi=PIXELS_PER_INCH, sys_inputs={"plot": plot_svg(trace)}
+    )
+    if not isinstance(image, bytes):
+        raise SimulationError("the plot did not fit on one page")
+    return image
+
+
+def write_trace(trace: Trace, path: Path) -> None:
+    """Write ``.csv``, ``.svg`` or ``.png``; raises SimulationError for another ending, OSError where it cannot."""
+    ending = path.suffix.lower()
+    if ending == ".csv":
+        path.write_text(trace_csv(trace), encoding="utf-8", newline="\n")
+    elif ending == ".svg":
+        path.write_text(plot_svg(trace), encoding="utf-8", newline="\n")
+    elif ending == ".png":
+        path.write_bytes(plot_png(trace))
+    else:
+        raise SimulationError(f"a trace is written as {', '.join(ENDINGS)}, not as '{path.name}'")
+
+
+def trace_summary(trace: Trace) -> dict[str, Any]:
+    """Return the result without the curves, in the shape of ``simulate --json``."""
+    return {
+        "scenario": trace.scenario,
+        "axis": trace.axis,
+        "model": trace.model,
+        "result": {name: {"value": value, "unit": unit} for name, (value, unit) in trace.result.items()},
+        "alarms": [{"code": a.code, "time_s": a.time_s, "message": a.message} for a in trace.alarms],
+        "advice": [
+            {"param": a.parameter, "value": f"{a.value!r} {a.unit}".rstrip(), "why": a.why} for a in trace.advice
+        ],
+        "assumptions": list(trace.assumptions),
+        "trace": {"columns": list(trace.columns), "rows": trace.rows},
+    }

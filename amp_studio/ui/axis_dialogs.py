@@ -1,0 +1,71 @@
+"""The dialogs of the axis menu: which axis, which name, which type, which servo."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QComboBox, QDialog, QDialogButtonBox, QFormLayout, QLabel, QVBoxLayout, QWidget
+
+from amp_studio.files import axis_instances, axis_title
+from amp_studio.schema import Address
+
+from .value_delegate import choice_box
+from .workspace import Workspace
+
+
+class AxisDialog(QDialog):
+    """Asks for an axis and, below it, for choices of that axis or for another axis."""
+
+    def __init__(self, workspace: Workspace, title: str, axis: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(title)
+        self.setMinimumWidth(380)
+        self._workspace = workspace
+        self._fields: dict[str, QComboBox] = {}
+        self.axis_box = self._axis_list(axis)
+        self.axis_box.currentIndexChanged.connect(lambda _: self._fill())
+        self._form = QFormLayout()
+        self._form.addRow("Axis", self.axis_box)
+        self.note = QLabel()
+        self.note.setWordWrap(True)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addLayout(self._form)
+        layout.addWidget(self.note)
+        layout.addWidget(buttons)
+        self._wanted: list[str] = []
+
+    def _axis_list(self, axis: str) -> QComboBox:
+        box = QComboBox()
+        for instance in axis_instances(self._workspace.file):
+            box.addItem(axis_title(self._workspace.file, instance), instance)
+        box.setCurrentIndex(max(box.findData(axis), 0))
+        return box
+
+    def ask_for(self, parameter_ids: list[str]) -> None:
+        """Offer the choices of these parameters of the chosen axis."""
+        self._wanted = parameter_ids
+        self._fill()
+
+    def ask_for_target(self) -> QComboBox:
+        """Offer a second axis, the one that receives."""
+        box = self._axis_list(self.axis())
+        self._form.addRow("To axis", box)
+        return box
+
+    def _fill(self) -> None:
+        for box in self._fields.values():
+            self._form.removeRow(box)
+        self._fields = {}
+        for parameter_id in self._wanted:
+            box = choice_box(self._workspace, (parameter_id, self.axis()))
+            self._form.addRow(self._workspace.file.schema.parameters[parameter_id].name, box)
+            self._fields[parameter_id] = box
+
+    def axis(self) -> str:
+        """Return the chosen axis."""
+        return str(self.axis_box.currentData())
+
+    def texts(self) -> dict[Address, str]:
+        """Return the chosen label of each parameter."""
+        return {(p, self.axis()): str(b.currentData()) for p, b in self._fields.items() if b.currentIndex() >= 0}

@@ -1,0 +1,191 @@
+"""Dialogs of the file and project menus."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal, cast
+
+from PySide6.QtCore import QRegularExpression
+from PySide6.QtGui import QRegularExpressionValidator
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLineEdit,
+    QMessageBox,
+    QPlainTextEdit,
+    QPushButton,
+    QWidget,
+)
+
+from amp_studio.files import Header, ParameterFile, Project, ProjectInfo, new_file
+from amp_studio.schema import family_ids, load_schema
+
+Sort = Literal["axis", "number", "group"]
+
+
+class _Form(QDialog):
+    """A dialog of labelled fields with OK and Cancel."""
+
+    def __init__(self, title: str, parent: QWidget | None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(title)
+        self.setMinimumWidth(440)
+        self.form = QFormLayout(self)
+
+    def add_buttons(self) -> None:
+        """Close the form with its buttons."""
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        self.form.addRow(buttons)
+
+
+def _family_box() -> QComboBox:
+    box = QComboBox()
+    for family in family_ids():
+        box.addItem(load_schema(family).family.name, family)
+    return box
+
+
+class NewFileDialog(_Form):
+    """Family, machine type, name and axes of a new file."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__("New parameter file", parent)
+        self.family = _family_box()
+        self.machine = QComboBox()
+        self.name = QLineEdit("MACHINE_1")
+        self.axes = QLineEdit()
+        self.axes.setPlaceholderText("X, Y, Z, B, S — empty keeps the default axes")
+        for label, field in (("Control", self.family), ("Machine type", self.machine), ("Name", self.name), ("Axes", self.axes)):
+            self.form.addRow(label, field)
+        self.family.currentIndexChanged.connect(lambda _: self._machines())
+        self._machines()
+        self.add_buttons()
+
+    def _machines(self) -> None:
+        self.machine.clear()
+        family = load_schema(str(self.family.currentData())).family
+        for machine in family.machines:
+            self.machine.addItem(machine.name, machine.key)
+        self.machine.setCurrentIndex(self.machine.findData(family.default_machine))
+
+    def make(self) -> ParameterFile:
+        """Return the new file; raises ValueError for an axis name that is not offered."""
+        axes = [a.strip() for a in self.axes.text().split(",") if a.strip()]
+        return new_file(str(self.family.currentData()), str(self.machine.currentData()), axes, self.name.text().strip())
+
+    def accept(self) -> None:
+        """Close only when the file can be made."""
+        try:
+            self.make()
+        except ValueError as error:
+            QMessageBox.warning(self, "New parameter file", str(error))
+            return
+        super().accept()
+
+
+class FactsDialog(_Form):
+    """What a file says of itself."""
+
+    def __init__(self, header: Header, parent: QWidget | None = None) -> None:
+        super().__init__("Machine facts", parent)
+        self._header = header
+        self.name, self.application = QLineEdit(header.name), QLineEdit(header.application)
+        self.revision, self.notes = QLineEdit(header.revision), QPlainTextEdit(header.notes)
+        for label, field in (("Name", self.name), ("Application", self.application),
+                             ("Control software revision", self.revision), ("Notes", self.notes)):  # fmt: skip
+            self.form.addRow(label, field)
+        self.add_buttons()
+
+    def accept(self) -> None:
+        """Take the texts into the header."""
+        self._header.name, self._header.application = self.name.text(), self.application.text()
+        self._header.revision, self._header.notes = self.revision.text(), self.notes.toPlainText()
+        super().accept()
+
+
+class ReportDialog(_Form):
+    """Where to, in which order, and how much."""
+
+    def __init__(self, path: Path, parent: QWidget | None = None) -> None:
+        super().__init__("Report", parent)
+        self.sort = QComboBox()
+        for key, name in (("axis", "Axis and non-axis parameters"), ("number", "By parameter number"), ("group", "By group")):
+            self.sort.addItem(name, key)
+        self.sort.setCurrentIndex(2)
+        self.changed = QCheckBox("Only values that differ from the default")
+        self.path = QLineEdit(str(path.with_suffix(".pdf")))
+        browse = QPushButton("…")
+        browse.clicked.connect(self._browse)
+        row = QHBoxLayout()
+        row.addWidget(self.path)
+        row.addWidget(browse)
+        self.form.addRow("Order", self.sort)
+        self.form.addRow("", self.changed)
+        self.form.addRow("File (.pdf .html .csv .txt)", row)
+        self.add_buttons()
+
+    def _browse(self) -> None:
+        text, _ = QFileDialog.getSaveFileName(self, "Report", self.path.text(), "PDF (*.pdf);;HTML (*.html);;CSV (*.csv);;Text (*.txt)")
+        if text:
+            self.path.setText(text)
+
+    def chosen(self) -> tuple[Path, Sort, bool]:
+        """Return path, order and whether only changed values are printed."""
+        return Path(self.path.text()), cast(Sort, self.sort.currentData()), self.changed.isChecked()
+
+
+class ProjectDialog(_Form):
+    """Project information, as asked when a project is made and changed later."""
+
+    def __init__(self, info: ProjectInfo | None, parent: QWidget | None = None) -> None:
+        super().__init__("Project information", parent)
+        self._info = info
+        self.family = _family_box()
+        self.machine = QComboBox()
+        self.name = QLineEdit(info.name if info else "")
+        self.name.setValidator(QRegularExpressionValidator(QRegularExpression(r".{1,64}")))
+        self.control = QLineEdit(info.control if info else "")
+        self.control.setPlaceholderText("tcp://host:port or serial:/dev/ttyUSB0?baud=115200 (COM3 on Windows)")
+        self.control_name = QLineEdit(info.control_name if info else "CNC_1")
+        self.revision = QLineEdit(info.revision if info else "")
+        self.notes = QPlainTextEdit(info.notes if info else "")
+        for label, field in (("Name", self.name), ("Control family", self.family), ("Machine type", self.machine),
+                             ("Control address", self.control), ("Control name", self.control_name),
+                             ("Software revision", self.revision), ("Notes", self.notes)):  # fmt: skip
+            self.form.addRow(label, field)
+        self.family.currentIndexChanged.connect(lambda _: self._machines())
+        if info:
+            self.family.setCurrentIndex(max(self.family.findData(info.family), 0))
+            self.family.setEnabled(False)
+        self._machines()
+        if info and info.machine:
+            self.machine.setCurrentIndex(self.machine.findData(info.machine))
+        self.add_buttons()
+
+    def _machines(self) -> None:
+        self.machine.clear()
+        for machine in load_schema(str(self.family.currentData())).family.machines:
+            self.machine.addItem(machine.name, machine.key)
+
+    def info(self) -> ProjectInfo:
+        """Return the information as typed."""
+        family = load_schema(str(self.family.currentData())).family
+        return ProjectInfo(
+            name=self.name.text().strip(), family=family.family, machine=str(self.machine.currentData() or ""),
+            application=self._info.application if self._info else next(iter(family.applications), ""),
+            control=self.control.text().strip(), control_name=self.control_name.text().strip(),
+            revision=self.revision.text().strip(), notes=self.notes.toPlainText(),
+            extra=self._info.extra if self._info else {},
+        )  # fmt: skip
+
+
+def project_summary(project: Project) -> str:
+    """Return a line for the status bar."""
+    return f"Project {project.info.name}: {len(project.files())} files in {project.folder}"

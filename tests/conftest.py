@@ -1,0 +1,42 @@
+"""What every test shares: no display, no folder of the person who runs them, no clock in property tests."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+# Set here, before anything imports Qt or asks where the user's folders are.
+os.environ["QT_QPA_PLATFORM"] = "offscreen"
+os.environ.pop("DISPLAY", None)
+os.environ.pop("WAYLAND_DISPLAY", None)
+
+
+def _private_folders() -> None:
+    """Point the user's folders to temporary ones: one cache for all workers of a run, the rest for each alone."""
+    home = os.environ.get("AMP_STUDIO_TEST_HOME")
+    if home is None:
+        home = os.environ["AMP_STUDIO_TEST_HOME"] = tempfile.mkdtemp(prefix="amp-studio-tests-")
+        atexit.register(shutil.rmtree, home, ignore_errors=True)
+    own = Path(home) / os.environ.get("PYTEST_XDIST_WORKER", "main")
+    os.environ["XDG_CACHE_HOME"] = str(Path(home) / "cache")
+    for name in ("CONFIG", "DATA", "STATE"):
+        os.environ[f"XDG_{name}_HOME"] = str(own / name.lower())
+
+
+_private_folders()
+
+# Two workers on two cores take as long as they take; a failing example is printed so that it can be repeated.
+settings.register_profile("amp-studio", deadline=None, print_blob=True)
+settings.load_profile("amp-studio")
+
+
+@pytest.fixture(scope="session")
+def checkout() -> Path:
+    """Return the top of the checkout."""
+    return Path(__file__).resolve().parent.parent

@@ -1,0 +1,130 @@
+"""The house keeps its plan: imports point one way, each room introduces itself, and every library is declared."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from importlib.metadata import packages_distributions
+from pathlib import Path
+
+import pytest
+
+ROOMS = ("schema", "files", "validate", "report", "transfer", "sim", "ui")
+CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}
+
+
+def check_contracts(folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run import-linter on the package that stands in ``folder``, with the contracts of its pyproject.toml."""
+    lint = (
+        "import sys; sys.path.insert(0, '.'); from importlinter.cli import lint_imports_command as run; run()"
+    )
+    return subprocess.run(
+        [sys.executable, "-P", "-c", lint, "--no-cache", "--no-logo"],
+        cwd=folder,
+        env=os.environ | {"NO_COLOR": "1", "COLUMNS": "200", "PYTHONIOENCODING": "utf-8"},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+
+def test_imports_between_the_rooms_point_one_way(checkout: Path) -> None:
+    done = check_contracts(checkout)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("room", "line", "contract"),
+    [
+        ("schema", "import amp_studio.files", "Imports between the rooms point one way"),
+        ("files", "import amp_studio.validate", "Imports between the rooms point one way"),
+        ("validate", "import amp_studio.transfer", "Imports between the rooms point one way"),
+        ("sim", "import amp_studio.report", "Imports between the rooms point one way"),
+        ("report", "import amp_studio.ui", "Imports between the rooms point one way"),
+        ("files", "from PySide6.QtCore import QObject", "Qt is imported in ui only"),
+        ("transfer", "import numba", "numba is imported in sim only"),
+        ("sim", "import serial", "The serial port is opened in transfer only"),
+    ],
+)
+def test_an_import_against_the_plan_is_found(
+    checkout: Path, tmp_path: Path, room: str, line: str, contract: str
+) -> None:
+    for name in ROOMS:
+        (tmp_path / "amp_studio" / name).mkdir(parents=True)
+        (tmp_path / "amp_studio" / name / "__init__.py").touch()
+    (tmp_path / "amp_studio" / "__init__.py").touch()
+    (tmp_path / "amp_studio" / "cli.py").touch()
+    (tmp_path / "amp_studio" / room / "astray.py").write_text(f"{line}\n")
+    shutil.copy(checkout / "pyproject.toml", tmp_path)
+
+    done = check_contracts(tmp_path)
+
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert f"{contract} BROKEN" in done.stdout
+    assert f"amp_studio.{room}.astray" in done.stdout
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_says_what_it_is_for(checkout: Path, room: str) -> None:
+    source = (checkout / "amp_studio" / room / "__init__.py").read_text(encoding="utf-8")
+    assert ast.get_docstring(ast.parse(source)), f"amp_studio/{room}/__init__.py has no docstring"
+
+
+def test_no_file_is_named_for_everything_and_nothing(checkout: Path) -> None:
+    found = [
+        path.relative_to(checkout).as_posix()
+        for path in (checkout / "amp_studio").rglob("*.py")
+        if {path.stem, path.parent.name} & CATCH_ALL_NAMES
+    ]
+    assert found == []
+
+
+def imported_libraries(package: Path) -> Iterator[tuple[str, Path]]:
+    """Yield the top name of every absolute import of the package, wherever it stands in a file."""
+    for path in sorted(package.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                yield from ((alias.name.partition(".")[0], path) for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+                yield node.module.partition(".")[0], path
+
+
+def plain(name: str) -> str:
+    """Return a distribution's name in the one spelling in which names are compared (PEP 503)."""
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def test_every_imported_library_is_declared(checkout: Path) -> None:
+    project = tomllib.loads((checkout / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = {plain(re.split(r"[^\w.-]", line)[0]) for line in project["dependencies"]}
+    distributions = packages_distributions()
+    undeclared = {
+        f"{path.relative_to(checkout).as_posix()}: {name}"
+        for name, path in imported_libraries(checkout / "amp_studio")
+        if name not in sys.stdlib_module_names
+        and name not in {"amp_studio", "pydantic_core"}  # pydantic_core is pydantic's own other half
+        and not declared & {plain(owner) for owner in distributions.get(name, [name])}
+    }
+    assert undeclared == set()
+
+
+@pytest.mark.parametrize("lock", ["run", "dev"])
+def test_a_lock_file_pins_everything_by_hash_and_names_no_server(checkout: Path, lock: str) -> None:
+    text = (checkout / "requirements" / f"{lock}.lock").read_text(encoding="utf-8")
+    entries = [block for block in re.split(r"\n(?=\S)", text) if not block.startswith("#")]
+    assert [block for block in entries if "==" not in block or "--hash=sha256:" not in block] == []
+    assert re.findall(r"https?:|file:|--(?:index|extra|find|trusted)\S*", text) == []
+
+
+def test_the_lock_of_the_program_is_part_of_the_lock_of_development(checkout: Path) -> None:
+    locks = (checkout / "requirements" / name for name in ("run.lock", "dev.lock"))
+    run, dev = (set(re.findall(r"^([\w.-]+==\S+)", path.read_text("utf-8"), re.MULTILINE)) for path in locks)
+    assert run
+    assert run - dev == set()

@@ -1,0 +1,124 @@
+"""The wheel is all a user needs: it is built, installed into an empty environment and used far from the checkout."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import sysconfig
+import venv
+import zipfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+
+@dataclass(frozen=True)
+class Installed:
+    """An environment that holds the wheel and reaches the libraries, but not the checkout."""
+
+    folder: Path
+
+    def program(self, name: str) -> Path:
+        """Return a program of the environment."""
+        return self.folder / ("Scripts" if os.name == "nt" else "bin") / name
+
+    def run(self, *command: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+        """Run a program of the environment in ``cwd``, as a user without any of our settings would."""
+        private = {"XDG_CACHE_HOME": str(cwd / ".cache"), "HOME": str(cwd), "LOCALAPPDATA": str(cwd)}
+        env = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "COV_"))}
+        return subprocess.run(
+            [self.program(command[0]), *command[1:]],
+            cwd=cwd,
+            env=env | private,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            check=False,
+        )
+
+
+def files_below(folder: Path, *, within: Path) -> Iterable[str]:
+    """Yield the files of a folder as a wheel names them."""
+    for path in folder.rglob("*"):
+        if path.is_file() and "__pycache__" not in path.parts:
+            yield path.relative_to(within).as_posix()
+
+
+@pytest.fixture(scope="module")
+def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build the source archive from the checkout and the wheel from the source archive, without the network."""
+    out = tmp_path_factory.mktemp("dist")
+    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(out), str(checkout)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (found,) = out.glob("*.whl")
+    return found
+
+
+@pytest.fixture(scope="module")
+def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
+    """Install the wheel into a new environment; the libraries come by a path file, which leaves editable installs out."""
+    folder = tmp_path_factory.mktemp("empty") / "venv"
+    venv.create(folder, with_pip=False, symlinks=os.name != "nt")
+    environment = Installed(folder)
+    packages = Path(sysconfig.get_path("purelib", "venv", {"base": str(folder)}))
+    libraries = [line for line in sys.path if Path(line).name in {"site-packages", "dist-packages"}]
+    (packages / "libraries.pth").write_text("\n".join(libraries), encoding="utf-8")
+    pip = [sys.executable, "-m", "pip", "--python", str(environment.program("python"))]
+    command = [*pip, "install", "--no-deps", "--no-index", str(wheel)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return environment
+
+
+def test_the_wheel_holds_the_package_the_facts_and_the_examples(checkout: Path, wheel: Path) -> None:
+    expected = {
+        *files_below(checkout / "amp_studio", within=checkout),
+        *(f"amp_studio/{name}" for name in files_below(checkout / "parameter_db", within=checkout)),
+        *(f"amp_studio/{name}" for name in files_below(checkout / "examples", within=checkout)),
+    }
+    held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    assert expected == held
+
+
+def test_the_installed_program_reads_the_facts_of_the_wheel(installed: Installed, tmp_path: Path) -> None:
+    where = "from amp_studio.schema import database_folder; print(database_folder())"
+    done = installed.run("python", "-c", where, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    folder = Path(done.stdout.strip()).resolve()
+    assert folder.is_relative_to(installed.folder.resolve()), f"{folder} is not in the new environment"
+    assert (folder / "9pc" / "family.yaml").is_file()
+
+
+def test_the_installed_program_knows_its_families(
+    checkout: Path, installed: Installed, tmp_path: Path
+) -> None:
+    done = installed.run("amp-studio", "families", "--json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    known = {row["id"] for row in json.loads(done.stdout)["families"]}
+    assert {path.parent.name for path in checkout.glob("parameter_db/*/family.yaml")} == known
+
+
+def test_a_new_file_is_made_and_printed_far_from_the_checkout(installed: Installed, tmp_path: Path) -> None:
+    made = installed.run("amp-studio", "new", "9pc", "machine.amp", cwd=tmp_path)
+    assert made.returncode == 0, made.stderr
+    assert (tmp_path / "machine.amp").stat().st_size > 0
+
+    for ending, start in ((".txt", b""), (".html", b"<"), (".pdf", b"%PDF-")):
+        done = installed.run("amp-studio", "report", "machine.amp", "-o", f"machine{ending}", cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+        document = (tmp_path / f"machine{ending}").read_bytes()
+        assert document
+        assert document.startswith(start)
+
+
+def test_the_installed_program_refuses_in_one_line(installed: Installed, tmp_path: Path) -> None:
+    done = installed.run("amp-studio", "new", "no-such-family", "machine.amp", cwd=tmp_path)
+    assert done.returncode == 2
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert list(tmp_path.glob("*.amp")) == []
