@@ -110,14 +110,15 @@ ready() {
 }
 
 install_packages() {
-    rm -f .venv/ready-*
-    note "getting the packages of requirements/$1.lock (some 250 MB the first time, which can take minutes)"
+    rm -f .venv/ready-* .venv/qt-works
+    note "getting the packages of requirements/$1.lock (over 200 MB the first time, which can take minutes)"
     pip install --quiet --disable-pip-version-check --no-input --no-warn-script-location \
         --only-binary :all: --require-hashes -r "requirements/$1.lock" ||
         stop "the Python packages could not be installed (see above); is the network there?"
     pip install --quiet --disable-pip-version-check --no-input --no-warn-script-location \
         --no-index --no-deps --no-build-isolation --editable . ||
         stop "amp-studio could not be installed into .venv (see above)"
+    recipe "$1" >".venv/ready-$1"
 }
 
 # -- the libraries Qt needs from the system ---------------------------------------------------------
@@ -168,9 +169,11 @@ check_qt() {
         window=$(missing_libraries "$qt_window")
     fi
     if [ -n "$always" ]; then
-        stop "Qt needs system libraries that are missing; run: sudo apt-get install $(packages_of "$always $window")"
+        say="Qt needs system libraries that are missing; run: sudo apt-get install $(packages_of "$always $window")"
+        [ "$1" = dev ] || [ -n "$display" ] || { note "$say" && return 1; } # the demonstration can do without a window
+        stop "$say"
     fi
-    if [ -n "$window" ] && [ -n "${DISPLAY:-}" ] && [ -z "${WAYLAND_DISPLAY:-}" ]; then
+    if [ -n "$window" ] && [ "$display" = x11 ]; then
         stop "the window needs system libraries that are missing; run: sudo apt-get install $(packages_of "$window")"
     fi
     qt_starts || stop "Qt cannot be started (see above)"
@@ -183,11 +186,14 @@ run | dev) ;;
 *) stop "say 'run' or 'dev'" ;;
 esac
 
+display=${WAYLAND_DISPLAY:+wayland}
+display=${display:-${DISPLAY:+x11}}
+
 environment_works || make_environment
-if ! ready "$1"; then
-    install_packages "$1"
-    check_qt
-    recipe "$1" >".venv/ready-$1"
-elif [ "$1" = run ] && [ -n "${DISPLAY:-}" ]; then
-    check_qt # it may have been made ready where there was no display
+ready "$1" || install_packages "$1"
+# Looked at again for a window: the environment may have been made where there was no display.
+if [ ! -f .venv/qt-works ] || { [ "$1" = run ] && [ "$display" = x11 ]; }; then
+    if check_qt "$1"; then
+        touch .venv/qt-works
+    fi
 fi

@@ -8,12 +8,19 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 import tomllib
 from collections.abc import Iterator
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
+from pydantic import TypeAdapter
+from ruamel.yaml import YAML
+
+from amp_studio.schema import Parameter, Rule, load_schema, program
+from amp_studio.schema.catalog import number_of
+from amp_studio.schema.load import compile_family
 
 ROOMS = ("schema", "files", "validate", "report", "transfer", "sim", "ui")
 CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}
@@ -128,3 +135,28 @@ def test_the_lock_of_the_program_is_part_of_the_lock_of_development(checkout: Pa
     run, dev = (set(re.findall(r"^([\w.-]+==\S+)", path.read_text("utf-8"), re.MULTILINE)) for path in locks)
     assert run
     assert run - dev == set()
+
+
+def contributing_examples(checkout: Path) -> dict[str, str]:
+    """Return path -> text of the YAML examples of CONTRIBUTING.md; each names its file in its first line."""
+    text = (checkout / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^ *```yaml\n(.*?)^ *```$", text, re.DOTALL | re.MULTILINE)
+    return {re.match(r"\s*# (\S+)", block)[1]: textwrap.dedent(block) for block in blocks}
+
+
+def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path, tmp_path: Path) -> None:
+    examples = contributing_examples(checkout)
+    rules = examples.pop("parameter_db/9pc/rules.yaml")
+    parameter = examples.pop("parameter_db/9pc/groups/zone.yaml")
+    for path, text in examples.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text, encoding="utf-8")
+
+    (rule,) = TypeAdapter(tuple[Rule, ...]).validate_python(YAML(typ="safe").load(rules))
+    assert program(rule.check)
+    (written,) = TypeAdapter(tuple[Parameter, ...]).validate_python(YAML(typ="safe").load(parameter))
+    assert load_schema("9pc").parameters[written.id].numbers == written.numbers
+    assert load_schema("9pc").parameters[written.id].ranges == written.ranges
+    compiled = compile_family(tmp_path / "parameter_db" / "57c422b")
+    numbers, axes = compiled.groups[0].parameters[0].numbers, compiled.family.scopes["axis"].instances
+    assert [number_of(numbers, k, axis) for k, axis in enumerate(axes)] == ["R10", "R2058"]

@@ -7,7 +7,7 @@ it; every other room asks here and knows no parameter by heart.
 from .catalog import Address, Schema, UnknownParameter, load_schema, read_address, written
 from .constraint import Limits, clip, fault, limits
 from .load import DatabaseFault, database_folder, family_ids, read_rules
-from .model import AxisProfile, Choice, Condition, Erratum, Group, Parameter, Rule
+from .model import AxisProfile, Choice, Condition, Erratum, Group, Parameter, Rule, Table
 from .situation import IN_FORCE, Reading, Situation, StateInfo, canonical_value, program
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
 from .values import Value, ValueFault, label_of, read_value, show_value, write_number, write_value
@@ -28,6 +28,7 @@ __all__ = [
     "Schema",
     "Situation",
     "StateInfo",
+    "Table",
     "UnitError",
     "UnknownParameter",
     "Value",

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 from .load import load_compiled
-from .model import Erratum, Family, Group, Layout, Numbers, Parameter, Rule
+from .model import Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Table
 from .units import angular
 
 Address = tuple[str, str]
@@ -30,6 +30,7 @@ class Schema:
     groups: tuple[Group, ...]
     rules: tuple[Rule, ...]
     errata: dict[str, Erratum]
+    tables: dict[str, Table]
     parameters: dict[str, Parameter]
     group_of: dict[str, Group] = field(repr=False)
 
@@ -208,6 +209,7 @@ def load_schema(family_id: str) -> Schema:
         groups=compiled.groups,
         rules=compiled.rules,
         errata={e.id: e for e in compiled.errata},
+        tables={t.id: t for t in compiled.tables},
         parameters=parameters,
         group_of=group_of,
     )

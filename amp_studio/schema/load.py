@@ -18,7 +18,7 @@ import platformdirs
 from pydantic import TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
-from .model import Errata, Erratum, Family, Group, Model, Rule, Rules
+from .model import Errata, Erratum, Family, Group, Model, Rule, Rules, Table, Tables
 
 T = TypeVar("T", bound=Model)
 
@@ -38,6 +38,7 @@ class Compiled(Model):
     groups: tuple[Group, ...]
     rules: tuple[Rule, ...]
     errata: tuple[Erratum, ...]
+    tables: tuple[Table, ...]
 
 
 def database_folder() -> Path:
@@ -80,13 +81,14 @@ def compile_family(folder: Path) -> Compiled:
     rules_file, errata_file = folder / "rules.yaml", folder / "errata.yaml"
     rules = read_rules(rules_file) if rules_file.is_file() else ()
     errata = _read(errata_file, Errata).errata if errata_file.is_file() else ()
+    tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
     seen: set[str] = set()
     for key, group in zip(family.groups, groups, strict=True):
         for parameter in group.parameters:
             if parameter.id in seen:
                 raise DatabaseFault(folder / "groups" / f"{key}.yaml", None, f"{parameter.id} stands twice")
             seen.add(parameter.id)
-    return Compiled(family=family, groups=groups, rules=rules, errata=errata)
+    return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables)
 
 
 def read_rules(path: Path) -> tuple[Rule, ...]:

@@ -358,6 +358,32 @@ class Rules(Model):
     rules: tuple[Rule, ...]
 
 
+class TableColumn(Model):
+    """One column of a printed table: under a heading, or under several motors at once."""
+
+    name: str = ""
+    unit: str = ""
+    motors: tuple[str, ...] = ()
+    values: tuple[float, ...]
+
+
+class Table(Model):
+    """A printed table, in the order of the page."""
+
+    id: str
+    title: str
+    page: Page
+    ratios: tuple[str, ...] = ()
+    """The head of each row."""
+    columns: tuple[TableColumn, ...]
+
+
+class Tables(Model):
+    """A file of ``tables/``."""
+
+    tables: tuple[Table, ...]
+
+
 class Reading(Model):
     """What one place of the manual says."""
 

@@ -195,13 +195,22 @@ class Situation:
             offered = f"@{instances[0]} to @{instances[-1]}" if len(instances) > 1 else "no instances here"
             raise UnknownParameter(f"'{text}': {parameter.name} has {offered}")
         claims = self.schema.addressed_by(text, self.machine)
-        existing = [a for a in claims if self.state(a).state != "hidden"] or claims
+        existing = [a for a in claims if self.state(a).state != "hidden"] or self._nearest(claims)
         if not existing:
             raise UnknownParameter(f"'{text}' is no parameter of {self.schema.family.name}")
         if len(existing) > 1:
             names = " or ".join(f"{a[0]}@{a[1]}" for a in existing)
             raise UnknownParameter(f"number {text} means {names} here: say which by id")
         return existing[0]
+
+    def _nearest(self, claims: list[Address]) -> list[Address]:
+        """Return, of parameters that are all hidden, those that the fewest conditions hide."""
+        def hiding(address: Address) -> int:
+            rules = self.schema.parameters[address[0]].states
+            return sum(self.holds(r.when or r.unless or "", address[1]) == (r.when is not None) for r in rules)
+
+        counts = {address: hiding(address) for address in claims}
+        return [a for a in claims if counts[a] == min(counts.values())]
 
     # -- changes ---------------------------------------------------------------
 

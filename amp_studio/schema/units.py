@@ -6,6 +6,7 @@ unit it was entered in. Factors are exact: an inch is 25.4 mm by definition.
 
 from __future__ import annotations
 
+import math
 from decimal import Decimal
 from fractions import Fraction
 
@@ -59,9 +60,6 @@ ALIASES: dict[str, str] = {
 SHOWN: dict[str, str] = {"mm/s2": "mm/s²", "in/s2": "in/s²", "deg/s2": "deg/s²", "mm/s3": "mm/s³",
                          "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°"}  # fmt: skip
 
-_FLOATS = {unit: float(factor) for unit, (_, factor) in UNITS.items()}
-
-
 class UnitError(ValueError):
     """A unit that is not known, or does not measure what is asked for."""
 
@@ -85,8 +83,9 @@ def dimension(unit: str) -> str:
 
 
 def canonical(value: float, unit: str) -> float:
-    """Return ``value`` in the canonical unit of its dimension."""
-    return value * _FLOATS[unit]
+    """Return ``value`` in the canonical unit of its dimension, exact before one rounding: 0.3 in is 7.62 mm."""
+    factor = UNITS[unit][1]
+    return float(value) if factor == 1 else _rounded(value, factor)
 
 
 def convert(value: float, unit: str, to: str) -> float:
@@ -95,7 +94,15 @@ def convert(value: float, unit: str, to: str) -> float:
         return value
     if UNITS[unit][0] != UNITS[to][0]:
         raise UnitError(f"{unit or 'a bare number'} cannot be given in {to or 'a bare number'}")
-    return float(Fraction(Decimal(repr(float(value)))) * UNITS[unit][1] / UNITS[to][1])
+    return _rounded(value, UNITS[unit][1] / UNITS[to][1])
+
+
+def _rounded(value: float, factor: Fraction) -> float:
+    """Return the double nearest to the exact product; infinite where no double is that large."""
+    try:
+        return float(Fraction(Decimal(repr(float(value)))) * factor)
+    except OverflowError:
+        return math.copysign(math.inf, value)
 
 
 def canonical_unit(unit: str) -> str:

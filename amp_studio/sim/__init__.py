@@ -1,9 +1,10 @@
 """The machine in motion: what an axis does with the parameters it has, before the machine does it.
 
 `bind.axis_servo` takes the data of an axis from a parameter file (any callable that answers by parameter id),
-`step.run_step` moves it, `write` puts the trace into files. `SCENARIOS` holds one entry a scenario, each a single call
-from file to trace. Ids of a control family stand in that family's own module (`ninepc`), and nowhere else. Every
-modelling assumption is written where it is made, comes back with each trace, and is collected in docs/simulation.md.
+`step.run_step` moves it, `write` puts the trace into files. `SCENARIOS` holds one entry a scenario, each a
+single call from file to trace. Ids of a control family stand in that family's own module (`ninepc`), and
+nowhere else. Every modelling assumption is written where it is made, comes back with each trace, and is
+collected in docs/simulation.md.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from .servo import AxisServo, SimulationError, Source
 from .step import StepMove, default_move, run_step
 from .svg import plot_svg
 from .trace import Advice, Alarm, Figure, Trace
-from .write import plot_png, trace_csv, trace_summary, write_trace
+from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
 
 __all__ = [
     "BINDINGS",
@@ -40,5 +41,6 @@ __all__ = [
     "run_step",
     "trace_csv",
     "trace_summary",
+    "trace_text",
     "write_trace",
 ]

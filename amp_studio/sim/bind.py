@@ -27,9 +27,9 @@ def axis_servo(
     """Return the servo of an axis.
 
     ``value(parameter id, instance)`` answers in canonical units and choice keys, None where nothing is set.
-    ``overrides`` are values by parameter id (or by a name of MODEL_SETTINGS) that go before those of the file; one
-    that plays no part is refused. ``motor_gains`` looks up printed motor tables. Raises SimulationError naming the
-    parameter.
+    ``overrides`` are values by parameter id (or by a name of MODEL_SETTINGS) that go before those of the
+    file; one that plays no part is refused. ``motor_gains`` looks up printed motor tables. Raises
+    SimulationError naming the parameter.
     """
     binding = BINDINGS.get(family)
     if binding is None:

@@ -1,7 +1,7 @@
 """Runs the kernel as machine code or as plain Python, whichever is done sooner; the answer is the same.
 
-Loading numba and the cached machine code takes longer than a short move takes in plain Python, so a single call
-from the command line does without it, and a program that stays open (or a long move) uses it.
+Loading numba and the cached machine code takes longer than a short move takes in plain Python, so a single
+call from the command line does without it, and a program that stays open (or a long move) uses it.
 """
 
 from __future__ import annotations
@@ -36,10 +36,11 @@ _PARTS = (
 
 @lru_cache(maxsize=1)
 def compiled_run_move() -> RunMove:
-    """Return ``kernel.run_move`` as machine code; the first call on a machine compiles it and keeps the result.
+    """Return ``kernel.run_move`` as machine code; the first call on a machine compiles it and keeps the
+    result.
 
-    The signature is explicit, so there is one compilation and none later; ``fastmath`` stays off, so that sums
-    are formed in the order they are written in. Raises ImportError where numba is not installed.
+    The signature is explicit, so there is one compilation and none later; ``fastmath`` stays off, so that
+    sums are formed in the order they are written in. Raises ImportError where numba is not installed.
     """
     import numba
     from numba.extending import register_jitable

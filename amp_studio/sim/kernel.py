@@ -1,25 +1,27 @@
-"""One move of one servo axis, from servo period to servo period: the inner loop, over plain floats and one array.
+"""One move of one servo axis, from servo period to servo period: the inner loop, over plain floats and one
+array.
 
-Everything that is compiled stands in this one file: numba's cache notices a change of the file it compiled from,
-and of no other. The source is ordinary Python and runs without numba, with the same answer; `engine.py` chooses.
+Everything that is compiled stands in this one file: numba's cache notices a change of the file it compiled
+from, and of no other. The source is ordinary Python and runs without numba, with the same answer; `engine.py`
+chooses.
 
-Once a servo period (the SERCOS cycle, which the 9/PC AMP manual calls the servo update rate, 7-4) the position is
-measured, the following error is watched, and the velocity command is set and then held, a zero-order hold as in
-G. F. Franklin, J. D. Powell, M. L. Workman, Digital Control of Dynamic Systems (1998). Within the period velocity
-loop, torque limit and axis run in physics steps. Their states are position x, speed v and the sum w of the
-velocity error:
+Once a servo period (the SERCOS cycle, which the 9/PC AMP manual calls the servo update rate, 7-4) the
+position is measured, the following error is watched, and the velocity command is set and then held, a
+zero-order hold as in G. F. Franklin, J. D. Powell, M. L. Workman, Digital Control of Dynamic Systems (1998).
+Within the period velocity loop, torque limit and axis run in physics steps. Their states are position x,
+speed v and the sum w of the velocity error:
 
     velocity error      e  = vc - v
     acceleration asked  a* = kp e + kp ki w                       (PI, series form)
     torque              M  = 100 a* / a_rated, cut to [-M_neg, +M_pos]       in % of rated torque
     axis                dv/dt = a_rated M / 100 - viscous v - friction(v),   dx/dt = v
 
-Sources, 9/PC AMP manual: proportional and integral share added into an acceleration command 7-54, 7-56 and block
-diagram 7-10; discharge of the sum 7-58; torque limits 7-61, 7-62; ramps 10-8, 10-10; exponential speed 10-15.
-Textbooks: PI in series form, and holding the sum while the output is cut, K. J. Åström, T. Hägglund, PID
-Controllers: Theory, Design, and Tuning (1995); cascade of position and velocity loop on a rigid axis, H. Gross,
-J. Hamann, G. Wiegärtner, Electrical Feed Drives in Automation (2001); ramps in discrete time, S.-H. Suh,
-S.-K. Kang, D.-H. Chung, I. Stroud, Theory and Design of CNC Systems (2008).
+Sources, 9/PC AMP manual: proportional and integral share added into an acceleration command 7-54, 7-56 and
+block diagram 7-10; discharge of the sum 7-58; torque limits 7-61, 7-62; ramps 10-8, 10-10; exponential speed
+10-15. Textbooks: PI in series form, and holding the sum while the output is cut, K. J. Åström, T. Hägglund,
+PID Controllers: Theory, Design, and Tuning (1995); cascade of position and velocity loop on a rigid axis, H.
+Gross, J. Hamann, G. Wiegärtner, Electrical Feed Drives in Automation (2001); ramps in discrete time, S.-H.
+Suh, S.-K. Kang, D.-H. Chung, I. Stroud, Theory and Design of CNC Systems (2008).
 """
 
 from __future__ import annotations
@@ -70,8 +72,6 @@ class Loop(NamedTuple):
     """1/s."""
     coulomb: float
     """unit/s2."""
-    coulomb_speed: float
-    """unit/s below which dry friction is taken proportional to speed, above 0."""
     resolution: float
     """Travel of one encoder count; 0 for ideal feedback."""
     feedrate_suppression: float
@@ -98,7 +98,11 @@ class Profile(NamedTuple):
     snap: float
     """Rest of the distance below which an exponential command goes to its end."""
     settle: float
-    """s to go on after the command has ended; infinite to fill all rows."""
+    """s to go on at most after the command has ended; infinite to fill all rows."""
+    rest: float
+    """Following error within which the axis counts as at rest, once the command has ended."""
+    hold: float
+    """s at rest after which the move is over; infinite to fill all rows."""
 
 
 def velocity_asked(f: Loop, following_error: float) -> float:
@@ -131,11 +135,13 @@ def limited_torque(f: Loop, torque: float) -> float:
     return min(max(torque, -f.torque_negative), f.torque_positive)
 
 
-def rates(f: Loop, velocity_command: float, speed: float, error_sum: float) -> tuple[float, float]:
-    """Return (dv/dt, dw/dt) in unit/s2 and unit/s.
+def rates(
+    f: Loop, velocity_command: float, speed: float, error_sum: float, dry: float
+) -> tuple[float, float]:
+    """Return (dv/dt, dw/dt) in unit/s2 and unit/s; ``dry`` is the dry friction in unit/s2 with its sign.
 
-    The sum w empties ``discharge`` times faster than it fills (7-58), and holds while the torque is cut and the
-    error would push it further (conditional integration, Åström and Hägglund).
+    The sum w empties ``discharge`` times faster than it fills (7-58), and holds while the torque is cut and
+    the error would push it further (conditional integration, Åström and Hägglund).
     """
     error = velocity_command - speed
     wanted = wanted_torque(f, velocity_command, speed, error_sum)
@@ -145,28 +151,37 @@ def rates(f: Loop, velocity_command: float, speed: float, error_sum: float) -> t
         gathered = 0.0
     elif error * error_sum < 0.0:
         gathered = error * f.discharge
-    drag = f.viscous * speed
-    if f.coulomb > 0.0:
-        drag += f.coulomb * min(max(speed / f.coulomb_speed, -1.0), 1.0)
-    return f.rated_acceleration * torque / 100.0 - drag, gathered
+    return f.rated_acceleration * torque / 100.0 - f.viscous * speed - dry, gathered
 
 
 def advance(
     f: Loop, velocity_command: float, position: float, speed: float, error_sum: float, h: float
 ) -> tuple[float, float, float]:
-    """Return position, speed and error sum ``h`` seconds later, the velocity command held (Runge-Kutta 4)."""
-    v1, w1 = rates(f, velocity_command, speed, error_sum)
+    """Return position, speed and error sum ``h`` seconds later, the velocity command held (Runge-Kutta 4).
+
+    Dry friction has the sign of the speed over the whole step. An axis that stands stays until the torque is
+    above the friction, and one whose speed passes through zero in a step stands at its end (after D. Karnopp,
+    Computer Simulation of Stick-Slip Friction in Mechanical Dynamic Systems, ASME Journal of Dynamic Systems,
+    Measurement, and Control 107, 1985).
+    """
+    dry = 0.0
+    if f.coulomb > 0.0:
+        push, gathered = rates(f, velocity_command, speed, error_sum, 0.0)
+        if speed == 0.0 and abs(push) <= f.coulomb:
+            return position, 0.0, error_sum + h * gathered
+        dry = math.copysign(f.coulomb, push if speed == 0.0 else speed)
+    v1, w1 = rates(f, velocity_command, speed, error_sum, dry)
     speed2 = speed + 0.5 * h * v1
-    v2, w2 = rates(f, velocity_command, speed2, error_sum + 0.5 * h * w1)
+    v2, w2 = rates(f, velocity_command, speed2, error_sum + 0.5 * h * w1, dry)
     speed3 = speed + 0.5 * h * v2
-    v3, w3 = rates(f, velocity_command, speed3, error_sum + 0.5 * h * w2)
+    v3, w3 = rates(f, velocity_command, speed3, error_sum + 0.5 * h * w2, dry)
     speed4 = speed + h * v3
-    v4, w4 = rates(f, velocity_command, speed4, error_sum + h * w3)
-    return (
-        position + h * (speed + 2.0 * speed2 + 2.0 * speed3 + speed4) / 6.0,
-        speed + h * (v1 + 2.0 * v2 + 2.0 * v3 + v4) / 6.0,
-        error_sum + h * (w1 + 2.0 * w2 + 2.0 * w3 + w4) / 6.0,
-    )
+    v4, w4 = rates(f, velocity_command, speed4, error_sum + h * w3, dry)
+    moved = h * (speed + 2.0 * speed2 + 2.0 * speed3 + speed4) / 6.0
+    reached = speed + h * (v1 + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
+    if reached * dry < 0.0:
+        reached = 0.0
+    return position + moved, reached, error_sum + h * (w1 + 2.0 * w2 + 2.0 * w3 + w4) / 6.0
 
 
 def linear_step(
@@ -198,9 +213,10 @@ def next_command(
 ) -> tuple[float, float, float]:
     """Return (progress, speed, fed) of the command one servo period later, in unit, unit/s, unit.
 
-    All three are counted along the move and never negative. ``feedrate`` is the one in force now (halved while
-    suppressed, 7-21). ``fed`` is what the exponential filter has been given so far: the programmed feedrate
-    passes a first-order lag, v += (F - v)(1 - exp(-T / time constant)), which loses no distance (10-15).
+    All three are counted along the move and never negative. ``feedrate`` is the one in force now (halved
+    while suppressed, 7-21). ``fed`` is what the exponential filter has been given so far: the programmed
+    feedrate passes a first-order lag, v += (F - v)(1 - exp(-T / time constant)), which loses no distance
+    (10-15).
     """
     if p.ramp == LINEAR:
         progress, speed = linear_step(p, progress, speed, feedrate, period)
@@ -221,15 +237,15 @@ def next_command(
 def run_move(f: Loop, p: Profile, substeps: int, rows: npt.NDArray[np.float64]) -> int:
     """Run one move from rest and fill ``rows``; return how many were filled.
 
-    ``rows`` is (n, 7) float64, one row a physics step (``substeps`` of them a servo period), columns as COLUMNS
-    in s, unit, unit/s and %. Fewer than n rows come back when the excess error ended the move (the last row is
-    then the first servo period with the error above it, 7-20), or when the command has ended and ``settle`` has
-    passed.
+    ``rows`` is (n, 7) float64, one row a physics step (``substeps`` of them a servo period), columns as
+    COLUMNS in s, unit, unit/s and %. Fewer than n rows come back when the excess error ended the move (the
+    last row is then the first servo period with the error above it, 7-20), or when the command has ended and
+    the axis has been at rest for ``hold``, or ``settle`` has passed.
     """
     h = f.servo_period / substeps
     position, speed, error_sum = 0.0, 0.0, 0.0
     progress, command_speed, fed = 0.0, 0.0, 0.0
-    row, period, ended = 0, 0, -1
+    row, period, ended, restless = 0, 0, -1, 0
     while True:
         command = p.sign * progress
         following_error = command - measured(f, position)
@@ -237,6 +253,10 @@ def run_move(f: Loop, p: Profile, substeps: int, rows: npt.NDArray[np.float64]) 
         stopped = size > f.excess_error
         if ended < 0 and progress >= p.distance:
             ended = period
+        if ended < 0 or size > p.rest:
+            restless = period
+        if (period - restless) * f.servo_period > p.hold:
+            return row
         if ended >= 0 and (period - ended) * f.servo_period > p.settle:
             return row
         feedrate = 0.5 * p.feedrate if size > f.feedrate_suppression else p.feedrate

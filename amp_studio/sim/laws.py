@@ -18,9 +18,10 @@ The manual's response time of 120 ms at gain 1 (10-2) is two of the 60 ms of tha
 def steady_following_error(servo: AxisServo, feedrate: float) -> float:
     """Return the following error at a constant feedrate; infinite where the loop never reaches it.
 
-    feedrate / (gain x 1000) (7-25); with velocity feed-forward of p % the share 1 - p/100 of it (7-28). With a
-    gain break the error follows the broken line: up to the feedrate 1000 gain x break point as above, beyond it
-    break point + (feedrate - that feedrate) / (1000 gain x ratio) (inverse of the law of 7-22 and 7-27).
+    feedrate / (gain x 1000) (7-25); with velocity feed-forward of p % the share 1 - p/100 of it (7-28). With
+    a gain break the error follows the broken line: up to the feedrate 1000 gain x break point as above,
+    beyond it break point + (feedrate - that feedrate) / (1000 gain x ratio) (inverse of the law of 7-22 and
+    7-27).
     """
     plain = abs(feedrate) * (1.0 - servo.feed_forward_share) / (servo.position_gain * 1000.0)
     if servo.break_ratio == 1.0 or plain <= servo.gain_break_point:
@@ -62,7 +63,9 @@ def loop_ratio(servo: AxisServo) -> float:
 
 
 def available_acceleration(servo: AxisServo, feedrate: float) -> float:
-    """Return what the weaker torque limit leaves for accelerating at a feedrate after friction; may be negative."""
+    """Return what the weaker torque limit leaves for accelerating at a feedrate after friction; may be
+    negative.
+    """
     torque = min(servo.torque_limit_positive, servo.torque_limit_negative)
     friction = servo.coulomb_friction + servo.viscous_friction * abs(feedrate) / 1000.0
     return servo.acceleration_at_rated * (torque - friction) / 100.0

@@ -2,14 +2,15 @@
 
 The only place of the simulator that knows ids of the 9/PC. Pages are those of the 9/PC AMP manual.
 
-The unit of the velocity loop gains is an inference; the manual prints none. It bounds Velocity Proportional Gain
-by 3277 to 10923 times the position gain (7-54) and Velocity Integral Gain by 1092 times it (7-56), and says that
-the constants convert to inverse milliseconds, in which the position gain is 60 / gain (7-25). 65536 / 3277 = 20,
-65536 / 10923 = 6 and 65536 / 1092 = 60: read as value / 65536 per ms, the bounds say that the velocity loop shall be
-3 to 10 times as fast as the position loop, and its integral slower than the position loop, at every gain. That is
-how a cascade is laid out in textbooks, and 65536 is the full scale of the 16-bit value. The integral is taken in
-series with the proportional gain, a* = kp (e + ki sum(e)): then the 5 to 10 times between both gains at the end of
-the tuning procedure (A-9) are a damping of 1.1 to 1.6; added in parallel, per ms, they would be one of 0.25 to 0.65.
+The unit of the velocity loop gains is an inference; the manual prints none. It bounds Velocity Proportional
+Gain by 3277 to 10923 times the position gain (7-54) and Velocity Integral Gain by 1092 times it (7-56), and
+says that the constants convert to inverse milliseconds, in which the position gain is 60 / gain (7-25). 65536
+/ 3277 = 20, 65536 / 10923 = 6 and 65536 / 1092 = 60: read as value / 65536 per ms, the bounds say that the
+velocity loop shall be 3 to 10 times as fast as the position loop, and its integral slower than the position
+loop, at every gain. That is how a cascade is laid out in textbooks, and 65536 is the full scale of the 16-bit
+value. The integral is taken in series with the proportional gain, a* = kp (e + ki sum(e)): then the 5 to 10
+times between both gains at the end of the tuning procedure (A-9) are a damping of 1.1 to 1.6; added in
+parallel, per ms, they would be one of 0.25 to 0.65.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ PER_MS = 65536.0
 RATE = 1000.0 / PER_MS
 """1/s for a velocity loop gain of 1."""
 DEFAULT_ACCELERATION = 1989.66667
-"""mm/s2: the printed default of Maximum Servo Acceleration (37-3)."""
+"""mm/s2: the printed default of Maximum Servo Acceleration (1021, Patch AMP values from 37-3 on)."""
 ANALOG_RATIO = 10923.0 * 60.0 / PER_MS
 """Velocity loop rate over position loop rate at the quick end of the printed bounds: 10."""
 
@@ -98,19 +99,22 @@ _NO_LOOP = {
 def axis_servo(read: Readings, motor_gains: MotorGains | None = None) -> AxisServo:
     """Return the servo of one axis from its parameters.
 
-    ``motor_gains`` looks up the standard motor tables (Tables 7.B and 7.C); without it the gains of the file are
-    used and an assumption says so. Raises SimulationError for an axis whose loop the control does not close, and
-    for a parameter that is needed and not set.
+    ``motor_gains`` looks up the standard motor tables (Tables 7.B and 7.C); without it the gains of the file
+    are used and an assumption says so. Raises SimulationError for an axis whose loop the control does not
+    close, and for a parameter that is needed and not set.
     """
     unit, loop, zfe = _kind(read)
     notes: list[str] = []
-    needed = _ALWAYS_READ if zfe else {**_ALWAYS_READ, **_BREAK}
-    figures: dict[str, float] = {name: read.number(source.parameter) for name, source in needed.items()}
+    needed = {**_ALWAYS_READ, **_BREAK}
+    figures: dict[str, float] = {}
+    for name, source in needed.items():
+        # A ZFE axis does not use the gain break, but its place among the limits still counts (7-22).
+        if not (zfe and name in _BREAK and read.value(source.parameter) is None):
+            figures[name] = read.number(source.parameter)
     figures["servo_period"] = read.number(CYCLE, everywhere=True)
     sources = {**needed, **_OTHERS, "travel": _feedback(read, unit, figures, notes)}
     for name in _LIMITS:
-        if name in sources:
-            sources[name] = replace(sources[name], largest=_LARGEST[unit])
+        sources[name] = replace(sources[name], largest=_LARGEST[unit])
     if loop == "digital":
         _digital(read, unit, figures, notes, motor_gains)
         sources.update(_DIGITAL)
@@ -146,13 +150,14 @@ def _kind(read: Readings) -> tuple[str, str, bool]:
         raise SimulationError(f"axis {axis} is unfitted", "axis.type")
     if kind == "spindle":
         raise SimulationError(
-            f"axis {axis} is a spindle; its gains belong to the spindle gears and are not simulated", "axis.type"
+            f"axis {axis} is a spindle; its gains belong to the spindle gears and are not simulated",
+            "axis.type",
         )
     loop = read.choice(LOOP)
     if loop == "sercos":
         raise SimulationError(
-            f"axis {axis} has a third-party SERCOS drive: the drive closes both loops with settings of its own, and"
-            " they are not in this file",
+            f"axis {axis} has a third-party SERCOS drive: the drive closes both loops with settings of its"
+            " own, and they are not in this file",
             LOOP,
         )
     if loop not in ("digital", "analog") or read.value(HARDWARE) == "none":
@@ -184,8 +189,8 @@ def _feedback(read: Readings, unit: str, figures: dict[str, float], notes: list[
         figures["travel"] = 360.0 if own is None else own
     if own is None and unit == "deg":
         notes.append(
-            f"The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the gears of"
-            f" this rotary axis is taken as 360 deg; give {OWN_TRAVEL} where it is another."
+            "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the"
+            f" gears of this rotary axis is taken as 360 deg; give {OWN_TRAVEL} where it is another."
         )
     if "travel" in figures:
         return Source(OWN_TRAVEL)
@@ -205,29 +210,30 @@ def _digital(
         if gains:
             proportional, integral = gains
             notes.append(
-                f"Standard Motor Table Values is Yes: {proportional!r} and {integral!r} of Tables 7.B and 7.C stand in"
-                " for the velocity loop gains of the file (7-6)."
+                f"Standard Motor Table Values is Yes: {proportional!r} and {integral!r} of Tables 7.B and 7.C"
+                " stand in for the velocity loop gains of the file (7-6)."
             )
         else:
             notes.append(
-                "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its tables"
-                " (7-6); the gains of the file are simulated instead."
+                "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its"
+                " tables (7-6); the gains of the file are simulated instead."
             )
         notes.append("The control may replace the torque limits of a standard motor by its own (7-61).")
     figures["velocity_rate"], figures["integral_rate"] = proportional * RATE, integral * RATE
     for name in ("integrator_discharge", "torque_limit_positive", "torque_limit_negative"):
         figures[name] = read.number(_DIGITAL[name].parameter)
     notes.append(
-        "Velocity Proportional Gain and Velocity Integral Gain act as value / 65536 per ms: an inference from the"
-        " bounds of 7-54 and 7-56; the manual prints no unit."
+        "Velocity Proportional Gain and Velocity Integral Gain act as value / 65536 per ms: an inference from"
+        " the bounds of 7-54 and 7-56; the manual prints no unit."
     )
     own = read.optional(OWN_ACCELERATION)
     figures["acceleration_at_rated"] = DEFAULT_ACCELERATION if own is None else own
     if own is None:
         notes.append(
-            f"ASSUMED: {DEFAULT_ACCELERATION!r} {unit}/s2 at 100 % of rated torque. It is the printed default of Maximum"
-            " Servo Acceleration (37-3), a figure for peak current (7-67) that a digital axis does not have; every"
-            f" statement on torque hangs on it. Give {OWN_ACCELERATION}: rated torque / inertia, at the axis."
+            f"ASSUMED: {DEFAULT_ACCELERATION!r} {unit}/s2 at 100 % of rated torque. It is the printed default"
+            " of Maximum Servo Acceleration (Patch AMP values, 37-3), a figure for peak current (7-67) that a"
+            f" digital axis does not have; every statement on torque hangs on it. Give {OWN_ACCELERATION}:"
+            " rated torque / inertia, at the axis."
         )
 
 
@@ -235,8 +241,8 @@ def _analog(read: Readings, figures: dict[str, float], notes: list[str]) -> None
     """The velocity loop closed in another make of drive, with settings that are not in the file (7-3)."""
     figures["velocity_rate"] = ANALOG_RATIO * figures["position_gain"] * 1000.0 / 60.0
     notes.append(
-        "ASSUMED: the drive closes the velocity loop itself (7-3), ten times as fast as the position loop and without"
-        " an integral share, the quick end of the bounds of 7-54."
+        "ASSUMED: the drive closes the velocity loop itself (7-3), ten times as fast as the position loop and"
+        " without an integral share, the quick end of the bounds of 7-54."
     )
     peak = _peak(read)
     figures["torque_limit_positive"] = figures["torque_limit_negative"] = peak
@@ -244,8 +250,8 @@ def _analog(read: Readings, figures: dict[str, float], notes: list[str]) -> None
     if own is None:
         figures["acceleration_at_rated"] = read.number(MAX_ACCELERATION) * 100.0 / peak
         notes.append(
-            "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of RMS (7-60)"
-            " leads from it to rated torque and is the torque limit."
+            "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of"
+            " RMS (7-60) leads from it to rated torque and is the torque limit."
         )
     else:
         figures["acceleration_at_rated"] = own
@@ -267,8 +273,8 @@ def _exponential(read: Readings, notes: list[str]) -> tuple[float | None, float 
         return None, None
     scan = fine * (1.0 if scans is None else scans)
     notes.append(
-        "One coarse iteration of Programmed Delay Constant (10-17) is taken as Fine Foreground Scan Time times Fine"
-        f" Scans per Logic Scan (33-19), {scan!r} ms."
+        "One coarse iteration of Programmed Delay Constant (10-17) is taken as Fine Foreground Scan Time"
+        f" times Fine Scans per Logic Scan (33-19), {scan!r} ms."
     )
     if not (math.isfinite(scan) and scan > 0.0):
         raise SimulationError(f"{SCAN} times {SCANS} is {scan!r} ms; it must be above 0", SCAN)
@@ -276,20 +282,32 @@ def _exponential(read: Readings, notes: list[str]) -> tuple[float | None, float 
 
 
 _CLOSED = (
-    "The velocity command is proportional to the following error (7-14, 7-25); what lies beyond the gain break point"
-    " counts only gain break ratio times (7-22, 7-27), a broken line without a jump (the figure of 7-23 is lost).",
+    (
+        "The velocity command is proportional to the following error (7-14, 7-25); what lies beyond the gain"
+        " break point counts only gain break ratio times (7-22, 7-27), a broken line without a jump (the"
+        " figure of 7-23 is lost)."
+    ),
 )
 _ZFE = (
-    "Feed Forward Percent of the command velocity is added to what the following error asks for (7-15, 7-28); the"
-    " gain break is not used (7-22, 7-27).",
+    (
+        "Feed Forward Percent of the command velocity is added to what the following error asks for (7-15,"
+        " 7-28); the gain break is not used (7-22, 7-27)."
+    ),
 )
 _ALWAYS = (
     "The position loop runs at the SERCOS cycle, the servo update rate (7-4).",
-    "The PI velocity loop forms an acceleration command (7-54, 7-56); its sum empties Discharge Rate times faster than"
-    " it fills (7-58).",
+    (
+        "The PI velocity loop forms an acceleration command (7-54, 7-56); its sum empties Discharge Rate"
+        " times faster than it fills (7-58)."
+    ),
     "Max % rated torque (+) and (-) cut the torque by its sign, not by the direction of travel (7-61, 7-62).",
-    "Torque filter, torque offset, friction compensation, reversal error and S-curve ramps are not simulated.",
-    "A linear ramp of 0 is no ramp (10-8), a deceleration of 0 is that of the acceleration (10-10); Velocity Step for"
-    " Acc/Dec is not used.",
+    (
+        "Torque filter, torque offset, friction compensation, reversal error and S-curve ramps are not"
+        " simulated."
+    ),
+    (
+        "A linear ramp of 0 is no ramp (10-8), a deceleration of 0 is that of the acceleration (10-10);"
+        " Velocity Step for Acc/Dec is not used."
+    ),
     "Excess error and feedrate suppression are watched once a servo cycle (7-20, 7-21).",
 )

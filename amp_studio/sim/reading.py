@@ -1,7 +1,7 @@
 """Reads the parameters of one axis for a simulation, and says plainly which one is missing.
 
-All it knows of a parameter file is one question: the value of a parameter by id and instance, in the canonical
-unit of its quantity, a choice as its key, yes/no as a bool, None where nothing is set.
+All it knows of a parameter file is one question: the value of a parameter by id and instance, in the
+canonical unit of its quantity, a choice as its key, yes/no as a bool, None where nothing is set.
 """
 
 from __future__ import annotations
@@ -56,7 +56,9 @@ class Readings:
 
     def missing(self, parameter: str) -> SimulationError:
         """Return the error that says a parameter is not set."""
-        return SimulationError(f"{parameter} is not set for axis {self.axis}; the simulation needs it", parameter)
+        return SimulationError(
+            f"{parameter} is not set for axis {self.axis}; the simulation needs it", parameter
+        )
 
     def refuse_unused(self) -> None:
         """Raise SimulationError for a value given by hand that nothing read, so that a slip cannot hide."""

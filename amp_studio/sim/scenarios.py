@@ -23,13 +23,14 @@ class Scenario:
     settings: Mapping[str, str]
     """Settings of the move that can be given by hand -> what they are."""
     run: Run
-    """run(value, axis, overrides, family, motor gains) -> Trace; overrides as in bind.axis_servo, with settings."""
+    """run(value, axis, overrides, family, motor gains) -> Trace; overrides as in bind.axis_servo, with
+    settings."""
 
 
 MOVE = {
     "move.distance": "distance of the move, with its sign (mm or deg)",
     "move.feedrate": "feedrate of the move (mm/min or deg/min); the rapid feedrate when not given",
-    "move.mode": "ramp of the command: linear, exponential or none; the axis' positioning ramp when not given",
+    "move.mode": "ramp: linear, exponential or none; the one of the axis for positioning when not given",
     "move.duration": "time to simulate (s); until the axis rests when not given",
 }
 

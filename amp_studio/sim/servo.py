@@ -1,7 +1,7 @@
 """One servo axis as the simulator sees it: plain figures in canonical units, checked when it is made.
 
-Nothing here knows a control family or a parameter file. `sources` says which parameter a figure came from, so that
-an error and a piece of advice can name it.
+Nothing here knows a control family or a parameter file. `sources` says which parameter a figure came from, so
+that an error and a piece of advice can name it.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from .kernel import Loop
 LONGEST_STEP = 0.25e-3
 """s: the physics step is never longer."""
 STIFFEST_STEP = 0.5
-"""Physics step times the fastest rate of the axis; Runge-Kutta 4 is stable up to 2.7 and exact to 3e-4 here."""
+"""Physics step times the fastest rate of the axis; Runge-Kutta 4 is stable up to 2.7 and exact to 3e-4
+here."""
 MOST_SUBSTEPS = 10_000
 
 
@@ -122,7 +123,7 @@ class AxisServo:
         self._demand("feed_forward", self.feed_forward <= 100.0, "must be between 0 and 100 %")
         self._demand("integrator_discharge", self.integrator_discharge >= 1.0, "must be 1 or more")
         self._demand("positioning_ramp", self.positioning_ramp in RAMPS, f"must be one of {', '.join(RAMPS)}")
-        if self.substeps > MOST_SUBSTEPS:
+        if not self._substeps_wanted <= MOST_SUBSTEPS:
             raise SimulationError(
                 f"{self.described('velocity_rate')} makes a velocity loop too fast to simulate"
                 f" ({self.velocity_rate!r} 1/s)",
@@ -171,13 +172,17 @@ class AxisServo:
     @property
     def substeps(self) -> int:
         """Physics steps in a servo period."""
+        return max(1, math.ceil(self._substeps_wanted))
+
+    @property
+    def _substeps_wanted(self) -> float:
         period = self.servo_period / 1000.0
         fastest = (
             self.velocity_rate
             + math.sqrt(self.velocity_rate * self.integral_rate * self.integrator_discharge)
             + self._viscous_rate
         )
-        return max(1, math.ceil(period / LONGEST_STEP - 1e-9), math.ceil(period * fastest / STIFFEST_STEP))
+        return max(period / LONGEST_STEP - 1e-9, period * fastest / STIFFEST_STEP)
 
     @property
     def _viscous_rate(self) -> float:
@@ -186,7 +191,6 @@ class AxisServo:
     def loop(self) -> Loop:
         """Return the figures of the kernel, in unit and s."""
         period = self.servo_period / 1000.0
-        coulomb = self.acceleration_at_rated * self.coulomb_friction / 100.0
         figures = Loop(
             servo_period=period,
             position_gain=self.position_rate,
@@ -200,9 +204,7 @@ class AxisServo:
             torque_positive=self.torque_limit_positive,
             torque_negative=self.torque_limit_negative,
             viscous=self._viscous_rate,
-            coulomb=coulomb,
-            # The speed dry friction alone would change in two physics steps: no chatter around standstill.
-            coulomb_speed=2.0 * coulomb * period / self.substeps if coulomb else 1.0,
+            coulomb=self.acceleration_at_rated * self.coulomb_friction / 100.0,
             resolution=0.0 if self.ideal_feedback else self.count,
             feedrate_suppression=self.feedrate_suppression,
             excess_error=self.excess_error,

@@ -27,24 +27,39 @@ STEADY_SPEED = 1e-3
 """Share by which the command speed may differ from the feedrate and still count as constant."""
 STEADY_LAGS = 6.0
 """Time constants of the position loop after which a constant speed counts as steady."""
+_PAUSE = 0.1
+"""s of standstill every trace ends with, and more for a slow loop."""
 
 MODEL = (
-    "position loop P with gain break and feed-forward, velocity loop PI, torque limit, rigid axis, counted feedback"
+    "position loop P with gain break and feed-forward, velocity loop PI, torque limit, rigid axis, counted"
+    " feedback"
 )
 
 TEXTBOOK = (
-    "The axis is one rigid mass; screw, coupling and bearings have no spring and no play (Gross, Hamann, Wiegärtner,"
-    " Electrical Feed Drives in Automation, 2001).",
-    "The current loop is ideal: the torque follows its command at once (same source; it is 5 to 10 times faster than"
-    " the velocity loop).",
-    "Position is measured and the velocity command set once a servo period and held in between (Franklin, Powell,"
-    " Workman, Digital Control of Dynamic Systems, 1998).",
-    "The velocity loop is continuous and its feedback has no counts; the position feedback is rounded to the nearest"
-    " count.",
-    "The sum of the velocity error holds while the torque is cut and the error would push it further (Åström,"
-    " Hägglund, PID Controllers, 1995).",
-    "While the feedrate is suppressed the command goes to half the feedrate and back by the same ramp as any other"
-    " change of speed.",
+    (
+        "The axis is one rigid mass; screw, coupling and bearings have no spring and no play (Gross, Hamann,"
+        " Wiegärtner, Electrical Feed Drives in Automation, 2001)."
+    ),
+    (
+        "The current loop is ideal: the torque follows its command at once (same source; it is 5 to 10 times"
+        " faster than the velocity loop)."
+    ),
+    (
+        "Position is measured and the velocity command set once a servo period and held in between (Franklin,"
+        " Powell, Workman, Digital Control of Dynamic Systems, 1998)."
+    ),
+    (
+        "The velocity loop is continuous and its feedback has no counts; the position feedback is rounded to"
+        " the nearest count."
+    ),
+    (
+        "The sum of the velocity error holds while the torque is cut and the error would push it further"
+        " (Åström, Hägglund, PID Controllers, 1995)."
+    ),
+    (
+        "While the feedrate is suppressed the command goes to half the feedrate and back by the same ramp as"
+        " any other change of speed."
+    ),
     "The simulated motion ends with an excess error alarm; how the axis then stops is not simulated.",
 )
 
@@ -53,8 +68,8 @@ TEXTBOOK = (
 class StepMove:
     """One move from rest: distance with its sign in the axis' unit, feedrate in unit/min, ramp, time in s.
 
-    `mode` None takes the axis' ramp for positioning; `duration` None ends when the axis has come to rest. Raises
-    SimulationError for a move that is none.
+    `mode` None takes the axis' ramp for positioning; `duration` None ends when the axis has come to rest.
+    Raises SimulationError for a move that is none.
     """
 
     distance: float
@@ -68,7 +83,9 @@ class StepMove:
         if not (math.isfinite(self.feedrate) and self.feedrate > 0.0):
             raise SimulationError(f"the feedrate of the move is {self.feedrate!r}; it must be above 0")
         if self.mode is not None and self.mode not in RAMPS:
-            raise SimulationError(f"the ramp of the move is '{self.mode}'; it must be one of {', '.join(RAMPS)}")
+            raise SimulationError(
+                f"the ramp of the move is '{self.mode}'; it must be one of {', '.join(RAMPS)}"
+            )
         if self.duration is not None and not 0.0 < self.duration < math.inf:
             raise SimulationError(f"the duration is {self.duration!r} s; it must be above 0")
 
@@ -80,13 +97,16 @@ def default_move(
     mode: str | None = None,
     duration: float | None = None,
 ) -> StepMove:
-    """Return a move that shows the axis at a steady speed: at rapid, long enough for following error to settle.
+    """Return a move that shows the axis at a steady speed: at rapid, long enough for following error to
+    settle.
 
     Raises SimulationError where no feedrate is known.
     """
-    speed = feedrate or servo.rapid_feedrate or servo.cutting_feedrate
+    speed = next((f for f in (feedrate, servo.rapid_feedrate, servo.cutting_feedrate) if f is not None), None)
     if speed is None:
-        raise SimulationError("neither the move nor the axis names a feedrate", servo.parameter("rapid_feedrate"))
+        raise SimulationError(
+            "neither the move nor the axis names a feedrate", servo.parameter("rapid_feedrate")
+        )
     if distance is None:
         probe = StepMove(1.0, speed, mode)
         ramps = _ramp_time(servo, probe)
@@ -170,6 +190,8 @@ def _profile(servo: AxisServo, move: StepMove) -> kernel.Profile:
         time_constant=_time_constant(servo) if mode == "exponential" else 1.0,
         snap=_snap(servo, move),
         settle=math.inf if move.duration is not None else _settling(servo, move),
+        rest=max(servo.inposition_band, 0.0 if servo.ideal_feedback else 1.5 * servo.count),
+        hold=math.inf if move.duration is not None else 3.0 / servo.position_rate + _PAUSE,
     )
 
 
@@ -179,9 +201,15 @@ def _slowest_lag(servo: AxisServo) -> float:
 
 
 def _settling(servo: AxisServo, move: StepMove) -> float:
-    """Return how long to wait in s after the command has ended: twelve time constants, and the way to the break."""
+    """Return how long to wait in s at most for the axis to come to rest after the command has ended.
+
+    Twelve time constants of the position loop; the way down to the gain break; six integral times of the
+    velocity loop, but not more than 5 s.
+    """
     lag = 1.0 / servo.position_rate
-    wait = 12.0 * lag + 20.0 * servo.servo_period / 1000.0 + 0.05
+    wait = 12.0 * lag + _PAUSE
+    if servo.integral_rate > 0.0:
+        wait += min(6.0 / servo.integral_rate, 5.0)
     if servo.break_ratio < 1.0 and servo.gain_break_point < abs(move.distance):
         slow = 12.0 * lag / servo.break_ratio if servo.break_ratio else math.inf
         furthest = min(servo.excess_error, abs(move.distance))
@@ -198,14 +226,14 @@ def _rows(servo: AxisServo, move: StepMove, profile: kernel.Profile) -> tuple[in
         likely = most = move.duration
     else:
         moving = abs(move.distance) / profile.feedrate + _ramp_time(servo, move) + 4.0 * period
-        likely, most = moving + profile.settle, 2.0 * moving + profile.settle
+        likely, most = moving + profile.hold, 2.0 * moving + profile.settle
     per_second = servo.substeps / period
     if likely * per_second > MOST_ROWS:
         raise SimulationError(
-            f"the move takes about {likely:.0f} s, more than can be simulated ({MOST_ROWS / per_second:.0f} s);"
-            " take a shorter distance or a higher feedrate"
+            f"the move takes about {likely:.0f} s, more than can be simulated ({MOST_ROWS / per_second:.0f}"
+            " s); take a shorter distance or a higher feedrate"
         )
-    return math.ceil(likely * per_second), min(math.ceil(most * per_second) + 1, MOST_ROWS)
+    return math.ceil(likely * per_second), min(math.ceil(most * per_second - 1e-6), MOST_ROWS)
 
 
 def _alarms(servo: AxisServo, columns: Mapping[str, npt.NDArray[np.float64]]) -> tuple[Alarm, ...]:
@@ -286,10 +314,11 @@ def _steady(
 def _settled(
     servo: AxisServo, move: StepMove, columns: Mapping[str, npt.NDArray[np.float64]], substeps: int
 ) -> tuple[float | None, float | None]:
-    """Return (time in s from the start of the move, time in s from the end of the command) of coming into position.
+    """Return (time in s from the start of the move, time in s from the end of the command) of coming into
+    position.
 
-    In position is the first servo period from which the measured position stays within the inposition band of the
-    end of the move (7-24). (None, None) where the command or the axis does not get there.
+    In position is the first servo period from which the measured position stays within the inposition band of
+    the end of the move (7-24). (None, None) where the command or the axis does not get there.
     """
     time = columns["time_s"][::substeps]
     command = columns["command_position"][::substeps]
@@ -317,6 +346,4 @@ def _limits(servo: AxisServo) -> dict[str, Figure]:
 
 
 def _units(unit: str) -> dict[str, str]:
-    return dict(
-        zip(kernel.COLUMNS, ("s", unit, unit, unit, f"{unit}/min", f"{unit}/min", "%"), strict=True)
-    )
+    return dict(zip(kernel.COLUMNS, ("s", unit, unit, unit, f"{unit}/min", f"{unit}/min", "%"), strict=True))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from html import escape
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -15,8 +16,11 @@ from .trace import Trace
 WIDTH, HEIGHT = 960, 760
 LEFT, RIGHT, TOP, PANEL, GAP = 92, 868, 66, 188, 38
 COMMAND, ACTUAL, THIRD, LIMIT = "#0072b2", "#d55e00", "#009e73", "#666666"
-"""Colours that stay apart for colour-blind readers (Okabe, Ito, Color Universal Design, 2008); no pure red and
+"""Colours that stay apart for colour-blind readers (Okabe, Ito, Color Universal Design, 2008); no pure red
+and
 green together."""
+LABEL = 14.0
+"""Height of a label; labels closer than that share one line."""
 FAR = 1.6
 """A limit is drawn as a line when it is below so many times the peak; further off it is named in words."""
 
@@ -27,8 +31,11 @@ def plot_svg(trace: Trace) -> str:
     """Return the SVG text: position, following error with its limits, velocity with torque."""
     time = trace.columns["time_s"]
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}"'
-        ' font-family="Helvetica, Arial, DejaVu Sans, sans-serif" font-size="13">',
+        (
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}"'
+            f' height="{HEIGHT}"'
+            ' font-family="Helvetica, Arial, DejaVu Sans, sans-serif" font-size="13">'
+        ),
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#ffffff"/>',
         _text(LEFT, 26, _title(trace), size=17, weight="bold"),
         _text(LEFT, 46, _subtitle(trace), fill="#444444"),
@@ -58,7 +65,7 @@ def thinned(x: Series, y: Series, columns: int) -> tuple[Series, Series]:
         return x, y
     edges = np.linspace(0, len(x), columns + 1).astype(np.int64)
     keep = {0, len(x) - 1}
-    for start, end in zip(edges[:-1], edges[1:], strict=True):
+    for start, end in pairwise(edges):
         keep.add(int(start + np.argmin(y[start:end])))
         keep.add(int(start + np.argmax(y[start:end])))
     index = np.array(sorted(keep))
@@ -77,8 +84,10 @@ def _told(trace: Trace, name: str) -> str:
 
 def _subtitle(trace: Trace) -> str:
     parts = [
-        f"following error {_told(trace, 'steady_following_error')}"
-        f" (predicted {_told(trace, 'predicted_following_error')})",
+        (
+            f"following error {_told(trace, 'steady_following_error')}"
+            f" (predicted {_told(trace, 'predicted_following_error')})"
+        ),
         f"peak torque {_told(trace, 'peak_torque')}",
         f"in position after {_told(trace, 'in_position_time')}",
     ]
@@ -106,7 +115,10 @@ class _Panel:
     def frame(self, label: str) -> list[str]:
         """Grid, numbers and the label of the left axis."""
         parts = [
-            f'<rect x="{LEFT}" y="{self.top}" width="{RIGHT - LEFT}" height="{PANEL}" fill="none" stroke="#888888"/>'
+            (
+                f'<rect x="{LEFT}" y="{self.top}" width="{RIGHT - LEFT}" height="{PANEL}" fill="none"'
+                ' stroke="#888888"/>'
+            )
         ]
         for moment in ticks(self.first, self.last, 8):
             x = self.x(moment)
@@ -152,10 +164,16 @@ def _error(trace: Trace, time: Series, number: int) -> list[str]:
         low, high = min(low, sign * level), max(high, sign * level)
     panel = _Panel(number, time, low, high)
     parts = [*panel.frame(f"following error ({unit})"), panel.curve(time, error, ACTUAL)]
-    for name, level in near:
-        y = panel.y(sign * level)
+    labels: list[tuple[float, str]] = []
+    for name, level in sorted(near, key=lambda limit: limit[1]):
+        y, words = panel.y(sign * level), f"{name} {shown(level, unit)}"
         parts.append(_line(LEFT, y, RIGHT, y, LIMIT, dash="3 3"))
-        parts.append(_text(RIGHT - 6, y - 4, f"{name} {shown(level, unit)}", anchor="end", size=11, fill=LIMIT))
+        if labels and abs(labels[-1][0] - y) < LABEL:
+            y, words = labels[-1][0], f"{labels.pop()[1]}, {words}"
+        labels.append((y, words))
+    for y, words in labels:
+        below = y - panel.top < LABEL + 4  # no room above the line
+        parts.append(_text(RIGHT - 6, y + 13 if below else y - 4, words, anchor="end", size=11, fill=LIMIT))
     if far:
         words = "off the panel: " + ", ".join(f"{name} {shown(level, unit)}" for name, level in far)
         parts.append(_text(LEFT, panel.top - 6, words, size=11, fill=LIMIT))
@@ -169,10 +187,14 @@ def _speed(trace: Trace, time: Series, number: int) -> list[str]:
     panel = _Panel(number, time, *_range(command, actual))
     right = _Panel(number, time, *_range(torque))
     parts = [*panel.frame(f"velocity ({trace.units['velocity']})"), right.curve(time, torque, THIRD)]
-    for value in ticks(right.low, right.high):
-        parts.append(_text(RIGHT + 6, right.y(value) + 4, _number(value), size=11, fill=THIRD))
     parts += [
-        _text(WIDTH - 14, panel.top + PANEL / 2, "torque (% of rated)", anchor="middle", turn=True, fill=THIRD),
+        _text(RIGHT + 6, right.y(value) + 4, _number(value), size=11, fill=THIRD)
+        for value in ticks(right.low, right.high)
+    ]
+    parts += [
+        _text(
+            WIDTH - 14, panel.top + PANEL / 2, "torque (% of rated)", anchor="middle", turn=True, fill=THIRD
+        ),
         panel.curve(time, command, COMMAND, dashed=True),
         panel.curve(time, actual, ACTUAL),
     ]
@@ -185,19 +207,22 @@ def _range(*series: Series) -> tuple[float, float]:
 
 def _legend(panel: _Panel, entries: Sequence[tuple[str, str]]) -> list[str]:
     parts: list[str] = []
-    x = RIGHT - 84.0 * len(entries)
+    x = RIGHT - 100.0 * len(entries) + 22.0
     for name, colour in entries:
-        parts.append(_line(x, panel.top - 10, x + 22, panel.top - 10, colour, width=2.5))
-        parts.append(_text(x + 27, panel.top - 6, name, size=11))
-        x += 84.0
+        dash = "7 4" if colour == COMMAND else ""
+        parts.append(_line(x, panel.top - 10, x + 24, panel.top - 10, colour, width=2.5, dash=dash))
+        parts.append(_text(x + 30, panel.top - 6, name, size=11))
+        x += 100.0
     return parts
 
 
-def _line(x1: float, y1: float, x2: float, y2: float, colour: str, *, width: float = 1.0, dash: str = "") -> str:
+def _line(
+    x1: float, y1: float, x2: float, y2: float, colour: str, *, width: float = 1.0, dash: str = ""
+) -> str:
     dashes = f' stroke-dasharray="{dash}"' if dash else ""
     return (
-        f'<line x1="{round(x1, 1)}" y1="{round(y1, 1)}" x2="{round(x2, 1)}" y2="{round(y2, 1)}" stroke="{colour}"'
-        f' stroke-width="{width}"{dashes}/>'
+        f'<line x1="{round(x1, 1)}" y1="{round(y1, 1)}" x2="{round(x2, 1)}" y2="{round(y2, 1)}"'
+        f' stroke="{colour}" stroke-width="{width}"{dashes}/>'
     )
 
 
@@ -215,8 +240,8 @@ def _text(
     x, y = round(x, 1), round(y, 1)
     turned = f' transform="rotate(-90 {x} {y})"' if turn else ""
     return (
-        f'<text x="{x}" y="{y}" text-anchor="{anchor}" font-size="{size}" font-weight="{weight}" fill="{fill}"'
-        f"{turned}>{escape(words)}</text>"
+        f'<text x="{x}" y="{y}" text-anchor="{anchor}" font-size="{size}" font-weight="{weight}"'
+        f' fill="{fill}"{turned}>{escape(words)}</text>'
     )
 
 

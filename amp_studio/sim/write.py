@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from .rounding import shown
 from .servo import SimulationError
 from .svg import plot_svg
 from .trace import Trace
@@ -47,8 +48,27 @@ def plot_png(trace: Trace) -> bytes:
     return image
 
 
+def trace_text(trace: Trace) -> str:
+    """Return the result as a person reads it in a terminal: alarms, figures, advice, assumptions."""
+    lines = [f"{trace.scenario}{', axis ' + trace.axis if trace.axis else ''}: {trace.model}"]
+    lines += [f"ALARM at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
+    width = max(len(name) for name in trace.result)
+    for name, (value, unit) in trace.result.items():
+        words = name.replace("_", " ").ljust(width)
+        lines.append(f"  {words}  {'not reached' if value is None else shown(value, unit, 6)}")
+    for heading, entries in (
+        ("Advice", [f"{a.parameter} = {shown(a.value, a.unit, 9)}: {a.why}" for a in trace.advice]),
+        ("Assumptions", list(trace.assumptions)),
+    ):
+        if entries:
+            lines += [heading, *(f"  {entry}" for entry in entries)]
+    return "\n".join(lines)
+
+
 def write_trace(trace: Trace, path: Path) -> None:
-    """Write ``.csv``, ``.svg`` or ``.png``; raises SimulationError for another ending, OSError where it cannot."""
+    """Write ``.csv``, ``.svg`` or ``.png``; raises SimulationError for another ending, OSError where it
+    cannot.
+    """
     ending = path.suffix.lower()
     if ending == ".csv":
         path.write_text(trace_csv(trace), encoding="utf-8", newline="\n")
@@ -69,7 +89,8 @@ def trace_summary(trace: Trace) -> dict[str, Any]:
         "result": {name: {"value": value, "unit": unit} for name, (value, unit) in trace.result.items()},
         "alarms": [{"code": a.code, "time_s": a.time_s, "message": a.message} for a in trace.alarms],
         "advice": [
-            {"param": a.parameter, "value": f"{a.value!r} {a.unit}".rstrip(), "why": a.why} for a in trace.advice
+            {"param": a.parameter, "value": f"{a.value!r} {a.unit}".rstrip(), "why": a.why}
+            for a in trace.advice
         ],
         "assumptions": list(trace.assumptions),
         "trace": {"columns": list(trace.columns), "rows": trace.rows},

@@ -1,0 +1,212 @@
+"""Builds the report of a parameter file."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+from itertools import groupby
+from pathlib import Path
+
+from amp_studio import __version__
+from amp_studio.files import FileFault, ParameterFile, axis_instances, content_of, open_file
+from amp_studio.schema import Address, Value, label_of, show_value
+from amp_studio.validate import Finding, Validator
+
+from .model import SORTS, Note, Report, Row, Sort, counted
+from .rows import Rows, axis_label, axis_name, printed_axes, row_of, rows_of, scope_of
+from .sections import number_span, sections_of
+
+_NAMED = 6
+"""Values a finding names one by one; a message about more names the first of them itself."""
+_SHORT = 16
+"""Digits of a checksum that are printed."""
+
+
+def build_report(
+    file: ParameterFile,
+    *,
+    sort: Sort = "group",
+    changed_only: bool = False,
+    source: Path | None = None,
+    date: datetime | None = None,
+) -> Report:
+    """Return the report of a file as it is in memory.
+
+    ``source`` is where it lies on disk; ``date`` is printed, now when left
+    out. Raises ValueError for an order that is none of the three.
+    """
+    if sort not in SORTS:
+        raise ValueError(f"'{sort}' is no order of a report: {', '.join(SORTS)}")
+    found = rows_of(file)
+    printed = tuple(r for r in found.rows if r.is_changed) if changed_only else found.rows
+    anchors = {r.anchor for r in printed}
+    findings = Validator(file).run()
+    heads, axes = _axes(file, found.rows, findings)
+    family = file.schema.family
+    name = source.name if source else ""
+    return Report(
+        title=file.header.name or name or family.name,
+        family=family.name,
+        file_name=name,
+        date=date or datetime.now().astimezone(),
+        program=f"AMP Studio {__version__}",
+        order=SORTS[sort],
+        changed_only=changed_only,
+        facts=tuple(_facts(file, source, sort, changed_only)),
+        counts=tuple(_counts(file, found, findings)),
+        remarks=file.header.notes.strip(),
+        axis_heads=heads,
+        axes=axes,
+        notes=tuple(_note(file, f, anchors) for f in findings),
+        forced=tuple(row_of(file, a) for a in file.addresses() if a in file.forced),
+        not_set=tuple(_not_set(file, found.rows)),
+        sections=sections_of(file, printed, sort),
+    )
+
+
+# -- facts ---------------------------------------------------------------------
+
+
+def _facts(file: ParameterFile, source: Path | None, sort: Sort, changed_only: bool) -> list[tuple[str, str]]:
+    family, header = file.schema.family, file.header
+    machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
+    facts = [
+        ("Machine", header.name),
+        ("Control family", family.name),
+        ("Application", header.application),
+        ("Machine type", machine),
+        ("Control software revision", header.revision),
+        ("Unit system", header.units),
+    ]
+    if family.axes is not None:
+        facts.append(("Axes", f"{len(printed_axes(file))} of {len(axis_instances(file))} fitted"))
+    facts += [
+        ("File", str(source) if source else ""),
+        ("SHA-256 of the file", _checksum(file, source)),
+        ("Schema signature", _signature(file)),
+        ("Order", SORTS[sort]),
+        ("Contents", "only what differs from the printed default" if changed_only else "every value"),
+    ]
+    return [(title, text or "–") for title, text in facts]
+
+
+def _checksum(file: ParameterFile, source: Path | None) -> str:
+    """Return the short checksum of the file whose values these are, and say so where it is not the one on disk."""
+    if source is None:
+        return hashlib.sha256(content_of(file)).hexdigest()[:_SHORT] + " (not saved yet)"
+    try:
+        opened = open_file(source)
+    except FileFault:
+        return "the file on disk cannot be read"
+    if opened.file.values != file.values:
+        return opened.digest[:_SHORT] + " – but with other values: this report shows unsaved changes"
+    return opened.digest[:_SHORT]
+
+
+def _signature(file: ParameterFile) -> str:
+    own, written = file.schema.signature[:_SHORT], file.header.signature[:_SHORT]
+    return f"{own} (the file was written under {written})" if written and written != own else own
+
+
+def _counts(file: ParameterFile, found: Rows, findings: Sequence[Finding]) -> list[tuple[str, str]]:
+    rows = found.rows
+    told = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(findings, s))]
+    counts = [
+        ("Findings", ", ".join(told) or "none"),
+        ("Values", str(len(rows))),
+        ("Differ from the default", str(sum(r.is_changed for r in rows))),
+        ("Forced out of range", str(len(file.forced))),
+        ("Not set", str(sum(_is_missing(r) for r in rows))),
+        ("Ignored by the control", str(sum(r.state == "ignored" for r in rows))),
+        ("Unusable", str(sum(r.state == "unusable" for r in rows))),
+        ("Hidden, left out", str(found.hidden)),
+    ]
+    if file.schema.family.axes is not None:
+        counts.append(("Of unfitted axes, left out", str(found.unfitted)))
+    if file.unknown:
+        counts.append(("Not known here, kept", str(len(file.unknown))))
+    return counts
+
+
+def _severity(findings: Sequence[Finding], severity: str) -> int:
+    return sum(f.severity == severity for f in findings)
+
+
+def _is_missing(row: Row) -> bool:
+    return not row.value and row.state == "in-force"
+
+
+def _not_set(file: ParameterFile, rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
+    """Yield number, name and places of each parameter that is in force without a value."""
+    for _, members in groupby((r for r in rows if _is_missing(r)), key=lambda r: r.id):
+        own = list(members)
+        yield number_span(own), own[0].name, _places(own)
+
+
+def _places(rows: Sequence[Row]) -> str:
+    """Return ``Axis 1 X, 2 Y``: the word they share is said once."""
+    if not any(r.place for r in rows):
+        return ""
+    texts, word = [], ""
+    for place in (r.place or "Control" for r in rows):
+        first, _, rest = place.partition(" ")
+        texts.append(rest if rest and first == word else place)
+        word = first
+    return ", ".join(texts)
+
+
+# -- axes ----------------------------------------------------------------------
+
+
+def _axes(
+    file: ParameterFile, rows: Sequence[Row], findings: Sequence[Finding]
+) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+    """Return the heads and the lines of the axis summary; both empty for a family without an axis profile."""
+    profile = file.schema.family.axes
+    if profile is None:
+        return (), ()
+    asked = [p for p in (profile.type, profile.hardware, profile.loop) if p]
+    heads = ("Axis", "Name", *(file.schema.parameters[p].name for p in asked), "Values", "Changed", "Findings")
+    return heads, tuple(_axis(file, axis, asked, rows, findings) for axis in printed_axes(file))
+
+
+def _axis(
+    file: ParameterFile, axis: str, asked: Sequence[str], rows: Sequence[Row], findings: Sequence[Finding]
+) -> tuple[str, ...]:
+    own = [r for r in rows if r.instance == axis and scope_of(file, (r.id, axis)) == "axis"]
+    touching = [f for f in findings if any(a[1] == axis and scope_of(file, a) == "axis" for a in f.addresses)]
+    told = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
+    settings = [_setting(file, (p, axis)) for p in asked]
+    return (axis, axis_name(file, axis) or "–", *settings, str(len(own)), str(sum(r.is_changed for r in own)),
+            ", ".join(told) or "–")  # fmt: skip
+
+
+def _setting(file: ParameterFile, address: Address) -> str:
+    value = file.get(address)
+    return label_of(file.schema.parameters[address[0]], str(value.value)) if value else "–"
+
+
+# -- findings ------------------------------------------------------------------
+
+
+def _note(file: ParameterFile, finding: Finding, anchors: set[str]) -> Note:
+    named = finding.addresses if len(finding.addresses) <= _NAMED else ()
+    links = ((f"{a[0]}@{a[1]}", _called(file, a)) for a in named)
+    return Note(
+        severity=finding.severity,
+        about=tuple((anchor if anchor in anchors else "", label) for anchor, label in links),
+        message=finding.message,
+        repair="; ".join(f"{_called(file, r.address)} = {_shown(file, r.address, r.value)}" for r in finding.repairs),
+        page=finding.page or "",
+    )
+
+
+def _called(file: ParameterFile, address: Address) -> str:
+    """Return ``1300 Home Calibration (Axis 1 X)``."""
+    label = file.schema.label(address, file.machine)
+    return f"{label} ({axis_label(file, address[1])})" if scope_of(file, address) == "axis" else label
+
+
+def _shown(file: ParameterFile, address: Address, value: Value) -> str:
+    return show_value(file.schema.parameters[address[0]], value)

@@ -1,0 +1,209 @@
+"""A printed report as plain data: what every format writes, with nothing left to look up.
+
+Texts are for a person and not escaped; each format escapes in its own way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Literal
+
+from amp_studio.schema.model import Severity, State
+
+Sort = Literal["axis", "number", "group"]
+"""The three orders of the documenter (9/PC CNC AMP Reference Manual, Documenting AMP Files)."""
+
+SORTS: dict[Sort, str] = {
+    "axis": "by axis, then what belongs to no axis",
+    "number": "by parameter number",
+    "group": "by group",
+}
+
+MARKS: dict[str, str] = {
+    "*": "differs from the printed default, or none is printed",
+    "!": "forced: set out of range on purpose",
+    "i": "ignored by the control for this machine",
+    "u": "unusable: another setting forbids it",
+}
+
+
+_MANY_AXES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One addressable value."""
+
+    id: str
+    instance: str
+    number: str
+    """The number that addresses it; empty where it has none of its own."""
+    name: str
+    group: str
+    place: str
+    """``Axis 1 X``; empty for a value of the whole control."""
+    value: str
+    """Label or number without its unit; empty when not set."""
+    unit: str
+    """As the database writes it (``mm/s2``)."""
+    shown_unit: str
+    """As a person reads it (``mm/s²``)."""
+    is_number: bool
+    detail: str
+    """What the set bits of a packed word mean; empty for everything else."""
+    default: str
+    """The printed default, with its unit only where that is not the value's."""
+    plain_default: str
+    """The default in the unit of the value, for a table that is calculated with."""
+    is_changed: bool
+    """A value is set, and it is not the printed default."""
+    state: State
+    why: str
+    """Why it is out of force."""
+    forced: str
+    """When and by whom it was set out of range on purpose; empty when it was not."""
+
+    @property
+    def anchor(self) -> str:
+        """What links to this row."""
+        return f"{self.id}@{self.instance}"
+
+    @property
+    def marks(self) -> str:
+        """The marks of ``MARKS`` that this value bears."""
+        state = {"ignored": "i", "unusable": "u"}.get(self.state, "")
+        return ("*" if self.is_changed else "") + ("!" if self.forced else "") + state
+
+    @property
+    def text(self) -> str:
+        """Value and unit; a dash when it is not set."""
+        if not self.value:
+            return "—"
+        return f"{self.value}{'' if self.shown_unit == '°' else ' '}{self.shown_unit}".rstrip()
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line of a grid: a parameter across the axes, or a value that belongs to no axis and spans them."""
+
+    number: str
+    name: str
+    place: str
+    shown_unit: str
+    """Of most cells; a cell in another unit writes its own."""
+    default: str
+    cells: tuple[Row | None, ...]
+    """One for each column, None where the parameter does not exist there; a single one when it spans."""
+    spans: bool
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether any of its values differs from the printed default."""
+        return any(row.is_changed for row in self.cells if row is not None)
+
+    def cell_text(self, row: Row) -> str:
+        """Return what stands in a cell."""
+        return row.value if row.value and row.shown_unit == self.shown_unit else row.text
+
+
+@dataclass(frozen=True, slots=True)
+class Listing:
+    """Values one below the other."""
+
+    title: str
+    rows: tuple[Row, ...]
+    by_place: bool
+    """Whether a column must say where each value belongs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Parameters one below the other, axes side by side, as in the editor."""
+
+    title: str
+    columns: tuple[str, ...]
+    lines: tuple[Line, ...]
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """Every value, line by line."""
+        return tuple(row for line in self.lines for row in line.cells if row is not None)
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """One chapter of the report."""
+
+    key: str
+    title: str
+    parts: tuple[Listing | Grid, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """One finding."""
+
+    severity: Severity
+    about: tuple[tuple[str, str], ...]
+    """(anchor, label) of the values it is about; an empty anchor where the report does not print the value.
+    Empty for a finding about many values, whose message names the first of them."""
+    message: str
+    repair: str
+    page: str
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Everything a format writes."""
+
+    title: str
+    """The machine's name, or the file's."""
+    family: str
+    file_name: str
+    date: datetime
+    program: str
+    order: str
+    changed_only: bool
+    facts: tuple[tuple[str, str], ...]
+    counts: tuple[tuple[str, str], ...]
+    remarks: str
+    """The notes kept in the file."""
+    axis_heads: tuple[str, ...]
+    axes: tuple[tuple[str, ...], ...]
+    notes: tuple[Note, ...]
+    forced: tuple[Row, ...]
+    not_set: tuple[tuple[str, str, str], ...]
+    """(number, parameter, places) of what is in force without a value, one entry a parameter."""
+    sections: tuple[Section, ...]
+
+    @property
+    def when(self) -> str:
+        """Date and time as they are printed."""
+        return self.date.strftime("%Y-%m-%d %H:%M")
+
+    @property
+    def lies_across(self) -> bool:
+        """Whether its widest grid needs the long side of the paper."""
+        grids = (p for section in self.sections for p in section.parts if isinstance(p, Grid))
+        return max((len(g.columns) for g in grids), default=0) >= _MANY_AXES
+
+    def rows(self) -> Iterator[Row]:
+        """Yield every printed value in the order of the report."""
+        for section in self.sections:
+            for part in section.parts:
+                yield from part.rows
+
+    def severities(self) -> dict[Severity, tuple[Note, ...]]:
+        """Return the findings by severity, errors first; no entry for a severity without one."""
+        names: tuple[Severity, ...] = ("error", "warning", "advice")
+        found = {name: tuple(n for n in self.notes if n.severity == name) for name in names}
+        return {name: notes for name, notes in found.items() if notes}
+
+
+def counted(number: int, noun: str) -> str:
+    """Return ``1 error``, ``2 errors``, ``3 pieces of advice``."""
+    if noun == "advice":
+        return f"{number} {'piece' if number == 1 else 'pieces'} of advice"
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -1,0 +1,134 @@
+"""One printed row for each addressable value of a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.schema import Address, Parameter, UnitError, Value, convert, label_of, shown, write_number
+
+from .model import Row
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The values of a file that are printed, in the manual's order, and how many are not."""
+
+    rows: tuple[Row, ...]
+    hidden: int
+    """Values of fitted axes and of the control that do not exist for this configuration."""
+    unfitted: int
+    """Values of unfitted axes."""
+
+
+def rows_of(file: ParameterFile) -> Rows:
+    """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted."""
+    axes = printed_axes(file)
+    rows, hidden, unfitted = [], 0, 0
+    for address in file.addresses():
+        if scope_of(file, address) == "axis" and address[1] not in axes:
+            unfitted += 1
+        elif file.situation.state(address).state == "hidden":
+            hidden += 1
+        else:
+            rows.append(row_of(file, address))
+    return Rows(tuple(rows), hidden, unfitted)
+
+
+def printed_axes(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes a report prints: the fitted ones, or all of a family that cannot leave one unfitted."""
+    family = file.schema.family
+    if family.axes is not None:
+        return fitted_axes(file)
+    scope = family.scopes.get("axis")
+    return scope.instances if scope else ()
+
+
+def scope_of(file: ParameterFile, address: Address) -> str:
+    """Return the scope of a value on the machine type of the file."""
+    layout = file.schema.layout(file.schema.parameters[address[0]], file.machine)
+    return layout.scope if layout else "global"
+
+
+def axis_name(file: ParameterFile, axis: str) -> str:
+    """Return the letter or name an axis is given; empty where it has none."""
+    profile = file.schema.family.axes
+    value = file.get((profile.name, axis)) if profile else None
+    return label_of(file.schema.parameters[profile.name], str(value.value)) if profile and value else ""
+
+
+def axis_label(file: ParameterFile, axis: str) -> str:
+    """Return ``Axis 1 X``."""
+    return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {axis_name(file, axis)}".rstrip()
+
+
+def row_of(file: ParameterFile, address: Address) -> Row:
+    """Return the row of one value."""
+    schema, machine = file.schema, file.machine
+    parameter = schema.parameters[address[0]]
+    value, default, state = file.get(address), file.default(address), file.situation.state(address)
+    known = value or default
+    unit = known.unit if known else "" if parameter.choices else file.situation.unit(address, file.header.units)
+    on_axis = scope_of(file, address) == "axis"
+    return Row(
+        id=address[0],
+        instance=address[1],
+        number="" if schema.is_disputed(address[0], machine) else schema.number(address, machine) or "",
+        name=parameter.name,
+        group=schema.group_of[address[0]].name,
+        place=axis_label(file, address[1]) if on_axis else schema.instance_label(address, machine),
+        value=_bare(parameter, value),
+        unit=unit,
+        shown_unit=shown(unit),
+        is_number=value is not None and not isinstance(value.value, (str, bool)),
+        detail=_bits(parameter, value),
+        default=_default(parameter, default, unit),
+        plain_default=_bare(parameter, _converted(default, unit)),
+        is_changed=value is not None and not file.is_default(address),
+        state=state.state,
+        why=state.why,
+        forced=file.forced.get(address, ""),
+    )
+
+
+def _bare(parameter: Parameter, value: Value | None) -> str:
+    """Write a value without its unit, so that it reads back exactly; empty when there is none."""
+    if value is None:
+        return ""
+    if isinstance(value.value, bool):
+        return label_of(parameter, "yes" if value.value else "no")
+    if isinstance(value.value, str):
+        return label_of(parameter, value.value)
+    return write_number(value.value)
+
+
+def _default(parameter: Parameter, default: Value | None, unit: str) -> str:
+    """Write the printed default as it is printed, with its unit only where that is not ``unit``."""
+    if default is None or default.unit == unit:
+        return _bare(parameter, default)
+    return f"{_bare(parameter, default)} {shown(default.unit)}".rstrip()
+
+
+def _converted(default: Value | None, unit: str) -> Value | None:
+    """Return a default in another unit; None where it measures something else."""
+    if default is None or isinstance(default.value, (str, bool)) or default.unit == unit:
+        return default
+    try:
+        return Value(convert(float(default.value), default.unit, unit), unit)
+    except UnitError:
+        return None
+
+
+def _bits(parameter: Parameter, value: Value | None) -> str:
+    """Say what the set bits and the fields of a packed word mean."""
+    if not parameter.bits or value is None or isinstance(value.value, (str, bool)):
+        return ""
+    word, parts = int(value.value), []
+    for bit in parameter.bits:
+        field = word >> bit.bit & ((1 << bit.width) - 1)
+        if bit.choices or bit.width > 1:
+            label = next((c.label for c in bit.choices or () if c.raw == field), str(field))
+            parts.append(f"{bit.label}: {label}")
+        elif field:
+            parts.append(f"bit {bit.bit}: {bit.label}")
+    return "; ".join(parts)

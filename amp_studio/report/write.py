@@ -1,0 +1,46 @@
+"""Writes a report in the format its ending names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import ParameterFile, write_atomic
+
+from .build import build_report
+from .model import Report, Sort
+from .page import render_html
+from .pdf import render_pdf
+from .table_csv import render_csv
+from .text import render_text
+
+FORMATS: dict[str, Callable[[Report], bytes]] = {
+    ".pdf": render_pdf,
+    ".html": render_html,
+    ".csv": render_csv,
+    ".txt": render_text,
+}
+
+
+def write_report(
+    file: ParameterFile,
+    path: Path,
+    *,
+    sort: Sort = "group",
+    changed_only: bool = False,
+    source: Path | None = None,
+    date: datetime | None = None,
+) -> None:
+    """Write the documentation of a file, whole or not at all; the format follows the ending of ``path``.
+
+    ``sort`` is one of the documenter's three orders, ``changed_only`` keeps
+    what differs from the printed default, ``source`` is where the file lies
+    on disk, and ``date`` is printed (now when left out). Raises ValueError
+    for an ending or an order that is not known, SaveFault when it cannot be written.
+    """
+    render = FORMATS.get(path.suffix.lower())
+    if render is None:
+        raise ValueError(f"{path.name}: a report is written as {', '.join(FORMATS)}, as its ending says")
+    report = build_report(file, sort=sort, changed_only=changed_only, source=source, date=date)
+    write_atomic(path, render(report), keep_backup=False)

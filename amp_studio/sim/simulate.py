@@ -1,0 +1,54 @@
+"""From an open parameter file to a trace."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.schema import Table
+
+from .reading import MotorGains, Value
+from .scenarios import SCENARIOS
+from .servo import SimulationError
+from .trace import Trace
+
+
+def simulate(
+    file: ParameterFile,
+    scenario: str,
+    axis: str | None = None,
+    settings: Mapping[str, float | str] | None = None,
+) -> Trace:
+    """Run a scenario on one axis of a file as it stands; the first fitted axis when none is named.
+
+    ``settings`` are settings of the scenario and of the model (``move.feedrate``), in canonical units.
+    Raises SimulationError naming the parameter that is missing or impossible.
+    """
+    if scenario not in SCENARIOS:
+        raise SimulationError(f"'{scenario}' is no scenario: {', '.join(SCENARIOS)}")
+    fitted = fitted_axes(file)
+    if not fitted:
+        raise SimulationError("no axis is fitted")
+    chosen = axis or fitted[0]
+    if chosen not in fitted:
+        raise SimulationError(f"axis {chosen} is not fitted: {', '.join(fitted)}")
+
+    def value(parameter_id: str, instance: str) -> Value:
+        return file.situation.canonical((parameter_id, instance))
+
+    return SCENARIOS[scenario].run(
+        value, chosen, settings or {}, file.schema.family.family, standard_gains(file.schema.tables)
+    )
+
+
+def standard_gains(tables: Mapping[str, Table]) -> MotorGains | None:
+    """Return a look-up into the family's tables of standard motor gains; None when it has none."""
+    proportional, integral = tables.get("7.B"), tables.get("7.C")
+    if proportional is None or integral is None:
+        return None
+
+    def gains(motor: str, ratio: str) -> tuple[float, float] | None:
+        found = tuple(table.look_up(motor, ratio) for table in (proportional, integral))
+        return (found[0], found[1]) if found[0] is not None and found[1] is not None else None
+
+    return gains

@@ -1,0 +1,104 @@
+"""A conversation: numbered messages over one link, for as long as that link lives."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from itertools import count
+
+from .frame import FrameDecoder, encode_frame
+from .link import Link
+from .message import AnyMessage, Code, Message, Refusal, Refused, pack, unpack
+from .pace import Limits, Pace
+
+SLICE = 0.1  # seconds a read may block before the cancel event is looked at again
+
+# An unnumbered refusal: the control turns the line away before it was asked anything.
+UNASKED = 0
+
+
+class Silence(Exception):
+    """The line is there, and nothing that could be understood came back on it."""
+
+
+class Conversation:
+    """Sends requests and finds their answers; drops what was damaged and what answers nothing.
+
+    ``look`` is called at least every 0.1 s while waiting and may raise to break off. ``first`` is the first number given;
+    a random one makes answers to an earlier program's requests miss.
+    """
+
+    def __init__(
+        self, link: Link, clock: Callable[[], float], limits: Limits, *, first: int = 1, look: Callable[[], None]
+    ) -> None:
+        self.link = link
+        self.pace = Pace(limits)
+        self._clock = clock
+        self._look = look
+        self._numbers = (1 + (first + n) % 65_535 for n in count())
+        self._decoder = FrameDecoder()
+        self._received: deque[tuple[int, Message]] = deque()
+        link.write(b"\x00")  # ends whatever the other end may have half received before
+
+    @property
+    def bad_frames(self) -> int:
+        """How many damaged frames came on this line."""
+        return self._decoder.bad_frames
+
+    def send(self, message: Message) -> int:
+        """Send a message under a new number and return the number; raises LinkError."""
+        number = next(self._numbers)
+        self.link.write(encode_frame(pack(message, number)))
+        return number
+
+    def receive(self, timeout: float) -> tuple[int, Message] | None:
+        """Return the next whole message and its number, or None after ``timeout`` seconds; raises LinkError."""
+        end = self._clock() + timeout
+        while True:
+            self._look()
+            if self._received:
+                return self._received.popleft()
+            left = end - self._clock()
+            if left < 0:
+                return None
+            for frame in self._decoder.feed(self.link.read(min(left, SLICE))):
+                try:
+                    self._received.append((frame.sequence, unpack(frame)))
+                except Refusal:
+                    continue  # a later version's message: nothing here waits for it
+            if left == 0 and not self._received:
+                return None
+
+    def request(self, message: Message, answer: type[AnyMessage], *, at_least: float = 0.0, tries: int = 0) -> AnyMessage:
+        """Send a request until it is answered.
+
+        Repeats it under the same number, waiting twice as long each time and at first ``at_least`` seconds.
+        Raises Refusal when the control refuses, Silence when it never answers, LinkError.
+        """
+        number = next(self._numbers)
+        encoded = encode_frame(pack(message, number))
+        for attempt in range(tries or self.pace.limits.tries):
+            # The 00 in front parts a repeated request from one whose end was lost.
+            self.link.write(b"\x00" + encoded if attempt else encoded)
+            asked = self._clock()
+            end = asked + max(self.pace.timeout, at_least * 2**attempt)
+            while (left := end - self._clock()) > 0:
+                found = self._answer(number, answer, left)
+                if found is not None:
+                    if attempt == 0:
+                        self.pace.answered(self._clock() - asked)
+                    return found
+            self.pace.missed()
+        raise Silence
+
+    def _answer(self, number: int, kind: type[AnyMessage], timeout: float) -> AnyMessage | None:
+        received = self.receive(timeout)
+        if received is None:
+            return None
+        sequence, message = received
+        if isinstance(message, Refused):
+            if sequence == number or (sequence == UNASKED and message.code == Code.BUSY):
+                raise Refusal(message.code, message.text)
+        elif sequence == number and isinstance(message, kind):
+            return message
+        return None

@@ -1,0 +1,110 @@
+"""What can end an exchange early. Every error says in one sentence what happened and what the control holds now."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from .message import Code, Refusal
+
+# "old": what it held before this exchange; "new": the image that was sent.
+Held = Literal["old", "new", "unknown"]
+
+HELD_TEXT: dict[Held, str] = {
+    "old": "nothing was replaced in the control",
+    "new": "the control holds the new image",
+    "unknown": "whether the control holds the old or the new image is not known: verify before you go on",
+}
+
+
+class TransferError(OSError):
+    """An exchange that did not reach its end.
+
+    ``what`` happened; ``held`` is what the control holds now; ``kept`` the place where the image it held before
+    was kept, if it was.
+    """
+
+    def __init__(self, what: str, held: Held = "old", kept: str | None = None) -> None:
+        super().__init__(what)
+        self.what = what
+        self.held: Held = held
+        self.kept = kept
+
+    def __str__(self) -> str:
+        where = f" (what it held before is kept in {self.kept})" if self.kept and self.held != "old" else ""
+        return f"{self.what}; {HELD_TEXT[self.held]}{where}"
+
+
+class NoConnection(TransferError):
+    """No line to the control could be made at all."""
+
+
+class ControlSilent(TransferError):
+    """The line is there, and the control does not answer."""
+
+
+class ControlBusy(TransferError):
+    """Another client has the control."""
+
+
+class LineCut(TransferError):
+    """The line broke and could not be made again in time."""
+
+
+class ProtocolMismatch(TransferError):
+    """The other end speaks no version of the protocol that this end knows, or does not keep to it."""
+
+
+class WrongFamily(TransferError):
+    """The control is of another family than the image."""
+
+
+class SignatureMismatch(TransferError):
+    """The control numbers its parameters by another schema than the image."""
+
+
+class NotInEmergencyStop(TransferError):
+    """The control must be in E-stop before it takes an image."""
+
+
+class ImageChanged(TransferError):
+    """The control's image is not the one that was fetched: somebody changed it in between."""
+
+
+class ImageRejected(TransferError):
+    """The control has looked at the image and does not take it."""
+
+
+class ImageDamaged(TransferError):
+    """The bytes that arrived are not the ones that were sent, though every piece was whole."""
+
+
+class ControlFull(TransferError):
+    """The control has no room for the image, or cannot write to its memory."""
+
+
+class KeepFailed(TransferError):
+    """What the control holds could not be kept, so it was not replaced."""
+
+
+class Cancelled(TransferError):
+    """The person has broken the exchange off."""
+
+
+_BY_CODE: dict[int, type[TransferError]] = {
+    Code.VERSION: ProtocolMismatch,
+    Code.BUSY: ControlBusy,
+    Code.NOT_IN_ESTOP: NotInEmergencyStop,
+    Code.SIGNATURE: SignatureMismatch,
+    Code.IMAGE_CHANGED: ImageChanged,
+    Code.TOO_LARGE: ControlFull,
+    Code.STORAGE: ControlFull,
+    Code.REJECTED: ImageRejected,
+    Code.DIGEST: ImageDamaged,
+}
+
+
+def error_of(refusal: Refusal, held: Held = "old") -> TransferError:
+    """Return the error that a control's refusal means; the control's own words are its text."""
+    kind = _BY_CODE.get(refusal.code, ProtocolMismatch)
+    what = refusal.text or f"the control refuses (code {refusal.code})"
+    return kind(what, held)

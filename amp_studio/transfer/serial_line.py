@@ -1,0 +1,109 @@
+"""Links over a serial port: 8 data bits, no parity, 1 stop bit, no flow control."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from typing import Any
+
+from .address import Address
+from .link import LinkError
+
+SLICE = 0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
+WRITE_LIMIT = 10.0  # seconds
+
+
+class SerialLink:
+    """One open serial port."""
+
+    def __init__(self, address: Address, port: Any) -> None:
+        self._address = address
+        self._port = port
+        self.bytes_per_second: float | None = address.baud / 10.0  # start, eight data bits, stop
+        self.is_open = True
+
+    def read(self, timeout: float) -> bytes:
+        end = time.monotonic() + timeout
+        try:
+            while True:
+                waiting = self._port.in_waiting
+                if waiting:
+                    return bytes(self._port.read(waiting))
+                if time.monotonic() >= end:
+                    return b""
+                first = bytes(self._port.read(1))
+                if first:
+                    return first + bytes(self._port.read(self._port.in_waiting))
+        except (OSError, TypeError, AttributeError) as error:
+            # pyserial meets a port that was closed or pulled out with any of these three.
+            raise LinkError(self._address, _said(error)) from None
+
+    def write(self, data: bytes) -> None:
+        try:
+            self._port.write(data)
+        except (OSError, TypeError, AttributeError) as error:
+            raise LinkError(self._address, _said(error)) from None
+
+    def close(self) -> None:
+        self.is_open = False
+        with contextlib.suppress(OSError, TypeError, AttributeError):
+            self._port.close()
+
+
+def open_port(address: Address) -> SerialLink:
+    """Open a serial port for this program alone; raises LinkError when it is missing or taken."""
+    import serial
+
+    try:
+        port = serial.Serial(
+            address.device,
+            baudrate=address.baud,
+            timeout=SLICE,
+            write_timeout=WRITE_LIMIT,
+            exclusive=True,
+        )
+        port.reset_input_buffer()
+    except (OSError, ValueError) as error:
+        raise LinkError(address, _said(error)) from None
+    return SerialLink(address, port)
+
+
+class PortListener:
+    """The control's side of a serial port: the line is there or not, nobody connects."""
+
+    def __init__(self, address: Address) -> None:
+        self.address = address
+        self._link: SerialLink | None = open_port(address)
+        self._given = False
+
+    def accept(self, timeout: float) -> SerialLink | None:
+        """Return the line once; after it was closed or lost, open it anew when the port is there again."""
+        if self._link is not None and not self._given:
+            self._given = True
+            return self._link
+        if self._link is not None and self._link.is_open:
+            return None
+        try:
+            self._link = open_port(self.address)
+        except LinkError:
+            time.sleep(timeout)
+            return None
+        return self._link
+
+    def close(self) -> None:
+        if self._link is not None:
+            self._link.close()
+
+
+def _said(error: Exception) -> str:
+    number = getattr(error, "errno", None)
+    text = str(error)
+    if number == 2 or "FileNotFoundError" in text:
+        return "there is no such port"
+    if number == 13 or "PermissionError" in text:
+        return "this port may not be opened (no permission, or another program has it)"
+    if number == 11 or "exclusively lock" in text:
+        return "another program has this port open"
+    if isinstance(error, TypeError | AttributeError):
+        return "the port is closed"
+    return text or "the port is gone"

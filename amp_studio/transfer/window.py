@@ -1,0 +1,99 @@
+"""The sliding window: which pieces of an image are under way, and which were lost.
+
+Each sending of a piece has a number of its own, and the answer names it. A
+line keeps the order, so an answer to a later sending says that the earlier
+ones without an answer are lost: they are sent again at once, and only they.
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One sending: where the piece stands in the image (bytes) and when it was sent (seconds)."""
+
+    offset: int
+    length: int
+    sent_at: float
+
+
+class Window:
+    """The pieces of ``size`` bytes from ``start`` on, ``chunk`` bytes each, at most ``limit`` under way."""
+
+    def __init__(self, start: int, size: int, chunk: int, limit: int) -> None:
+        self.size = size
+        self._chunk = chunk
+        self._limit = max(1, limit)
+        self._waiting = list(range(start, size, chunk))
+        self._missing = set(self._waiting)
+        self._flying: dict[int, Piece] = {}  # by number, in the order of sending
+
+    @property
+    def is_done(self) -> bool:
+        """Whether every piece has arrived."""
+        return not self._missing
+
+    @property
+    def bytes_flying(self) -> int:
+        """The bytes that are under way."""
+        return sum(piece.length for piece in self._flying.values())
+
+    @property
+    def oldest(self) -> float | None:
+        """When the piece that waits longest for its answer was sent."""
+        return next((piece.sent_at for piece in self._flying.values()), None)
+
+    def next_piece(self) -> tuple[int, int] | None:
+        """Return offset and length of the next piece to send, or None while the window is full."""
+        while self._waiting and len(self._flying) < self._limit:
+            offset = heapq.heappop(self._waiting)
+            if offset in self._missing:
+                return offset, min(self._chunk, self.size - offset)
+        return None
+
+    def sent(self, number: int, offset: int, length: int, now: float) -> None:
+        """A piece has gone out under this number."""
+        self._flying[number] = Piece(offset, length, now)
+
+    def arrived(self, number: int) -> Piece | None:
+        """The sending with this number has arrived; earlier ones without an answer are lost."""
+        piece = self._answered(number)
+        if piece is not None:
+            self._missing.discard(piece.offset)
+        return piece
+
+    def refused(self, number: int) -> Piece | None:
+        """The sending with this number has come too early and must be sent again."""
+        piece = self._answered(number)
+        if piece is not None:
+            self._again(piece)
+        return piece
+
+    def reached(self, offset: int) -> None:
+        """Everything before ``offset`` has arrived."""
+        self._missing = {at for at in self._missing if min(at + self._chunk, self.size) > offset}
+        for number in [n for n, piece in self._flying.items() if piece.offset not in self._missing]:
+            del self._flying[number]
+
+    def lose_all(self) -> None:
+        """No answer came in time: everything under way is to be sent again."""
+        for piece in self._flying.values():
+            self._again(piece)
+        self._flying.clear()
+
+    def _answered(self, number: int) -> Piece | None:
+        if number not in self._flying:
+            return None
+        for earlier in list(self._flying):
+            piece = self._flying.pop(earlier)
+            if earlier == number:
+                return piece
+            self._again(piece)
+        return None
+
+    def _again(self, piece: Piece) -> None:
+        if piece.offset in self._missing:
+            heapq.heappush(self._waiting, piece.offset)

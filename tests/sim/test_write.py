@@ -1,0 +1,147 @@
+"""A trace as CSV, SVG, PNG and JSON."""
+
+from __future__ import annotations
+
+import json
+import struct
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from amp_studio.sim import (
+    AxisServo,
+    SimulationError,
+    StepMove,
+    Trace,
+    plot_svg,
+    run_step,
+    trace_csv,
+    trace_summary,
+    trace_text,
+    write_trace,
+)
+from amp_studio.sim.rounding import rounded_down, rounded_up, shown
+from amp_studio.sim.svg import thinned, ticks
+
+Axis = Callable[..., AxisServo]
+
+
+@pytest.fixture(scope="module")
+def trace(axis: Axis) -> Trace:
+    return run_step(axis(excess_error=7.0, feedrate_suppression=6.8), StepMove(60.0, 6000.0))
+
+
+def test_csv_gives_back_every_number_exactly(trace: Trace) -> None:
+    heading, *lines = trace_csv(trace).splitlines()
+    assert heading == (
+        "time_s,command_position [mm],position [mm],following_error [mm],command_velocity [mm/min],"
+        "velocity [mm/min],torque_percent"
+    )
+    read = np.array([[float(cell) for cell in line.split(",")] for line in lines]).T
+    assert all(np.array_equal(a, b) for a, b in zip(read, trace.columns.values(), strict=True))
+
+
+def test_the_plot_is_wellformed_and_names_axes_units_and_limits(trace: Trace) -> None:
+    root = ET.fromstring(plot_svg(trace))
+    texts = ["".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text")]
+    for words in (
+        "step, axis 1: 60 mm at 6000 mm/min",
+        "position (mm)",
+        "following error (mm)",
+        "velocity (mm/min)",
+        "torque (% of rated)",
+        "time (s)",
+    ):
+        assert words in texts
+    assert any("excess error 7 mm" in text for text in texts)
+    curves = [node.get("points", "") for node in root.iter("{http://www.w3.org/2000/svg}polyline")]
+    assert len(curves) == 6
+    for points in curves:
+        xy = np.array([[float(v) for v in point.split(",")] for point in points.split()])
+        assert xy[:, 0].min() >= 92
+        assert xy[:, 0].max() <= 868
+        assert xy[:, 1].min() >= 0
+        assert xy[:, 1].max() <= 760
+
+
+def test_an_alarm_stands_in_the_plot(axis: Axis) -> None:
+    stopped = run_step(axis(excess_error=1.0), StepMove(60.0, 6000.0))
+    assert "EXCESS FOLLOWING ERROR at " in plot_svg(stopped)
+
+
+def test_a_motion_of_one_row_can_be_drawn(axis: Axis) -> None:
+    still = run_step(axis(), StepMove(60.0, 6000.0, duration=1e-5))
+    assert still.rows == 1
+    ET.fromstring(plot_svg(still))
+
+
+def test_the_file_is_written_by_its_ending(trace: Trace, tmp_path: Path) -> None:
+    for name in ("a.csv", "b.SVG", "c.png"):
+        write_trace(trace, tmp_path / name)
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8") == trace_csv(trace)
+    assert (tmp_path / "b.SVG").read_text(encoding="utf-8") == plot_svg(trace)
+    png = (tmp_path / "c.png").read_bytes()
+    assert png.startswith(b"\x89PNG\r\n\x1a\n")
+    assert struct.unpack(">II", png[16:24]) == (1440, 1140)
+    with pytest.raises(SimulationError, match=r"\.csv, \.svg, \.png"):
+        write_trace(trace, tmp_path / "d.pdf")
+    with pytest.raises(OSError, match="gone"):
+        write_trace(trace, tmp_path / "gone" / "a.csv")
+
+
+def test_the_summary_has_the_promised_keys_and_is_json(trace: Trace) -> None:
+    told = json.loads(json.dumps(trace_summary(trace), allow_nan=False))
+    assert {"scenario", "axis", "model", "result", "alarms", "advice", "trace"} <= set(told)
+    assert told["trace"] == {"columns": list(trace.columns), "rows": trace.rows}
+    assert told["result"]["steady_following_error"].keys() == {"value", "unit"}
+    for advice in told["advice"]:
+        assert advice.keys() == {"param", "value", "why"}
+
+
+def test_an_alarm_and_its_advice_stand_in_summary_and_text(axis: Axis) -> None:
+    stopped = run_step(axis(excess_error=1.0), StepMove(60.0, 6000.0))
+    told = trace_summary(stopped)
+    assert told["alarms"][0].keys() == {"code", "time_s", "message"}
+    assert told["advice"][0]["param"] == "excess_error"
+    assert told["advice"][0]["value"] == "11.0 mm"
+    text = trace_text(stopped)
+    assert "ALARM at" in text
+    assert "excess_error = 11 mm: " in text
+    assert "Assumptions" in text
+
+
+def test_thinning_keeps_every_peak() -> None:
+    y = np.zeros(100_000)
+    y[12_345], y[67_890] = 5.0, -3.0
+    x, thin = thinned(np.arange(100_000.0), y, 700)
+    assert len(x) <= 1402
+    assert thin.max() == 5.0
+    assert thin.min() == -3.0
+    assert (x[0], x[-1]) == (0.0, 99_999.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "expected"),
+    [(0.0, 1.0, [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]), (-3.0, 7.0, [-2.0, 0.0, 2.0, 4.0, 6.0]), (2.0, 2.0, [2.0])],
+)
+def test_ticks_are_round_numbers(low: float, high: float, expected: list[float]) -> None:
+    assert ticks(low, high) == pytest.approx(expected)
+
+
+def test_numbers_are_rounded_to_the_safe_side_and_written_short() -> None:
+    assert (rounded_up(10.16999), rounded_down(352.78), rounded_up(11.0), rounded_up(0.0)) == (
+        10.2,
+        352.0,
+        11.0,
+        0.0,
+    )
+    assert rounded_up(0.1 + 0.2, 3) == 0.301
+    assert (shown(10160.0, "mm"), shown(0.0254), shown(1e-7), shown(1e7)) == (
+        "10160 mm",
+        "0.0254",
+        "0.0000001",
+        "10000000",
+    )
