@@ -59,7 +59,7 @@ def build_report(
         axis_heads=heads,
         axes=axes,
         notes=tuple(_note(file, f, anchors) for f in findings),
-        forced=tuple(row_of(file, a) for a in file.addresses() if a in file.forced),
+        forced=_forced(file, found.rows),
         not_set=tuple(_not_set(file, found.rows)),
         sections=sections_of(file, printed, sort),
     )
@@ -131,6 +131,12 @@ def _counts(file: ParameterFile, found: Rows, findings: Sequence[Finding]) -> li
 
 def _severity(findings: Sequence[Finding], severity: str) -> int:
     return sum(f.severity == severity for f in findings)
+
+
+def _forced(file: ParameterFile, rows: Sequence[Row]) -> tuple[Row, ...]:
+    """Return every value set out of range on purpose, also those that are not printed otherwise."""
+    printed = {(r.id, r.instance): r for r in rows}
+    return tuple(printed.get(a) or row_of(file, a) for a in file.addresses() if a in file.forced)
 
 
 def _is_missing(row: Row) -> bool:

@@ -5,7 +5,7 @@ Texts are for a person and not escaped; each format escapes in its own way.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
@@ -24,8 +24,8 @@ SORTS: dict[Sort, str] = {
 MARKS: dict[str, str] = {
     "*": "differs from the printed default, or none is printed",
     "!": "forced: set out of range on purpose",
-    "i": "ignored by the control for this machine",
-    "u": "unusable: another setting forbids it",
+    "i": "ignored by the control for this machine; the reason stands below the table under its number",
+    "u": "unusable: another setting forbids it, likewise with its reason",
 }
 
 
@@ -50,7 +50,6 @@ class Row:
     """As the database writes it (``mm/s2``)."""
     shown_unit: str
     """As a person reads it (``mm/s²``)."""
-    is_number: bool
     detail: str
     """What the set bits of a packed word mean; empty for everything else."""
     default: str
@@ -62,6 +61,8 @@ class Row:
     state: State
     why: str
     """Why it is out of force."""
+    state_mark: str
+    """``i2`` for the second reason of this report why a value is ignored, ``u1`` for unusable; empty in force."""
     forced: str
     """When and by whom it was set out of range on purpose; empty when it was not."""
 
@@ -73,8 +74,12 @@ class Row:
     @property
     def marks(self) -> str:
         """The marks of ``MARKS`` that this value bears."""
-        state = {"ignored": "i", "unusable": "u"}.get(self.state, "")
-        return ("*" if self.is_changed else "") + ("!" if self.forced else "") + state
+        return ("*" if self.is_changed else "") + self.other_marks
+
+    @property
+    def other_marks(self) -> str:
+        """Its marks without that of a change, for a format that shows a change by its looks."""
+        return ("!" if self.forced else "") + self.state_mark
 
     @property
     def text(self) -> str:
@@ -117,6 +122,11 @@ class Listing:
     by_place: bool
     """Whether a column must say where each value belongs."""
 
+    @property
+    def reasons(self) -> tuple[tuple[str, str], ...]:
+        """The marks of values out of force, and why they are."""
+        return _reasons(self.rows)
+
 
 @dataclass(frozen=True, slots=True)
 class Grid:
@@ -130,6 +140,16 @@ class Grid:
     def rows(self) -> tuple[Row, ...]:
         """Every value, line by line."""
         return tuple(row for line in self.lines for row in line.cells if row is not None)
+
+    @property
+    def reasons(self) -> tuple[tuple[str, str], ...]:
+        """The marks of values out of force, and why they are."""
+        return _reasons(self.rows)
+
+
+def _reasons(rows: Iterable[Row]) -> tuple[tuple[str, str], ...]:
+    found = {row.state_mark: row.why for row in rows if row.state_mark}
+    return tuple(sorted(found.items(), key=lambda item: (item[0][0], int(item[0][1:]))))
 
 
 @dataclass(frozen=True, slots=True)

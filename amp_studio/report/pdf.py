@@ -12,7 +12,7 @@ from pathlib import Path
 from .model import MARKS, Listing, Report, counted
 
 _LONG_RUN = re.compile(r"[^\s\u200b]{13,}")
-_WORD = re.compile(r"[^\W\d_]{1,22}")
+_WORD = re.compile(r"[^\W\d_]{1,16}")
 
 
 def typst_literal(value: object) -> str:
@@ -33,7 +33,7 @@ def _character(c: str) -> str:
 
 
 def _breakable(text: str) -> str:
-    """Let a long run of signs without a space be broken; a long word is left to hyphenation."""
+    """Let a long run of signs without a space be broken; a word of usual length stays whole."""
 
     def broken(found: re.Match[str]) -> str:
         run = found.group()

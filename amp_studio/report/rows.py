@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import Address, Parameter, UnitError, Value, convert, label_of, shown, write_number
+from amp_studio.schema import Address, Parameter, StateInfo, UnitError, Value, convert, label_of, shown, write_number
 
 from .model import Row
 
@@ -25,14 +25,23 @@ def rows_of(file: ParameterFile) -> Rows:
     """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted."""
     axes = printed_axes(file)
     rows, hidden, unfitted = [], 0, 0
+    marks: dict[StateInfo, str] = {}
     for address in file.addresses():
         if scope_of(file, address) == "axis" and address[1] not in axes:
             unfitted += 1
-        elif file.situation.state(address).state == "hidden":
+        elif (state := file.situation.state(address)).state == "hidden":
             hidden += 1
         else:
-            rows.append(row_of(file, address))
+            rows.append(row_of(file, address, _state_mark(state, marks)))
     return Rows(tuple(rows), hidden, unfitted)
+
+
+def _state_mark(state: StateInfo, marks: dict[StateInfo, str]) -> str:
+    """Return the mark of a state with its reason, numbering the reasons as they come."""
+    letter = {"ignored": "i", "unusable": "u"}.get(state.state)
+    if letter is None:
+        return ""
+    return marks.setdefault(state, f"{letter}{sum(m[0] == letter for m in marks.values()) + 1}")
 
 
 def printed_axes(file: ParameterFile) -> tuple[str, ...]:
@@ -62,8 +71,8 @@ def axis_label(file: ParameterFile, axis: str) -> str:
     return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {axis_name(file, axis)}".rstrip()
 
 
-def row_of(file: ParameterFile, address: Address) -> Row:
-    """Return the row of one value."""
+def row_of(file: ParameterFile, address: Address, state_mark: str = "") -> Row:
+    """Return the row of one value; ``state_mark`` says in short why it is out of force."""
     schema, machine = file.schema, file.machine
     parameter = schema.parameters[address[0]]
     value, default, state = file.get(address), file.default(address), file.situation.state(address)
@@ -80,13 +89,13 @@ def row_of(file: ParameterFile, address: Address) -> Row:
         value=_bare(parameter, value),
         unit=unit,
         shown_unit=shown(unit),
-        is_number=value is not None and not isinstance(value.value, (str, bool)),
         detail=_bits(parameter, value),
         default=_default(parameter, default, unit),
         plain_default=_bare(parameter, _converted(default, unit)),
         is_changed=value is not None and not file.is_default(address),
         state=state.state,
         why=state.why,
+        state_mark=state_mark,
         forced=file.forced.get(address, ""),
     )
 

@@ -9,7 +9,7 @@ from .model import MARKS, Listing, Note, Report, Row, counted
 
 WIDTH = 100
 
-_ROW = (8, 34, 10, 26, 14, 3)
+_ROW = (8, 34, 10, 25, 13, 5)
 """Columns of number, name, place, value, default and marks, one space apart."""
 _HEAD = ("Number", "Parameter", "", "Value", "Default", "")
 
@@ -31,6 +31,8 @@ def _lines(report: Report) -> Iterator[str]:
                 yield from _wrapped(part.title, "")
                 yield "-" * min(len(part.title), WIDTH)
             yield from _table(part.rows, by_place=not isinstance(part, Listing) or part.by_place)
+            for mark, why in part.reasons:
+                yield from _wrapped(why, f"  {mark} ")
             yield ""
 
 
@@ -54,8 +56,8 @@ def _title(report: Report) -> Iterator[str]:
     for label in ("Set up by", "Released by"):
         yield f"{label + ' ':_<60}  {'Date ':_<38}"
         yield ""
-    yield "Marks: " + "; ".join(f"{mark} {what}" for mark, what in list(MARKS.items())[:2])
-    yield "       " + "; ".join(f"{mark} {what}" for mark, what in list(MARKS.items())[2:])
+    for mark, what in MARKS.items():
+        yield from _wrapped(what, f"  {mark} ")
     yield ""
 
 

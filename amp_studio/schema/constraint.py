@@ -7,13 +7,14 @@ inch range and the printed metric range differ in the last digit.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from .catalog import Address
-from .model import Bound, BoundRef, Range
+from .model import Bound, BoundRef, Parameter, Range
 from .situation import Situation
-from .units import UNITS, angular, convert, dimension, shown
-from .values import Value, write_number
+from .units import angular, canonical_unit, convert, dimension, shown
+from .values import Value, digits_of, field_value, write_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ def ranges_of(situation: Situation, address: Address) -> dict[str, Range]:
     """Return the ranges that hold for one instance: the plain ones, or those of a variant."""
     parameter = situation.schema.parameters[address[0]]
     for variant in parameter.range_variants:
-        if situation.holds(variant.when, address[1]):
+        if situation.holds(variant.when, address[1], situation.scope(address)):
             return variant.ranges
     return parameter.ranges or {}
 
@@ -90,11 +91,11 @@ def _bound(
     if bound is None:
         return None, None
     if isinstance(bound, BoundRef):
-        source = situation.reading(bound.param, address[1]).addresses[0]
+        source = situation.reading(bound.param, address[1], situation.scope(address)).addresses[0]
         found = situation.canonical(source)
         if not isinstance(found, float) or situation.state(source).state == "hidden":
             return None, source
-        return found / float(UNITS[unit][1]), source
+        return convert(found, canonical_unit(unit), unit), source
     if dimension(printed) != dimension(unit):  # metric figures taken as degrees
         return convert(bound, angular(printed), unit), None
     return convert(bound, printed, unit), None
@@ -107,14 +108,40 @@ def fault(situation: Situation, address: Address, value: Value) -> str | None:
     if isinstance(found, str):
         if parameter.choices and found.startswith("raw:"):
             return f"{found[4:]} is no code of {parameter.name}"
-        return None
+        return _format_fault(situation, address, found) if parameter.type == "format" else None
     if isinstance(found, bool):
         return None
+    if parameter.type == "bits" and (said := _bits_fault(parameter, int(found))):
+        return said
     allowed = limits(situation, address, value.unit)
     if allowed is None:
         return None
     if _below(found, allowed.low, allowed.low_from) or _below(allowed.high, found, allowed.high_from):
         return f"{parameter.name} {_shown(value)} is outside {_named(situation, allowed)}"
+    return None
+
+
+def _format_fault(situation: Situation, address: Address, form: str) -> str | None:
+    """Say why a word format is not allowed; its digits before and behind the point each have their own bounds."""
+    low, high = ranges_of(situation, address).get("", (None, None))
+    for index in (0, 1):
+        digits = digits_of(form)[index]
+        bounds = [digits_of(repr(b))[index] if isinstance(b, float) else digits for b in (low, high)]
+        if not bounds[0] <= digits <= bounds[1]:
+            allowed = " to ".join(repr(b) if isinstance(b, float) else "…" for b in (low, high))
+            return f"{situation.schema.parameters[address[0]].name} {form} is outside {allowed}"
+    return None
+
+
+def _bits_fault(parameter: Parameter, word: int) -> str | None:
+    """Say why a word of bits is not allowed: too wide for the control, or a code that a field does not have."""
+    width = parameter.storage.bits if parameter.storage else None
+    if word < 0 or (width is not None and word >> width):
+        return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"
+    for field in parameter.bits or ():
+        codes = [choice.raw for choice in field.choices or ()]
+        if codes and None not in codes and field_value(field, word) not in codes:
+            return f"{field_value(field, word)} is no code of {field.label} in {parameter.name}"
     return None
 
 
@@ -127,8 +154,8 @@ def _below(a: float | None, b: float | None, shared: Address | None) -> bool:
 
 def _named(situation: Situation, allowed: Limits) -> str:
     text = allowed.text()
-    for source in (allowed.low_from, allowed.high_from):
-        if source is not None:
+    for bound, source in ((allowed.low, allowed.low_from), (allowed.high, allowed.high_from)):
+        if bound is not None and source is not None:
             text += f" (set by {situation.schema.label(source, situation.machine)})"
     return text
 
@@ -146,10 +173,11 @@ def clip(situation: Situation, address: Address, value: Value) -> Value:
     if allowed is None:
         return value
     number = float(value.value)
+    whole = isinstance(value.value, int)
     if allowed.low is not None:
-        number = max(number, allowed.low)
+        number = max(number, float(math.ceil(allowed.low)) if whole else allowed.low)
     if allowed.high is not None:
-        number = min(number, allowed.high)
-    return Value(int(number) if isinstance(value.value, int) else number, value.unit)
+        number = min(number, float(math.floor(allowed.high)) if whole else allowed.high)
+    return Value(int(number) if whole else number, value.unit)
 
 

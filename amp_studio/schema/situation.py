@@ -13,11 +13,14 @@ from typing import Any
 
 from .catalog import Address, Schema, UnknownParameter, read_address
 from .cel_engine import Program, compile_expression
-from .model import Condition, Parameter, State
+from .model import Condition, Parameter, Scope, State, StateRule
 from .units import canonical
 from .values import Value
 
 Canonical = float | str | bool | None
+
+_Asked = tuple[str, str, str | None]
+"""What is asked (a condition, an entry of ``reads``), for which instance, of which scope."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +55,10 @@ class Situation:
     def __init__(self, schema: Schema, value: Callable[[Address], Value | None], machine: Callable[[], str]) -> None:
         self.schema, self._value, self._machine = schema, value, machine
         self._canonical: dict[Address, Canonical] = {}
-        self._holds: dict[tuple[str, str], bool] = {}
+        self._holds: dict[_Asked, bool] = {}
         self._states: dict[Address, StateInfo] = {}
-        self._readers: dict[Address, set[tuple[str, str]]] = {}
-        self._readings: dict[tuple[str, str], Reading] = {}
+        self._readers: dict[Address, set[_Asked]] = {}
+        self._readings: dict[_Asked, Reading] = {}
 
     @property
     def machine(self) -> str:
@@ -72,18 +75,28 @@ class Situation:
             found = self._canonical[address] = canonical_value(self._value(address))
             return found
 
-    def reading(self, text: str, instance: str) -> Reading:
-        """Resolve one entry of ``reads`` for an instance; raises UnknownParameter."""
-        key = (text, instance)
+    def scope(self, address: Address) -> Scope | None:
+        """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""
+        layout = self.schema.layout(self.schema.parameters[address[0]], self.machine)
+        return layout.scope if layout else None
+
+    def reading(self, text: str, instance: str, scope: str | None = None) -> Reading:
+        """Resolve one entry of ``reads`` for an instance; raises UnknownParameter.
+
+        With the ``scope`` of the instance, axis 1 is not taken for process 1; without it equal names are enough.
+        """
+        key = (text, instance, scope)
         found = self._readings.get(key)
         if found is None:
-            found = self._readings[key] = self._resolve(text, instance)
+            found = self._readings[key] = self._resolve(text, instance, scope)
         return found
 
-    def _resolve(self, text: str, instance: str) -> Reading:
+    def _resolve(self, text: str, instance: str, scope: str | None) -> Reading:
         parameter_id, which = read_address(text)
         parameter = self.schema.parameter(parameter_id)
         instances = self.schema.instances(parameter, self.machine)
+        if scope is not None and self.scope((parameter_id, "")) != scope:
+            instance = ""
         if which == "":
             own = instance if instance in instances else "" if "" in instances else None
             if own is None:
@@ -106,23 +119,27 @@ class Situation:
         except KeyError:
             raise UnknownParameter(f"the family has no condition '{name}'") from None
 
-    def holds(self, name: str, instance: str) -> bool:
-        """Tell whether a named condition holds for an instance; one over an unset value does not."""
-        key = (name, instance)
+    def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
+        """Tell whether a named condition holds for an instance (of a ``scope``); one over an unset value does not."""
+        key = (name, instance, scope)
         found = self._holds.get(key)
         if found is None:
-            found = self._holds[key] = self._evaluate(name, instance)
+            found = self._holds[key] = self._evaluate(key)
         return found
 
-    def _evaluate(self, name: str, instance: str) -> bool:
+    def _evaluate(self, asked: _Asked) -> bool:
+        name, instance, scope = asked
         condition = self.condition(name)
         names: dict[str, Any] = {"machine": self.machine, "instance": instance}
-        if self.schema.family.machine_parameter:
-            self._readers.setdefault((self.schema.family.machine_parameter, ""), set()).add((name, instance))
         for short, text in condition.reads.items():
-            reading = self.reading(text, instance)
+            try:
+                reading = self.reading(text, instance, scope)
+            except UnknownParameter:  # what it reads does not exist on this machine type, or not for this instance
+                self.schema.parameter(read_address(text)[0])
+                names[short] = None
+                continue
             for address in reading.addresses:
-                self._readers.setdefault(address, set()).add((name, instance))
+                self._readers.setdefault(address, set()).add(asked)
             got = [self.canonical(a) for a in reading.addresses]
             names[short] = got if reading.is_list else got[0]
         try:
@@ -142,11 +159,14 @@ class Situation:
     def _state(self, address: Address) -> StateInfo:
         parameter = self.schema.parameters[address[0]]
         for rule in parameter.states:
-            name = rule.when or rule.unless or ""
-            if self.holds(name, address[1]) == (rule.when is not None):
-                condition = self.condition(name)
+            if self._applies(rule, address):
+                condition = self.condition(rule.when or rule.unless or "")
                 return StateInfo(rule.state, condition.why, rule.page or condition.page)
         return IN_FORCE
+
+    def _applies(self, rule: StateRule, address: Address) -> bool:
+        name = rule.when or rule.unless or ""
+        return self.holds(name, address[1], self.scope(address)) == (rule.when is not None)
 
     def state_reads(self, address: Address) -> set[Address]:
         """Return every address whose value can change the state of this one."""
@@ -159,7 +179,7 @@ class Situation:
         for name in names:
             for text in self.condition(name).reads.values():
                 try:
-                    found.update(self.reading(text, address[1]).addresses)
+                    found.update(self.reading(text, address[1], self.scope(address)).addresses)
                 except UnknownParameter:
                     continue
         if parameter.layouts or any("machine" in self.condition(n).when for n in names):
@@ -170,8 +190,7 @@ class Situation:
     def turns(self, address: Address) -> bool:
         """Tell whether the instance belongs to an axis whose lengths are angles."""
         name = self.schema.family.angular_when
-        layout = self.schema.layout(self.schema.parameters[address[0]], self.machine)
-        return bool(name and layout and layout.scope == "axis" and self.holds(name, address[1]))
+        return bool(name and self.scope(address) == "axis" and self.holds(name, address[1], "axis"))
 
     def unit(self, address: Address, system: str) -> str:
         """Return the unit of entry of an instance in a unit system."""
@@ -192,8 +211,7 @@ class Situation:
             instances = self.schema.instances(parameter, self.machine)
             if instance in instances:
                 return parameter_id, instance
-            offered = f"@{instances[0]} to @{instances[-1]}" if len(instances) > 1 else "no instances here"
-            raise UnknownParameter(f"'{text}': {parameter.name} has {offered}")
+            raise UnknownParameter(f"'{text}': {parameter.name} {_offered(instances)}")
         claims = self.schema.addressed_by(text, self.machine)
         existing = [a for a in claims if self.state(a).state != "hidden"] or self._nearest(claims)
         if not existing:
@@ -207,7 +225,7 @@ class Situation:
         """Return, of parameters that are all hidden, those that the fewest conditions hide."""
         def hiding(address: Address) -> int:
             rules = self.schema.parameters[address[0]].states
-            return sum(self.holds(r.when or r.unless or "", address[1]) == (r.when is not None) for r in rules)
+            return sum(r.state == "hidden" and self._applies(r, address) for r in rules)
 
         counts = {address: hiding(address) for address in claims}
         return [a for a in claims if counts[a] == min(counts.values())]
@@ -222,8 +240,7 @@ class Situation:
             return
         for key in self._readers.pop(address, ()):
             self._holds.pop(key, None)
-            name, instance = key
-            for dependent in self._dependents(name, instance):
+            for dependent in self._dependents(key[0], key[1]):
                 self._states.pop(dependent, None)
 
     def _dependents(self, name: str, instance: str) -> Iterable[Address]:
@@ -233,6 +250,16 @@ class Situation:
         """Forget everything, as after reading another file."""
         for memory in (self._canonical, self._holds, self._states, self._readers, self._readings):
             memory.clear()
+
+
+def _offered(instances: tuple[str, ...]) -> str:
+    if not instances:
+        return "does not exist on this machine type"
+    if instances == ("",):
+        return "is one for the whole control, without '@'"
+    named = [i for i in instances if i]
+    span = f"@{named[0]} to @{named[-1]}" if len(named) > 1 else f"only @{named[0]}"
+    return f"has {span}" + (", and one without '@'" if "" in instances else "")
 
 
 def _state_names(parameter: Parameter) -> set[str]:

@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from .model import Parameter
+from .model import Bit, Parameter
 from .units import UnitError, dimension, shown, unit_named
 
 
@@ -27,19 +27,36 @@ class ValueFault(ValueError):
     """A value that cannot be read; the text is one clear sentence."""
 
 
-_NUMBER = re.compile(r"^\s*([+-]?[0-9.,' _]*[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?)\s*(.*)$")
+_NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?[0-9]+)?)\s*(.*)$")
+_GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
+_EXACT = 2**53
+"""Above it a double no longer holds every whole number."""
 
 
 def read_number(text: str) -> tuple[float, str]:
     """Read a number with decimal point or comma, and what follows it.
 
-    A comma that could be either (``1,234``) is refused rather than guessed.
+    Groups of three digits may be set apart (``12 345.6``, ``12'345.6``). A comma
+    that could be either (``1,234``) is refused rather than guessed.
     Returns the number and the rest of the text; raises ValueFault.
     """
     found = _NUMBER.match(text)
     if not found:
         raise ValueFault(f"'{text.strip()}' is not a number")
-    digits, rest = found.group(1).replace("'", "").replace("_", "").replace(" ", ""), found.group(2)
+    digits, exponent, rest = found.groups()
+    if _GROUPED.fullmatch(digits):
+        digits = re.sub("[ '_]", "", digits)
+    elif " " in digits:  # "3000 1/min": what stands after the blank is no part of the number
+        digits, _, tail = digits.partition(" ")
+        exponent, rest = "", tail + text[found.end(1) :]
+    number = _decimal(digits, exponent)
+    if not math.isfinite(number):
+        raise ValueFault(f"'{digits}{exponent}' is too large")
+    return number, rest
+
+
+def _decimal(digits: str, exponent: str) -> float:
+    """Return the number that digits with points and commas mean; raises ValueFault."""
     if "," in digits and "." in digits:
         decimal = max(digits.rfind(","), digits.rfind("."))
         whole, fraction = digits[:decimal], digits[decimal + 1 :]
@@ -53,17 +70,16 @@ def read_number(text: str) -> tuple[float, str]:
                 raise ValueFault(f"'{digits}' is not a number")
             digits = digits.replace(",", "")
         elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
-            plain = digits.replace(",", "")
-            raise ValueFault(f"'{digits}' can be read two ways: write {plain} or {digits.replace(',', '.')}")
+            ways = [digits.replace(",", sign) + exponent for sign in ("", ".")]
+            raise ValueFault(f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}")
         else:
             digits = digits.replace(",", ".")
     try:
-        number = float(digits)
+        if "_" in digits:
+            raise ValueError  # Python reads 1_0 as 10
+        return float(digits + exponent)
     except ValueError:
-        raise ValueFault(f"'{digits}' is not a number") from None
-    if not math.isfinite(number):
-        raise ValueFault(f"'{digits}' is not a finite number")
-    return number, rest
+        raise ValueFault(f"'{digits}{exponent}' is not a number") from None
 
 
 def read_value(parameter: Parameter, text: str, unit: str) -> Value:
@@ -78,8 +94,10 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
         return Value(text)
     if parameter.choices:
         return _read_choice(parameter, text)
-    if parameter.type in ("bits", "integer") and re.fullmatch(r"(0x|\$)[0-9a-fA-F]+", text):
-        return Value(int(text.lstrip("$").removeprefix("0x"), 16), unit)
+    if parameter.type == "format":
+        return _read_format(parameter, text)
+    if parameter.type in ("bits", "integer") and (hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)):
+        return Value(int(hexadecimal[1], 16), unit)
     number, rest = read_number(text)
     if rest:
         try:
@@ -92,8 +110,29 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
     if parameter.type in ("integer", "bits"):
         if number != int(number):
             raise ValueFault(f"{parameter.name} takes whole numbers, not {write_number(number)}")
+        if abs(number) > _EXACT:
+            raise ValueFault(f"{write_number(number)} is too large for {parameter.name}")
         return Value(int(number), unit)
     return Value(number, unit)
+
+
+def _read_format(parameter: Parameter, text: str) -> Value:
+    """Read a word format, digits before and behind the point: 6.0 and 3.10 are no fractions and stay as they are."""
+    found = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
+    if not found:
+        raise ValueFault(f"'{text}' is not a format: {parameter.name} takes digits before and behind the point, as 3.4")
+    return Value(f"{int(found[1])}.{int(found[2])}")
+
+
+def digits_of(form: str) -> tuple[int, int]:
+    """Return the digits before and behind the point of a word format."""
+    whole, _, decimals = form.partition(".")
+    return int(whole), int(decimals or 0)
+
+
+def plain(text: str) -> str:
+    """Return a text as texts are compared: without regard to case and to the number of blanks."""
+    return " ".join(text.casefold().split())
 
 
 def _read_choice(parameter: Parameter, text: str) -> Value:
@@ -109,11 +148,10 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
             if choice.raw == raw:
                 return Value(choice.key == "yes" if yes_no else choice.key)
         return Value(f"raw:{raw}")
-    squeezed = re.sub(r"\s+", " ", word)
     for field in ("label", "code", "key"):
         for choice in choices:
             said = getattr(choice, field)
-            if said is not None and said.casefold() == squeezed:
+            if said is not None and plain(said) == plain(text):
                 return Value(choice.key == "yes" if yes_no else choice.key)
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))
@@ -125,7 +163,7 @@ def write_number(number: float) -> str:
     """Write a number by its shortest text that reads back exactly."""
     if isinstance(number, int):
         return str(number)
-    if number == int(number) and abs(number) < 1e15:
+    if number.is_integer() and abs(number) < 1e15:
         return str(int(number))
     return repr(number)
 
@@ -138,8 +176,16 @@ def write_value(parameter: Parameter, value: Value | None) -> str:
         return label_of(parameter, value.value)
     if isinstance(value.value, bool):
         return label_of(parameter, "yes" if value.value else "no")
-    number = write_number(value.value)
+    number = _number_text(parameter, value.value)
     return f"{number} {value.unit}" if value.unit else number
+
+
+def _number_text(parameter: Parameter, number: float) -> str:
+    """Write a number as the control does: a word of bits that it shows in hexadecimal, so."""
+    storage = parameter.storage
+    if storage and storage.notation == "hex" and isinstance(number, int) and number >= 0:
+        return f"0x{number:0{(storage.bits or 0) // 4}X}"
+    return write_number(number)
 
 
 def show_value(parameter: Parameter, value: Value | None) -> str:
@@ -148,9 +194,50 @@ def show_value(parameter: Parameter, value: Value | None) -> str:
         return "—"
     if isinstance(value.value, (str, bool)):
         return write_value(parameter, value)
-    number = write_number(value.value)
+    number = _number_text(parameter, value.value)
     unit = shown(value.unit)
     return f"{number}{unit}" if unit in ("°",) else f"{number} {unit}" if unit else number
+
+
+# -- the bits of a packed word ---------------------------------------------------
+
+
+def field_at(parameter: Parameter, bit: int) -> Bit:
+    """Return the field that begins at a bit of a word; one that the database does not name is a bit by itself.
+
+    Raises ValueFault for a parameter without bits, and beyond its last bit.
+    """
+    if parameter.type != "bits":
+        raise ValueFault(f"{parameter.name} is no word of bits")
+    width = parameter.storage.bits if parameter.storage else None
+    if width is not None and bit >= width:
+        raise ValueFault(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
+    return next((b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True))
+
+
+def field_value(field: Bit, word: int) -> int:
+    """Return the number that stands in a field of a word."""
+    return (word >> field.bit) & ((1 << field.width) - 1)
+
+
+def with_field(field: Bit, word: int, text: str) -> int:
+    """Return a word with one field changed to what a person wrote; every other bit stays. Raises ValueFault."""
+    said = plain(text)
+    for choice in field.choices or ():
+        names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]
+        if choice.raw is not None and said in [*names, f"raw:{choice.raw}"]:
+            number = choice.raw
+            break
+    else:
+        switch = {"yes": 1, "true": 1, "on": 1, "no": 0, "false": 0, "off": 0} if field.width == 1 else {}
+        highest = (1 << field.width) - 1
+        try:
+            number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
+        except ValueError:
+            number = -1
+        if not 0 <= number <= highest:
+            raise ValueFault(f"'{text}' does not fit {field.label}, which takes 0 to {highest}")
+    return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
 
 
 def label_of(parameter: Parameter, key: str) -> str:

@@ -13,6 +13,7 @@ from .bind import BINDINGS, MODEL_SETTINGS, axis_servo
 from .reading import MotorGains, Value, ValueOf
 from .scenarios import SCENARIOS, Scenario
 from .servo import AxisServo, SimulationError, Source
+from .simulate import simulate
 from .step import StepMove, default_move, run_step
 from .svg import plot_svg
 from .trace import Advice, Alarm, Figure, Trace
@@ -39,6 +40,7 @@ __all__ = [
     "plot_png",
     "plot_svg",
     "run_step",
+    "simulate",
     "trace_csv",
     "trace_summary",
     "trace_text",

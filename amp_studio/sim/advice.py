@@ -29,7 +29,8 @@ program."""
 APERIODIC = 4.0
 """Velocity loop rate over position loop rate from which the position loop no longer overshoots."""
 INTEGRAL_SHARE = 10.0
-"""The tuning procedure ends with an integral gain 5 to 10 times below the proportional one (A-9)."""
+"""The tuning procedure ends with an integral gain 5 to 10 times below the proportional one (appendix A, from
+A-8 on)."""
 LOOSE = 2.0
 """Excess error over the wanted one from which it is called loose. A choice of this program."""
 

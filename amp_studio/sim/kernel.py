@@ -17,8 +17,8 @@ speed v and the sum w of the velocity error:
     axis                dv/dt = a_rated M / 100 - viscous v - friction(v),   dx/dt = v
 
 Sources, 9/PC AMP manual: proportional and integral share added into an acceleration command 7-54, 7-56 and
-block diagram 7-10; discharge of the sum 7-58; torque limits 7-61, 7-62; ramps 10-8, 10-10; exponential speed
-10-15. Textbooks: PI in series form, and holding the sum while the output is cut, K. J. Åström, T. Hägglund,
+block diagram 7-9; discharge of the sum 7-58; torque limits 7-61, 7-62; ramps 10-8, 10-10; exponential speed
+10-14. Textbooks: PI in series form, and holding the sum while the output is cut, K. J. Åström, T. Hägglund,
 PID Controllers: Theory, Design, and Tuning (1995); cascade of position and velocity loop on a rigid axis, H.
 Gross, J. Hamann, G. Wiegärtner, Electrical Feed Drives in Automation (2001); ramps in discrete time, S.-H.
 Suh, S.-K. Kang, D.-H. Chung, I. Stroud, Theory and Design of CNC Systems (2008).
@@ -216,7 +216,7 @@ def next_command(
     All three are counted along the move and never negative. ``feedrate`` is the one in force now (halved
     while suppressed, 7-21). ``fed`` is what the exponential filter has been given so far: the programmed
     feedrate passes a first-order lag, v += (F - v)(1 - exp(-T / time constant)), which loses no distance
-    (10-15).
+    (10-14).
     """
     if p.ramp == LINEAR:
         progress, speed = linear_step(p, progress, speed, feedrate, period)

@@ -9,8 +9,8 @@ says that the constants convert to inverse milliseconds, in which the position g
 velocity loop shall be 3 to 10 times as fast as the position loop, and its integral slower than the position
 loop, at every gain. That is how a cascade is laid out in textbooks, and 65536 is the full scale of the 16-bit
 value. The integral is taken in series with the proportional gain, a* = kp (e + ki sum(e)): then the 5 to 10
-times between both gains at the end of the tuning procedure (A-9) are a damping of 1.1 to 1.6; added in
-parallel, per ms, they would be one of 0.25 to 0.65.
+times between both gains at the end of the tuning procedure (appendix A, from A-8 on) are a damping of 1.1 to
+1.6; added in parallel, per ms, they would be one of 0.25 to 0.65.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ def _kind(read: Readings) -> tuple[str, str, bool]:
 
 
 def _feedback(read: Readings, unit: str, figures: dict[str, float], notes: list[str]) -> Source:
-    """Counts and travel of one cycle (7-33, 7-38, 7-40); a scale with coded markers has its own (7-34, B-2).
+    """Counts and travel of one cycle (7-33, 7-38, 7-40); a scale with coded markers has its own (7-33, B-2).
 
     Returns the source of the travel.
     """
@@ -238,10 +238,10 @@ def _digital(
 
 
 def _analog(read: Readings, figures: dict[str, float], notes: list[str]) -> None:
-    """The velocity loop closed in another make of drive, with settings that are not in the file (7-3)."""
+    """The velocity loop closed in another make of drive, with settings that are not in the file (7-2)."""
     figures["velocity_rate"] = ANALOG_RATIO * figures["position_gain"] * 1000.0 / 60.0
     notes.append(
-        "ASSUMED: the drive closes the velocity loop itself (7-3), ten times as fast as the position loop and"
+        "ASSUMED: the drive closes the velocity loop itself (7-2), ten times as fast as the position loop and"
         " without an integral share, the quick end of the bounds of 7-54."
     )
     peak = _peak(read)

@@ -45,6 +45,10 @@ class Conversation:
         """How many damaged frames came on this line."""
         return self._decoder.bad_frames
 
+    def now(self) -> float:
+        """Return the time in seconds."""
+        return self._clock()
+
     def send(self, message: Message) -> int:
         """Send a message under a new number and return the number; raises LinkError."""
         number = next(self._numbers)

@@ -30,6 +30,7 @@ class Window:
         self._waiting = list(range(start, size, chunk))
         self._missing = set(self._waiting)
         self._flying: dict[int, Piece] = {}  # by number, in the order of sending
+        self._numbers: set[int] = set()
 
     @property
     def is_done(self) -> bool:
@@ -46,6 +47,18 @@ class Window:
         """When the piece that waits longest for its answer was sent."""
         return next((piece.sent_at for piece in self._flying.values()), None)
 
+    def flying(self, number: int) -> Piece | None:
+        """Return the sending with this number, while it is under way."""
+        return self._flying.get(number)
+
+    def knows(self, number: int) -> bool:
+        """Whether a piece was ever sent under this number."""
+        return number in self._numbers
+
+    def have(self, offset: int) -> None:
+        """The piece at ``offset`` is there already."""
+        self._missing.discard(offset)
+
     def next_piece(self) -> tuple[int, int] | None:
         """Return offset and length of the next piece to send, or None while the window is full."""
         while self._waiting and len(self._flying) < self._limit:
@@ -57,6 +70,7 @@ class Window:
     def sent(self, number: int, offset: int, length: int, now: float) -> None:
         """A piece has gone out under this number."""
         self._flying[number] = Piece(offset, length, now)
+        self._numbers.add(number)
 
     def arrived(self, number: int) -> Piece | None:
         """The sending with this number has arrived; earlier ones without an answer are lost."""

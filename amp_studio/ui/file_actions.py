@@ -82,7 +82,7 @@ class FileActions:
             else:
                 path = self._ask_path("New parameter file", Path(file.header.name or "machine"))
             if path:
-                self._show(Document.create(file, path))
+                self.show_document(Document.create(file, path))
 
     def _ask_path(self, title: str, near: Path) -> Path | None:
         text, _ = QFileDialog.getSaveFileName(self.window, title, str(near.with_suffix(".amp")), FILTER)
@@ -108,11 +108,12 @@ class FileActions:
             if answer != QMessageBox.StandardButton.Yes:
                 return
             document = Document.view(path)
-        self._show(document)
+        self.show_document(document)
         if document.is_locked:
             self._offer_unsaved(document)
 
-    def _show(self, document: Document) -> None:
+    def show_document(self, document: Document) -> None:
+        """Show a document in the window."""
         self.window.show_workspace(Workspace(document))
         self.window.settings.setValue("last-file", str(document.path))
         folder = document.path.parent
@@ -149,7 +150,7 @@ class FileActions:
         elif path:
             if path.exists():  # the dialog has asked already
                 path.replace(backup_path(path))
-            self._show(workspace.document.save_as(path))
+            self.show_document(workspace.document.save_as(path))
 
     def compare(self) -> None:
         """List the differences to another file."""

@@ -28,7 +28,7 @@ class GroupList(QWidget):
         self.search = QLineEdit()
         self.search.setPlaceholderText("Search number, name, help  (Ctrl+F)")
         self.search.setClearButtonEnabled(True)
-        self.search.textChanged.connect(lambda _: self._choose())
+        self.search.textChanged.connect(lambda _: self.choose())
         self.tree = QTreeWidget()
         self.tree.setHeaderHidden(True)
         self.tree.setColumnCount(2)
@@ -100,9 +100,10 @@ class GroupList(QWidget):
             self.search.blockSignals(True)
             self.search.clear()
             self.search.blockSignals(False)
-        self._choose()
+        self.choose()
 
-    def _choose(self) -> None:
+    def choose(self) -> None:
+        """Tell again what is chosen."""
         words = self.search.text().casefold().split()
         if words:
             self.chosen.emit(f"Search: {self.search.text()}", self.found(words))

@@ -46,6 +46,8 @@ class MainWindow(QMainWindow):
         self.setWindowTitle("AMP Studio")
         self.resize(1280, 800)
         self.workspace: Workspace | None = None
+        self._title = ""
+        self._last: Address | None = None
         self.table: ParameterTable | None = None
         self.settings = QSettings("AMP Studio", "AMP Studio")
         self.file_status, self.value_status = QLabel(), QLabel()
@@ -133,7 +135,7 @@ class MainWindow(QMainWindow):
             self.workspace.close()
             if self._watcher.files():
                 self._watcher.removePaths(self._watcher.files())
-        self.workspace = workspace
+        self.workspace, self._last = workspace, None
         for dock in self.findChildren(QDockWidget):
             self.removeDockWidget(dock)
             dock.deleteLater()
@@ -148,9 +150,9 @@ class MainWindow(QMainWindow):
         layout.addWidget(self.table_view)
         self.setCentralWidget(centre)
         self.groups, self.detail, self.findings = GroupList(workspace), DetailPanel(workspace), FindingsPanel(workspace)
-        self._dock("Groups", self.groups, Qt.DockWidgetArea.LeftDockWidgetArea, 270)
-        self._dock("Parameter", self.detail, Qt.DockWidgetArea.RightDockWidgetArea, 340)
-        self._dock("Findings", self.findings, Qt.DockWidgetArea.BottomDockWidgetArea, 200)
+        self._dock("Groups", self.groups, Qt.DockWidgetArea.LeftDockWidgetArea, 235)
+        self._dock("Parameter", self.detail, Qt.DockWidgetArea.RightDockWidgetArea, 330)
+        self._dock("Findings", self.findings, Qt.DockWidgetArea.BottomDockWidgetArea, 180)
         self.groups.chosen.connect(self._show_parameters)
         self.detail.linked.connect(self._follow)
         self.findings.activated.connect(self._show_finding)
@@ -158,13 +160,10 @@ class MainWindow(QMainWindow):
         workspace.changed.connect(lambda _: self._enable())
         workspace.saved.connect(self._after_save)
         self._watcher.addPath(str(workspace.path))
-        self._show_parameters(self.groups.tree.currentItem().text(0), self._current_group())
+        self.groups.choose()
         self.view.follow(workspace)
         self._enable()
         self._restore_layout()
-
-    def _current_group(self) -> list:  # type: ignore[type-arg]  # parameters, as the group list gives them
-        return self.groups._parameters(str(self.groups.tree.currentItem().data(0, Qt.ItemDataRole.UserRole)))
 
     def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea, size: int) -> None:
         dock = QDockWidget(title, self)
@@ -188,19 +187,37 @@ class MainWindow(QMainWindow):
         assert self.workspace is not None
         view.setItemDelegate(ValueDelegate(self.workspace, self.commit, view))
         view.selectionModel().currentChanged.connect(lambda *_: self._selected())
+        model.modelReset.connect(self._after_reset)
         return view
 
     def _show_parameters(self, title: str, parameters: list) -> None:  # type: ignore[type-arg]  # of Parameter
         assert self.table is not None
         address = self.selected()
         self.table.show_parameters(parameters)
-        self.group_title.setText(f"<b>{title}</b> — {len(self.table.rows)} parameters")
-        self.table_view.setColumnWidth(0, 52)
-        self.table_view.setColumnWidth(1, 230)
-        for column in range(2, self.table.columnCount()):
-            self.table_view.setColumnWidth(column, max(112, min(190, self.table_view.sizeHintForColumn(column) + 16)))
+        self._title = title
+        self._tell_title()
+        self._fit_columns()
         index = self.table.index_of(address) if address else self.table.index(0, 2)
         self.table_view.setCurrentIndex(index if index.isValid() else self.table.index(0, 2))
+
+    def _tell_title(self) -> None:
+        assert self.table is not None
+        hidden = self.table.hidden_rows
+        more = f", {hidden} more do not exist for this configuration (Options > Show Hidden)" if hidden else ""
+        self.group_title.setText(f"<b>{self._title}</b> — {len(self.table.rows)} parameters{more}")
+
+    def _after_reset(self) -> None:
+        self._fit_columns()
+        self._tell_title()
+        if self._last and self.table is not None:
+            self.table_view.setCurrentIndex(self.table.index_of(self._last))
+
+    def _fit_columns(self) -> None:
+        assert self.table is not None
+        self.table_view.setColumnWidth(0, 48)
+        self.table_view.setColumnWidth(1, 216)
+        for column in range(2, self.table.columnCount()):
+            self.table_view.setColumnWidth(column, max(104, min(170, self.table_view.sizeHintForColumn(column) + 12)))
 
     # -- selection -------------------------------------------------------------
 
@@ -210,8 +227,11 @@ class MainWindow(QMainWindow):
 
     def _selected(self) -> None:
         address = self.selected()
+        if address is None:
+            return
+        self._last = address
         self.detail.show_address(address)
-        self.value_status.setText(self._told(address) if address else "")
+        self.value_status.setText(self._told(address))
 
     def _told(self, address: Address) -> str:
         assert self.workspace is not None
@@ -228,7 +248,8 @@ class MainWindow(QMainWindow):
             if not index.isValid() and self.workspace and address[1] in self.workspace.file.schema.instances(
                 self.workspace.file.schema.parameters[address[0]], self.workspace.file.machine
             ):
-                self.view.all_axes.setChecked(True)
+                exists = self.workspace.file.situation.state(address).state != "hidden"
+                (self.view.all_axes if exists else self.view.hidden_too).trigger()
                 index = self.table.index_of(address)
         self.table_view.setCurrentIndex(index)
         self.table_view.scrollTo(index)

@@ -30,6 +30,10 @@ class ParameterTable(QAbstractTableModel):
         self.shown_units: str | None = None
         """Unit system of display; None shows every value in its unit of entry."""
         self.all_axes = False
+        self.hidden_too = False
+        """Show also what does not exist for this configuration."""
+        self.hidden_rows = 0
+        self._asked: list[Parameter] = []
         self._worst: dict[Address, str] = {}
         workspace.changed.connect(self._refresh)
         self._find_worst()
@@ -39,21 +43,42 @@ class ParameterTable(QAbstractTableModel):
     def show_parameters(self, parameters: list[Parameter]) -> None:
         """Show these rows, with the columns they need."""
         self.beginResetModel()
-        file = self.workspace.file
-        self.rows = [p for p in parameters if file.schema.instances(p, file.machine)]
-        wanted = {i for p in self.rows for i in file.schema.instances(p, file.machine)}
-        axes = set(fitted_axes(file)) if not self.all_axes else wanted
-        ordered = dict.fromkeys(i for p in self.rows for i in file.schema.instances(p, file.machine))
-        self.columns = sorted(
-            (i for i in ordered if i == "" or i in axes or not self._is_axis_only(i)), key=lambda i: (i != "", list(ordered).index(i))
-        )
+        self._asked = parameters
+        self.columns = self._columns()
+        self.rows = self._rows()
         self.endResetModel()
+
+    def show_again(self) -> None:
+        """Show the same parameters anew, after an option changed."""
+        self.show_parameters(self._asked)
+
+    def _columns(self) -> list[str]:
+        file = self.workspace.file
+        ordered = dict.fromkeys(i for p in self._asked for i in file.schema.instances(p, file.machine))
+        axes = set(ordered) if self.all_axes else set(fitted_axes(file))
+        shown = [i for i in ordered if i == "" or i in axes or not self._is_axis_only(i)]
+        return sorted(shown, key=lambda i: (i != "", list(ordered).index(i)))
+
+    def _rows(self) -> list[Parameter]:
+        """Return the rows that have at least one value that exists for this configuration."""
+        file = self.workspace.file
+        known = [p for p in self._asked if file.schema.instances(p, file.machine)]
+        shown = known if self.hidden_too else [p for p in known if any(self._exists((p.id, i)) for i in self._shown(p))]
+        self.hidden_rows = len(known) - len(shown)
+        return shown
+
+    def _shown(self, parameter: Parameter) -> list[str]:
+        file = self.workspace.file
+        return [i for i in file.schema.instances(parameter, file.machine) if i in self.columns]
+
+    def _exists(self, address: Address) -> bool:
+        return self.workspace.file.situation.state(address).state != "hidden"
 
     def _is_axis_only(self, instance: str) -> bool:
         schema, machine = self.workspace.file.schema, self.workspace.file.machine
         return all(
             (layout := schema.layout(p, machine)) is not None and layout.scope == "axis"
-            for p in self.rows
+            for p in self._asked
             if instance in schema.instances(p, machine)
         )
 
@@ -64,7 +89,10 @@ class ParameterTable(QAbstractTableModel):
         parameter = self.rows[index.row()]
         instances = self.workspace.file.schema.instances(parameter, self.workspace.file.machine)
         column = index.column() - len(_HEAD)
-        instance = self.columns[column] if column >= 0 else next((c for c in self.columns if c in instances), instances[0])
+        here = [c for c in self.columns if c in instances]
+        instance = self.columns[column] if column >= 0 else next(
+            (c for c in here if self._exists((parameter.id, c))), (here or list(instances))[0]
+        )
         return (parameter.id, instance) if instance in instances else None
 
     def index_of(self, address: Address) -> QModelIndex:
@@ -134,7 +162,7 @@ class ParameterTable(QAbstractTableModel):
     def _cell(self, address: Address, role: int) -> Any:
         file = self.workspace.file
         if role == Qt.ItemDataRole.DisplayRole:
-            return self.shown_value(address)
+            return self.shown_value(address) if self.hidden_too or self._exists(address) else "·"
         if role == Qt.ItemDataRole.EditRole:
             parameter = file.schema.parameters[address[0]]
             return write_value(parameter, self._in_units(address, file.get(address)))
@@ -150,7 +178,6 @@ class ParameterTable(QAbstractTableModel):
             font = QFont()
             font.setBold(not file.is_default(address) and file.get(address) is not None)
             font.setItalic(state.state in ("ignored", "unusable"))
-            font.setStrikeOut(state.state == "hidden")
             return font
         if role == Qt.ItemDataRole.ToolTipRole:
             return self._tip(address)
@@ -177,8 +204,8 @@ class ParameterTable(QAbstractTableModel):
         self._find_worst()
         profile = self.workspace.file.schema.family.axes
         structural = {profile.type, self.workspace.file.schema.family.machine_parameter} if profile else set()
-        if not addresses or any(a[0] in structural for a in addresses):
-            self.show_parameters(self.rows)
+        if not addresses or any(a[0] in structural for a in addresses) or self._rows() != self.rows:
+            self.show_parameters(self._asked)
             return
         if self.rows:
             self.dataChanged.emit(self.index(0, 0), self.index(len(self.rows) - 1, self.columnCount() - 1))

@@ -26,13 +26,15 @@ class ViewActions:
         self.machine_menu = QMenu("Control &Type", window)
         self.all_axes = window.action("Show &Unfitted Axes", self._show_columns, "Ctrl+U")
         self.all_axes.setCheckable(True)
+        self.hidden_too = window.action("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
+        self.hidden_too.setCheckable(True)
         self.as_entered = window.action("Show Values &As Entered", self._show_units, None)
         self.as_entered.setCheckable(True)
         self.switch = window.action("Switch mm / inch", self._switch, "Ctrl+M")
         self.step_action = window.action("&Step Response…", self._step, "F9")
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
-        menu.addActions([self.switch, self.as_entered, self.all_axes])
+        menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too])
         menu.addSeparator()
         menu.addAction(self.step_action)
         self.toolbar: list[QAction] = [self.switch, self.step_action]
@@ -98,8 +100,8 @@ class ViewActions:
     def _show_columns(self) -> None:
         table = self.window.table
         if table is not None:
-            table.all_axes = self.all_axes.isChecked()
-            self.window._show_parameters(self.window.groups.tree.currentItem().text(0), table.rows)
+            table.all_axes, table.hidden_too = self.all_axes.isChecked(), self.hidden_too.isChecked()
+            table.show_again()
 
     def _step(self) -> None:
         from .step_view import StepView

@@ -38,6 +38,7 @@ def test_an_error_equal_to_the_limit_is_no_alarm(axis: Axis) -> None:
     trace = run_step(blocked(axis, excess_error=10.0, ideal_feedback=True), StepMove(10.0, 6000.0))
     assert trace.alarms == ()
     assert trace.result["peak_following_error"][0] == 10.0
+    assert trace.columns["time_s"][-1] > 0.2  # and the motion goes on after the command has ended
 
 
 def test_a_normal_move_below_the_limit_ends_in_position_without_alarm(axis: Axis) -> None:

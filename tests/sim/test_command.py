@@ -59,7 +59,7 @@ def test_an_acceleration_of_zero_is_no_ramp(axis: Axis) -> None:
 
 
 def test_an_exponential_move_has_reached_63_percent_after_one_time_constant(axis: Axis) -> None:
-    # Page 10-16: 100 in/min, a constant of 10 and a scan of 20 ms: 63 after 0.2 s, 86 after 0.4 s.
+    # Page 10-14: 100 in/min, a constant of 10 and a scan of 20 ms: 63 after 0.2 s, 86 after 0.4 s.
     servo = axis(exponential_time=200.0)
     time, position, velocity = command(servo, StepMove(500.0, 6000.0, mode="exponential"))
     for moment, share in ((0.2, 1.0 - math.exp(-1.0)), (0.4, 1.0 - math.exp(-2.0))):

@@ -135,14 +135,14 @@ def test_a_rotary_axis_turns_in_degrees(ninepc: File) -> None:
 
 
 def test_a_scale_with_coded_markers_counts_by_its_smaller_period(ninepc: File) -> None:
-    # Page 7-34: 20,000 counts for 20 mm are 0.001 mm; the pitch is not used (B-2).
+    # Page 7-33: 20,000 counts for 20 mm are 0.001 mm; the pitch is not used (B-2).
     values: Values = {"servo.position_feedback_type": "dcm", "servo.dcm_small_period": 20.0,
                       "servo.position_counts": 20000.0, "servo.lead_screw_pitch": None}  # fmt: skip
     assert axis_servo(ninepc(values), "1").count == pytest.approx(0.001)
 
 
 def test_an_analog_axis_has_its_velocity_loop_in_the_drive(ninepc: File) -> None:
-    # Pages 7-3 and 7-67: 1989.66667 mm/s2 at a peak of 200 % are half of that at rated torque.
+    # Pages 7-2 and 7-67: 1989.66667 mm/s2 at a peak of 200 % are half of that at rated torque.
     servo = axis_servo(ninepc({"servo.loop_type": "analog", "servo.velocity_proportional_gain": None}), "1")
     assert servo.acceleration_at_rated == pytest.approx(1989.66667 / 2.0)
     assert servo.torque_limit_positive == 200.0

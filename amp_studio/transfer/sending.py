@@ -1,0 +1,109 @@
+"""One download from the client's side: stage, commit, and know at every moment what the control holds."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .conversation import Conversation, Silence
+from .errors import Cancelled, Held, ImageChanged, error_of
+from .line import Line
+from .link import LinkError
+from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, Refusal
+from .streaming import push
+
+Progress = Callable[[str, int, int], None]
+
+RESTAGINGS = 3  # how often a transfer whose staged bytes the control has lost or spoilt is begun anew
+COMMIT_WAIT = 2.0  # seconds a control may at least take to write an image to its memory
+ABORT_WAIT = 0.5  # seconds
+
+
+@dataclass(frozen=True)
+class Sent:
+    """An image that a control has committed: what it answered, and how often the line had to be made again."""
+
+    committed: Committed
+    reconnections: int
+
+
+class Sending:
+    """Sends one image under one transfer id; ``held`` is what the control holds as far as can be known."""
+
+    def __init__(self, line: Line, image: bytes, signature: str, expected: bytes, progress: Progress) -> None:
+        self._line = line
+        self._image = image
+        self._signature = signature
+        self._expected = expected
+        self._progress = progress
+        self._digest = hashlib.sha256(image).digest()
+        self._transfer = line.random(16)
+        self.held: Held = "old"
+
+    def run(self, cancel: threading.Event | None) -> Sent:
+        """Return what the control answered to the commit; raises TransferError."""
+        self._line.cancel = cancel
+        self._line.reconnections = 0
+        try:
+            return Sent(self._stage_and_commit(), self._line.reconnections)
+        except (Cancelled, KeyboardInterrupt):
+            self._abort()
+            raise
+        finally:
+            self._line.cancel = None
+
+    def _stage_and_commit(self) -> Committed:
+        for left in reversed(range(RESTAGINGS)):
+            try:
+                return self._line.persist(self._attempt, lambda: self.held)
+            except Refusal as refusal:
+                # A refusal changes nothing, and a commit that has happened is not refused.
+                self.held = "old"
+                lost = refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE, Code.DIGEST)
+                if not (lost and left):
+                    raise self._error(refusal) from None
+                self._transfer = self._line.random(16)
+        raise AssertionError("the last attempt returns or raises")
+
+    def _attempt(self, talk: Conversation) -> Committed:
+        """Take the download up where the control says, and commit it."""
+        total = len(self._image)
+        opening = OpenDownload(self._transfer, total, self._digest, self._expected, self._signature)
+        ready = talk.request(opening, Ready)
+        self._line.moved()
+
+        def done(staged: int) -> None:
+            self._line.moved()
+            self._progress("download", staged, total)
+
+        done(ready.offset)
+        push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
+        self._look()
+        self._line.cancel = None  # from here on the matter is seen through
+        self.held = "unknown"
+        self._progress("commit", 0, 1)
+        committed = talk.request(Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT)
+        self.held = "new"
+        self._progress("commit", 1, 1)
+        return committed
+
+    def _look(self) -> None:
+        if self._line.cancel is not None and self._line.cancel.is_set():
+            raise Cancelled("cancelled")
+
+    def _error(self, refusal: Refusal) -> Exception:
+        """Return the error of a refusal; a changed image may also be ours, committed and then forgotten."""
+        error = error_of(refusal, self.held)
+        welcome = self._line.welcome
+        if isinstance(error, ImageChanged) and welcome is not None and welcome.sha256 == self._digest:
+            error.held = "new"
+        return error
+
+    def _abort(self) -> None:
+        """Tell the control to throw the staged bytes away; a control that does not hear it keeps them for nothing."""
+        if self.held != "old":
+            return
+        self._line.cancel = None
+        self._line.once(lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1))
