@@ -8,6 +8,7 @@ argparse is used because it answers misuse with exit code 2 and costs no start-u
 from __future__ import annotations
 
 import argparse
+import io
 import json
 import sys
 from collections.abc import Sequence
@@ -33,6 +34,9 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run one verb and exit with its code; without a verb the desktop program opens."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a sign that the terminal does not have is no reason to stop
+            stream.reconfigure(errors="backslashreplace")
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 
@@ -72,7 +76,7 @@ def _note(text: str) -> None:
 
 
 def _print_json(data: Any) -> None:
-    print(json.dumps(data, ensure_ascii=False, indent=2))
+    print(json.dumps(data, ensure_ascii=(sys.stdout.encoding or "").lower() != "utf-8", indent=2))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -246,12 +250,12 @@ def _set(options: argparse.Namespace) -> int:
 
     with Document.open(options.path) as document:
         file = document.file
-        wanted = _wanted(file, options.assignments)
+        wanted, marks = _wanted(file, options.assignments), dict(file.forced)
         try:
             changes = file.set_many(wanted, force=f"on {now()} by 'set --force'" if options.force else "")
         except RangeFault as error:
             raise UsageFault(f"{error}; nothing was changed (--force takes it and marks it)") from None
-        if changes or file.forced:
+        if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
         for change in changes:
             parameter = file.schema.parameters[change.address[0]]
@@ -267,11 +271,36 @@ def _wanted(file: Any, texts: Sequence[str]) -> dict[Any, Any]:
     """Read assignments in order, each in the light of those before it; the file itself is not changed."""
     trial, wanted = file.copy(), {}
     for param, text in _assignments(texts):
-        address = trial.find(param)
-        value = trial.read(address, text) if text else None
+        address, bit = trial.situation.find_bit(param)
+        if bit is not None:
+            value = _with_bit(trial, address, bit, text)
+        else:
+            value = trial.read(address, text) if text else None
         wanted[address] = value
         trial.set(address, value)
     return wanted
+
+
+def _with_bit(file: Any, address: Any, bit: int, text: str) -> Any:
+    """Return the value of a word of bits with one field changed; a word that is not set counts as its default, or 0."""
+    from amp_studio.schema import Value, field_at, with_field
+
+    field = field_at(file.schema.parameters[address[0]], bit)
+    word = file.get(address) or file.default(address) or Value(0)
+    return Value(with_field(field, int(word.value), text), word.unit)
+
+
+def _bit_row(file: Any, address: Any, bit: int) -> dict[str, Any]:
+    """Return one field of a word of bits as ``get`` shows it."""
+    from amp_studio.schema import field_at, field_value
+
+    field = field_at(file.schema.parameters[address[0]], bit)
+    word, default = (None if v is None else field_value(field, int(v.value)) for v in (file.get(address), file.default(address)))
+    labels = {c.raw: c.label for c in field.choices or ()}
+    return {"param": f"{file.schema.short(address, file.machine)}.{bit}", "id": address[0], "instance": address[1],
+            "bit": bit, "label": field.label, "value": labels.get(word, word), "unit": "", "raw": word,
+            "default": word == default, "state": file.situation.state(address).state,
+            "forced": address in file.forced}  # fmt: skip
 
 
 def _get(options: argparse.Namespace) -> int:
@@ -281,12 +310,17 @@ def _get(options: argparse.Namespace) -> int:
 
     file = open_file(options.path).file
     if options.params:
-        addresses = [file.find(p) for p in options.params]
+        found = [file.situation.find_bit(p) for p in options.params]
     else:
-        addresses = [a for a in file.addresses()
-                     if options.all or (a in file.values and file.situation.state(a).state != "hidden")]  # fmt: skip
+        found = [(a, None) for a in file.addresses()
+                 if options.all or (a in file.values and file.situation.state(a).state != "hidden")]  # fmt: skip
     rows = []
-    for address in addresses:
+    for address, bit in found:
+        if bit is not None:
+            rows.append(_bit_row(file, address, bit))
+            if not options.json:
+                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {'—' if rows[-1]['value'] is None else rows[-1]['value']}")
+            continue
         parameter, value = file.schema.parameters[address[0]], file.get(address)
         plain = None if value is None else value.value
         if isinstance(plain, (str, bool)):
@@ -374,7 +408,10 @@ def _merge(options: argparse.Namespace) -> int:
     merged.header.name = options.output.stem
     Document.create(merged, options.output).close()
     for c in conflicts:
-        p = base.schema.parameters[c.address[0]]
+        p = base.schema.parameters.get(c.address[0])
+        if p is None:  # an entry that the schema does not know
+            print(f"conflict at {'@'.join(filter(None, c.address))}: ours stands")
+            continue
         print(f"conflict at {base.schema.label(c.address, ours.machine)}: base {show_value(p, c.base)}, "
               f"ours {show_value(p, c.ours)}, theirs {show_value(p, c.theirs)}; ours stands")  # fmt: skip
     print(f"{options.output}: {len(conflicts)} conflicts")
@@ -475,19 +512,54 @@ def _verify(options: argparse.Namespace) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     from amp_studio.files import open_file
-    from amp_studio.sim import simulate
+    from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
 
     file = open_file(options.path).file
-    for address, value in _wanted(file, options.assignments).items():
+    settings, own = _settings(options.assignments)
+    for address, value in _wanted(file, own).items():
         file.set(address, value)
-    result = simulate(file, options.scenario, options.axis)
+    axis = _axis(file, options.axis) if options.axis else None
+    trace = simulate(file, options.scenario, axis, settings)
     if options.output:
-        result.write(options.output)
+        write_trace(trace, options.output)
     if options.json:
-        _print_json(result.as_json())
+        _print_json(trace_summary(trace))
     else:
-        print(result.as_text())
-    return 1 if result.alarms else 0
+        print(trace_text(trace))
+    return 1 if trace.alarms else 0
+
+
+def _axis(file: Any, text: str) -> str:
+    """Return the axis a person means by its number or its name."""
+    from amp_studio.files import axis_instances
+    from amp_studio.schema import write_value
+
+    profile, instances = file.schema.family.axes, axis_instances(file)
+    for axis in instances:
+        value = file.get((profile.name, axis))
+        name = write_value(file.schema.parameters[profile.name], value)
+        if axis == text or (value is not None and name.casefold() == text.casefold()):
+            return axis
+    raise UsageFault(f"there is no axis '{text}'")
+
+
+def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
+    """Part the settings of the scenario and its model (``move.feedrate=3000``) from parameters."""
+    from amp_studio.schema import canonical, unit_named
+    from amp_studio.schema.values import read_number
+
+    settings: dict[str, float | str] = {}
+    own = []
+    for param, text in _assignments(texts):
+        if param.partition(".")[0] not in ("move", "model"):
+            own.append(f"{param}={text}")
+            continue
+        try:
+            number, unit = read_number(text)
+            settings[param] = canonical(number, unit_named(unit)) if unit.strip() else number
+        except ValueFault:
+            settings[param] = text
+    return settings, own
 
 
 def _demo(options: argparse.Namespace) -> int:

@@ -63,7 +63,6 @@ def write_atomic(path: Path, content: bytes, expected: str | None = "", keep_bac
         if keep_backup and path.exists():
             _replace_copy(path, backup_path(path))
         os.replace(temporary, path)
-        sync_folder(path.parent)
     except ChangedOnDisk:
         raise
     except OSError as error:
@@ -71,6 +70,8 @@ def write_atomic(path: Path, content: bytes, expected: str | None = "", keep_bac
     finally:
         with contextlib.suppress(OSError):
             os.unlink(temporary)
+    with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
+        sync_folder(path.parent)
     return digest(content)
 
 
@@ -95,7 +96,12 @@ def _write_beside(path: Path, content: bytes) -> str:
 
 def _replace_copy(source: Path, target: Path) -> None:
     temporary = _write_beside(target, source.read_bytes())
-    os.replace(temporary, target)
+    try:
+        os.replace(temporary, target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
+        raise
 
 
 def _umask() -> int:

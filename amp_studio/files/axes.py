@@ -78,6 +78,9 @@ def retype_axis(file: ParameterFile, axis: str, type_key: str) -> list[Change]:
     profile = _profile(file)
     if axis not in axis_instances(file):
         raise AxisFault(f"there is no axis {axis}")
+    types = [c.key for c in file.schema.parameters[profile.type].choices or ()]
+    if type_key not in types:
+        raise AxisFault(f"there is no axis type '{type_key}': {', '.join(types)}")
     change = file.set((profile.type, axis), Value(type_key))
     return ([change] if change else []) + refit_units(file, axis)
 
@@ -90,8 +93,11 @@ def refit_units(file: ParameterFile, axis: str) -> list[Change]:
         if address[1] != axis or value is None or not value.unit or not _is_axis(file, address[0]):
             continue
         unit = refitted(value.unit, file.situation.turns(address), file.situation.unit(address, "metric"))
+        mark = file.forced.get(address)
         if unit != value.unit and (change := file.set(address, Value(value.value, unit))):
             changes.append(change)
+            if mark is not None:
+                file.forced[address] = mark
     return changes
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from amp_studio.schema import Address, Schema, Value, canonical_value
+from amp_studio.schema import Address, Schema, Value, read_address, same_value
 
 from .parameter_file import ParameterFile
 
@@ -40,16 +40,13 @@ class Comparison:
 def compare(schema: Schema, a: Mapping[Address, Value], b: Mapping[Address, Value]) -> Comparison:
     """Compare two sets of values exactly; 1 in and 25.4 mm are the same value."""
     order = {p: n for n, p in enumerate(schema.parameters)}
-    both = sorted({*a, *b}, key=lambda address: (order.get(address[0], len(order)), address[1]))
+    both = sorted({*a, *b}, key=lambda address: (order.get(address[0], len(order)), len(address[1]), *address))
     found = [Difference(address, a.get(address), b.get(address)) for address in both if not _same(a, b, address)]
     return Comparison(tuple(found), len(both) - len(found))
 
 
 def _same(a: Mapping[Address, Value], b: Mapping[Address, Value], address: Address) -> bool:
-    left, right = a.get(address), b.get(address)
-    if left is None or right is None:
-        return left is right
-    return left == right or canonical_value(left) == canonical_value(right)
+    return same_value(a.get(address), b.get(address))
 
 
 @dataclass(frozen=True)
@@ -79,6 +76,23 @@ def merge(base: ParameterFile, ours: ParameterFile, theirs: ParameterFile) -> tu
                 merged.forced[address] = theirs.forced[address]
         elif not _same(ours.values, theirs.values, address):
             conflicts.append(Conflict(address, base.get(address), ours.get(address), theirs.get(address)))
-    for key, text in theirs.unknown.items():
-        merged.unknown.setdefault(key, text)
-    return merged, conflicts
+    if ours.header.machine == base.header.machine:
+        merged.header.machine = theirs.header.machine
+    return merged, conflicts + _merge_unknown(base.unknown, merged.unknown, theirs.unknown)
+
+
+def _merge_unknown(base: dict[str, str], merged: dict[str, str], theirs: dict[str, str]) -> list[Conflict]:
+    """Bring the changes theirs made among entries that the schema does not know into ``merged``, which is ours."""
+    conflicts = []
+    for key in dict.fromkeys([*base, *theirs]):
+        was, mine, wanted = base.get(key), merged.get(key), theirs.get(key)
+        if wanted in (was, mine):
+            continue
+        if mine != was:
+            told = [None if text is None else Value(text) for text in (was, mine, wanted)]
+            conflicts.append(Conflict(read_address(key), *told))
+        elif wanted is None:
+            del merged[key]
+        else:
+            merged[key] = wanted
+    return conflicts

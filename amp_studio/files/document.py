@@ -8,7 +8,6 @@ journal beside the file and is offered when the file is opened again.
 from __future__ import annotations
 
 import contextlib
-import getpass
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +15,7 @@ from pathlib import Path
 from amp_studio.schema import Address, ValueFault, read_address, write_value, written
 
 from .atomic import backup_path, digest_of, write_atomic
-from .lock import EditLock, beside, now
+from .lock import EditLock, beside, now, user
 from .parameter_file import Change, ParameterFile
 from .storage import open_file, read_stored, save_file
 
@@ -87,6 +86,8 @@ class Document:
         """Save a new file and open it; refuses to overwrite with FileExistsError."""
         if path.exists():
             raise FileExistsError(f"{path} exists already")
+        if not path.parent.is_dir():
+            raise FileNotFoundError(f"there is no folder {path.parent}")
         document = cls(file, path, None)
         document._lock.take()
         try:
@@ -158,7 +159,7 @@ class Document:
         if not changes:
             return
         lines = "".join(
-            json.dumps([now(), getpass.getuser(), how, written(c.address), self._text(c.address, c.old),
+            json.dumps([now(), user(), how, written(c.address), self._text(c.address, c.old),
                         self._text(c.address, c.new)]) + "\n"
             for c in changes
         )  # fmt: skip
@@ -195,8 +196,8 @@ class Document:
         if not changes:
             self._drop_journal()
             return
-        entries = [[written(c.address), self._text(c.address, c.new)] for c in changes]
-        content = json.dumps({"when": now(), "who": getpass.getuser(), "digest": self.digest, "changes": entries})
+        entries = [[written(c.address), None if c.new is None else self._text(c.address, c.new)] for c in changes]
+        content = json.dumps({"when": now(), "who": user(), "digest": self.digest, "changes": entries})
         write_atomic(self.journal_path, content.encode(), keep_backup=False)
         self._journal_is_ours = True
 
@@ -208,21 +209,27 @@ class Document:
             self._journal_is_ours = False
 
     def find_unsaved(self) -> Unsaved | None:
-        """Return the work a killed program left for this file, or None."""
+        """Return the work a killed program left for this file, or None; this document's own is not left yet."""
+        if self._journal_is_ours:
+            return None
         try:
             left = json.loads(self.journal_path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            changes = tuple(filter(None, (self._left_change(str(entry), text) for entry, text in left["changes"])))
+            return Unsaved(str(left["when"]), str(left["who"]), changes, left["digest"] == self.digest)
+        except (OSError, ValueError, TypeError, LookupError):
             return None
-        changes = []
-        for entry, text in left["changes"]:
-            address = read_address(entry)
-            parameter = self.file.schema.parameters.get(address[0])
-            if parameter is None:
-                continue
-            with contextlib.suppress(ValueFault):
-                value = read_stored(self.file.schema, parameter, text) if text else None
-                changes.append(Change(address, self.file.get(address), value))
-        return Unsaved(left["when"], left["who"], tuple(changes), left["digest"] == self.digest)
+
+    def _left_change(self, entry: str, text: str | None) -> Change | None:
+        """Return one change of a journal; None where this schema cannot read it."""
+        address = read_address(entry)
+        parameter = self.file.schema.parameters.get(address[0])
+        if parameter is None:
+            return None
+        try:
+            value = None if text is None else read_stored(self.file.schema, parameter, text)
+        except ValueFault:
+            return None
+        return Change(address, self.file.get(address), value)
 
     def discard_unsaved(self) -> None:
         """Throw away the work a killed program left."""

@@ -45,7 +45,7 @@ class EditLock:
             raise InUse(f"{self.path.name} cannot be locked: {error.strerror or error}") from None
         with contextlib.suppress(OSError):
             holder.write_text(
-                f"{getpass.getuser()} on {socket.gethostname()}, process {os.getpid()}, since {now()}", encoding="utf-8"
+                f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}", encoding="utf-8"
             )
 
     def release(self) -> None:
@@ -67,8 +67,17 @@ class EditLock:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """Return the hidden companion of a file: ``.NAME.amp.lock``."""
+    """Return the hidden companion of a file, ``.NAME.amp.lock``; one file has one, by whatever link it is reached."""
+    path = path.resolve()
     return path.with_name(f".{path.name}{ending}")
+
+
+def user() -> str:
+    """Return who is at work; a system may have no name for him."""
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError, ImportError):
+        return "unknown"
 
 
 def now() -> str:

@@ -10,10 +10,10 @@ from amp_studio.schema import (
     Schema,
     Situation,
     Value,
-    canonical_value,
     fault,
     load_schema,
     read_value,
+    same_value,
     written,
 )
 
@@ -103,10 +103,7 @@ class ParameterFile:
 
     def is_default(self, address: Address) -> bool:
         """Tell whether a value equals the printed default, whatever the unit."""
-        value, default = self.get(address), self.default(address)
-        if value is None or default is None:
-            return value is default
-        return canonical_value(value) == canonical_value(default)
+        return same_value(self.get(address), self.default(address))
 
     def read(self, address: Address, text: str) -> Value:
         """Read a value a person wrote for an instance; raises ValueFault."""
@@ -146,6 +143,7 @@ class ParameterFile:
         """
         from .axes import refit_units
 
+        marks = dict(self.forced)
         changes = [c for c in (self.set(a, v) for a, v in wanted.items()) if c]
         profile = self.schema.family.axes
         for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
@@ -154,9 +152,12 @@ class ParameterFile:
         if faults and not force:
             for change in reversed(changes):
                 self.apply(change.reversed())
+            self.forced.update(marks)
             raise RangeFault(faults)
-        for address in faults:
-            self.forced[address] = force
+        for address in wanted:
+            self.forced.pop(address, None)
+            if address in faults:
+                self.forced[address] = force
         return changes
 
     def listen(self, listener: Callable[[Change], None]) -> Callable[[], None]:
@@ -182,14 +183,14 @@ def default_value(schema: Schema, situation: Situation, address: Address) -> Val
     value = (default.instances or {}).get(address[1], default.value)
     if parameter.type == "boolean":
         return Value(value in ("yes", True))
-    if isinstance(value, (str, bool)):
-        return Value(value)
+    if isinstance(value, (str, bool)) or parameter.type == "format":
+        return Value(str(value))
     unit = default.unit
     if situation.turns(address):
         from amp_studio.schema import angular
 
         unit = angular(unit)
-    return Value(int(value) if parameter.type == "integer" else float(value), unit)
+    return Value(int(value) if parameter.type in ("integer", "bits") else float(value), unit)
 
 
 def new_file(family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = "") -> ParameterFile:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import re
 import shutil
@@ -13,7 +14,7 @@ from amp_studio.schema import family_ids, load_schema
 
 from .atomic import backup_path, digest_of, write_atomic
 from .document import recover_backup
-from .lock import EditLock
+from .lock import EditLock, beside
 from .storage import FileFault, open_file
 
 PROJECT_FORMAT = 1
@@ -72,20 +73,21 @@ class Project:
             data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
         except (OSError, UnicodeDecodeError) as error:
             raise FileFault(path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
-        except YAMLError as error:
+        except (YAMLError, ValueError, RecursionError) as error:
             mark = getattr(error, "problem_mark", None)
             raise FileFault(path, mark.line + 1 if mark else None, "is not readable YAML") from None
-        if not isinstance(data, dict) or not isinstance(data.get("amp_studio_project"), int):
+        version = data.get("amp_studio_project") if isinstance(data, dict) else None
+        if not isinstance(version, int) or isinstance(version, bool):
             raise FileFault(path, None, "is not an AMP Studio project")
-        if data["amp_studio_project"] > PROJECT_FORMAT:
-            raise FileFault(path, None, f"was written by a newer AMP Studio (project format {data['amp_studio_project']})")
+        if version > PROJECT_FORMAT:
+            raise FileFault(path, None, f"was written by a newer AMP Studio (project format {version})")
         known = {f.name for f in fields(ProjectInfo)} - {"extra"}
         said = {k: str(v) for k, v in data.items() if k in known and v is not None}
         extra = {k: v for k, v in data.items() if k not in known and k != "amp_studio_project"}
         try:
-            info = ProjectInfo(**said, extra=extra)
+            info = ProjectInfo(**{"name": "", "family": "", **said}, extra=extra)
             _check(info)
-        except (TypeError, NameFault, KeyError) as error:
+        except NameFault as error:
             raise FileFault(path, None, str(error)) from None
         return cls(folder, info)
 
@@ -127,7 +129,7 @@ class Project:
         name = name.removesuffix(ENDING)
         if not re.fullmatch(r"[^\W_][\w .-]{0,63}", name) or name.endswith((".", " ")):
             raise NameFault(f"'{name}' is no file name: letters, digits, '_', '-', '.' and spaces, at most 64")
-        if name.upper() in _RESERVED:
+        if name.split(".")[0].rstrip().upper() in _RESERVED:
             raise NameFault(f"'{name}' is a name that Windows keeps for itself")
         return self.folder / f"{name}{ENDING}"
 
@@ -143,7 +145,7 @@ class Project:
         return target
 
     def rename(self, source: Path, name: str) -> Path:
-        """Rename a file, its backup and its history; raises NameFault, and InUse while it is open."""
+        """Rename a file with its backup, its history and its unsaved work; raises NameFault, and InUse while it is open."""
         target = self._free(name)
         with EditLock(source):
             _move(source, target)
@@ -167,7 +169,7 @@ class Project:
         return target
 
 
-_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for n in range(1, 10))}
+_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for n in "123456789¹²³")}
 
 
 def _check(info: ProjectInfo) -> None:
@@ -185,6 +187,9 @@ def _move(source: Path, target: Path) -> None:
         side = source.with_name(source.name + ending)
         if side.exists():
             shutil.copy2(side, target.with_name(target.name + ending))
+    journal, moved = beside(source, ".unsaved"), beside(target, ".unsaved")
     source.rename(target)
+    with contextlib.suppress(FileNotFoundError):
+        journal.rename(moved)
     for ending in (".history", ".bak"):
         source.with_name(source.name + ending).unlink(missing_ok=True)

@@ -22,6 +22,7 @@ from amp_studio.schema import (
     dimension,
     load_schema,
     read_address,
+    read_number,
     read_value,
     shown,
     unit_named,
@@ -73,15 +74,16 @@ def read_content(path: Path, content: bytes) -> ParameterFile:
         raise FileFault(path, content[: error.start].count(b"\n") + 1, "is not UTF-8 text") from None
     data = _parse(path, text)
     schema = _family(path, data)
-    file = ParameterFile(schema, _header(data))
+    file = ParameterFile(schema, _header(path, text, schema, data))
     entries = data.get("values") or {}
     if not isinstance(entries, dict):
         raise FileFault(path, _line(text, "values:"), "'values' is not a list of parameters with values")
     _read_entries(path, text, file, entries)
     forced = data.get("forced") or {}
-    if isinstance(forced, dict):
-        for key, why in forced.items():
-            file.forced[read_address(str(key))] = str(why)
+    if not isinstance(forced, dict):
+        raise FileFault(path, _line(text, "forced:"), "'forced' is not a list of parameters with the reason")
+    for key, why in forced.items():
+        file.forced[read_address(str(key))] = str(why)
     return file
 
 
@@ -99,7 +101,7 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
     except MarkedYAMLError as error:
         mark = error.problem_mark
         raise FileFault(path, mark.line + 1 if mark else None, f"is not readable: {error.problem}") from None
-    except YAMLError as error:
+    except (YAMLError, ValueError, RecursionError) as error:  # ValueError: a date on the 32nd
         raise FileFault(path, None, f"is not readable: {str(error).splitlines()[0]}") from None
     if not isinstance(data, dict) or "amp_studio" not in data:
         raise FileFault(path, None, "is not an AMP Studio parameter file")
@@ -122,9 +124,13 @@ def _family(path: Path, data: dict[str, Any]) -> Schema:
         raise FileFault(path, None, f"is for the control family '{data.get('family')}', which is not known here") from None
 
 
-def _header(data: dict[str, Any]) -> Header:
+def _header(path: Path, text: str, schema: Schema, data: dict[str, Any]) -> Header:
     header = Header(**{key: str(data[key]) for key in _HEADER if data.get(key) is not None})
     header.extra = {k: v for k, v in data.items() if k not in _KNOWN}
+    machines, systems = [m.key for m in schema.family.machines], list(schema.family.units)
+    for key, said, known in (("machine", header.machine, machines), ("units", header.units, systems)):
+        if data.get(key) is not None and known and said not in known:
+            raise FileFault(path, _line(text, f"{key}:"), f"{key} is '{said}'; known here: {', '.join(known)}")
     return header
 
 
@@ -137,6 +143,8 @@ def _read_entries(path: Path, text: str, file: ParameterFile, entries: dict[Any,
         said = _scalar(entries[key])
         if said is None:
             raise FileFault(path, _line(text, f"{key}:"), f"{key} has no single value")
+        if address in file.values or str(key) in file.unknown:  # "x" and "x@", 1 and "1"
+            raise FileFault(path, _line(text, f"{key}:"), f"'{written(address)}' stands twice")
         value = _value(schema, file, address, said)
         if isinstance(value, str):
             raise FileFault(path, _line(text, f"{key}:"), f"{key}: {value}")
@@ -160,10 +168,10 @@ def _value(schema: Schema, file: ParameterFile, address: Address, said: str) -> 
 
 def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:
     """Read a stored value, which names its own unit; raises ValueFault."""
-    if parameter.choices or parameter.type == "text":
+    if parameter.choices or parameter.type in ("text", "format"):
         return read_value(parameter, said, "")
     units = schema.units_of(parameter)
-    named = said.partition(" ")[2]
+    named = "" if said.startswith(("0x", "0X", "$")) else read_number(said)[1]
     if not named and "" not in units:
         raise ValueFault(f"'{said}' has no unit: write {said} {shown(units[0])}")
     unit = named if named in units else units[0]
@@ -207,7 +215,7 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     header |= {key: getattr(file.header, key) for key in _HEADER if getattr(file.header, key)}
     header |= file.header.extra
     for key in [k for k in tree if k not in header and k not in ("values", "forced")]:
-        del tree[key]
+        _drop(tree, key)
     for key, value in header.items():
         if tree.get(key) != value:
             tree[key] = value
@@ -222,22 +230,51 @@ def _entries(file: ParameterFile) -> dict[str, str]:
     order = {a: n for n, a in enumerate(file.addresses())}
     known = sorted(file.values, key=lambda a: order.get(a, len(order)))
     entries = {written(a): write_value(file.schema.parameters[a[0]], file.values[a]) for a in known}
-    return entries | file.unknown
+    return entries | {key: text for key, text in file.unknown.items() if key not in entries}
 
 
 def _fill(tree: Any, section: str, entries: dict[str, str], empty: type) -> None:
     """Bring one section of the tree to the entries, touching only what differs."""
     if not entries:
-        tree.pop(section, None)
+        if section in tree:
+            _drop(tree, section)
         return
     if section not in tree or not isinstance(tree[section], dict):
         tree[section] = empty()
     part = tree[section]
     for key in [k for k in part if str(k) not in entries]:
-        del part[key]
+        _drop(part, key)
+    named = {str(key): key for key in part}
     for key, text in entries.items():
-        if key not in part or _scalar(part[key]) != text:
-            part[key] = text
+        if key not in named or _scalar(part[named[key]]) != text:
+            part[named.get(key, key)] = text
+
+
+def _drop(part: Any, key: Any) -> None:
+    """Remove an entry of a YAML mapping; the comment lines below it, which belong to what follows, stay."""
+    from ruamel.yaml.error import CommentMark
+    from ruamel.yaml.tokens import CommentToken
+
+    keys = list(part)
+    at, below = keys.index(key), _comment_below(part, key)
+    del part[key]
+    if not below.strip():
+        return
+    if at > 0:
+        above = part.ca.items.setdefault(keys[at - 1], [None, None, None, None])
+        above[2] = CommentToken((above[2].value if above[2] else "\n") + below, CommentMark(0), None)
+    elif len(keys) > 1:
+        lines = [CommentToken(line.strip() + "\n", CommentMark(part.lc.col), None) for line in below.strip().split("\n")]
+        following = part.ca.items.setdefault(keys[1], [None, None, None, None])
+        following[1] = lines + (following[1] or [])
+
+
+def _comment_below(part: Any, key: Any) -> str:
+    """Return the comment lines between an entry, with all that is in it, and the next one."""
+    while isinstance(part[key], dict) and part[key]:
+        part, key = part[key], list(part[key])[-1]
+    token = (part.ca.items.get(key) or [None, None, None])[2] if hasattr(part, "ca") else None
+    return str(token.value).partition("\n")[2] if token else ""
 
 
 def save_file(file: ParameterFile, path: Path, expected: str | None = None) -> str:

@@ -60,7 +60,7 @@ def build_report(
         axes=axes,
         notes=tuple(_note(file, f, anchors) for f in findings),
         forced=_forced(file, found.rows),
-        not_set=tuple(_not_set(file, found.rows)),
+        not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, sort),
     )
 
@@ -143,7 +143,7 @@ def _is_missing(row: Row) -> bool:
     return not row.value and row.state == "in-force"
 
 
-def _not_set(file: ParameterFile, rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
+def _not_set(rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
     """Yield number, name and places of each parameter that is in force without a value."""
     for _, members in groupby((r for r in rows if _is_missing(r)), key=lambda r: r.id):
         own = list(members)
@@ -173,7 +173,14 @@ def _axes(
     if profile is None:
         return (), ()
     asked = [p for p in (profile.type, profile.hardware, profile.loop) if p]
-    heads = ("Axis", "Name", *(file.schema.parameters[p].name for p in asked), "Values", "Changed", "Findings")
+    heads = (
+        "Axis",
+        "Name",
+        *(file.schema.parameters[p].name for p in asked),
+        "Values",
+        "Changed",
+        "Findings",
+    )
     return heads, tuple(_axis(file, axis, asked, rows, findings) for axis in printed_axes(file))
 
 
@@ -203,7 +210,9 @@ def _note(file: ParameterFile, finding: Finding, anchors: set[str]) -> Note:
         severity=finding.severity,
         about=tuple((anchor if anchor in anchors else "", label) for anchor, label in links),
         message=finding.message,
-        repair="; ".join(f"{_called(file, r.address)} = {_shown(file, r.address, r.value)}" for r in finding.repairs),
+        repair="; ".join(
+            f"{_called(file, r.address)} = {_shown(file, r.address, r.value)}" for r in finding.repairs
+        ),
         page=finding.page or "",
     )
 

@@ -131,7 +131,9 @@ def one_line(schema: Schema, parameter: Parameter) -> str:
     first = next(iter(numbers.values()), "–")
     last = list(numbers.values())[-1] if numbers else "–"
     span = first if first == last else f"{first}…{last}"
-    allowed = " / ".join(range_text(parameter.ranges, schema)) or ", ".join(c.label for c in parameter.choices or ())
+    allowed = " / ".join(range_text(parameter.ranges, schema)) or ", ".join(
+        c.label for c in parameter.choices or ()
+    )
     return f"{span:12} {parameter.id:32} {parameter.name}: {allowed}"
 
 
@@ -168,14 +170,19 @@ def facts(schema: Schema, parameter: Parameter, machine: str) -> list[tuple[str,
     group = schema.group_of[parameter.id]
     found = [("Number", _numbers_text(schema, parameter, numbers, machine)), ("Id", parameter.id),
              ("Group", f"{group.name}: {group.section}" if group.section else group.name)]  # fmt: skip
-    for line in range_text(parameter.ranges, schema):
-        found.append(("Range", line))
+    found += [("Range", line) for line in range_text(parameter.ranges, schema)]
     for variant in parameter.range_variants:
         why = schema.family.conditions[variant.when].why
         found += [("Range", f"{line} ({why})") for line in range_text(variant.ranges, schema)]
     for choice in parameter.choices or ():
         code = f"({choice.code}) " if choice.code else ""
-        raw = f" — stored as {choice.raw}" if choice.raw is not None else " — no stored code printed" if parameter.patchable else ""
+        raw = (
+            f" — stored as {choice.raw}"
+            if choice.raw is not None
+            else " — no stored code printed"
+            if parameter.patchable
+            else ""
+        )
         found.append(("Choice", f"{code}{choice.label}{raw}{f'; {choice.note}' if choice.note else ''}"))
     found.append(("Default", _default_text(parameter)))
     if parameter.storage and parameter.storage.unit:
@@ -185,7 +192,12 @@ def facts(schema: Schema, parameter: Parameter, machine: str) -> list[tuple[str,
                                    "command": f"when {effect.command} reads it"}[effect.level]))  # fmt: skip
     for state in parameter.states:
         condition = schema.family.conditions[state.when or state.unless or ""]
-        found.append((state.state.capitalize(), ("when " if state.when else "unless ") + f"[{condition.when}]: {condition.why}"))
+        found.append(
+            (
+                state.state.capitalize(),
+                ("when " if state.when else "unless ") + f"[{condition.when}]: {condition.why}",
+            )
+        )
     found.append(("Source", f"{schema.family.title}, page {parameter.page}"))
     return found
 
@@ -194,14 +206,22 @@ def _numbers_text(schema: Schema, parameter: Parameter, numbers: dict[str, str],
     if not numbers:
         return "none"
     text = ", ".join(f"{n} ({i})" if i else n for i, n in numbers.items())
-    return text + (" — printed, but they belong to another parameter" if schema.is_disputed(parameter.id, machine) else "")
+    return text + (
+        " — printed, but they belong to another parameter"
+        if schema.is_disputed(parameter.id, machine)
+        else ""
+    )
 
 
 def _default_text(parameter: Parameter) -> str:
     default = parameter.default
     if default is None:
         return "none printed"
-    value = label_of(parameter, str(default.value)) if parameter.choices else f"{default.value} {shown(default.unit)}".rstrip()
+    value = (
+        label_of(parameter, str(default.value))
+        if parameter.choices
+        else f"{default.value} {shown(default.unit)}".rstrip()
+    )
     other = "".join(f", {label_of(parameter, str(v))} for {i}" for i, v in (default.instances or {}).items())
     return f"{value}{other} (page {default.page})"
 
@@ -209,7 +229,11 @@ def _default_text(parameter: Parameter) -> str:
 def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
     """Return the help as (title, text)."""
     told = parameter.help
-    parts = [("What it does", told.what), ("How to find its value", told.find), ("When it is wrong", told.wrong)]
+    parts = [
+        ("What it does", told.what),
+        ("How to find its value", told.find),
+        ("When it is wrong", told.wrong),
+    ]
     related = ", ".join(schema.parameters[r].name for r in told.related if r in schema.parameters)
     parts.append(("Related", related))
     parts += [("The manual contradicts itself", erratum_text(schema, e)) for e in parameter.errata]

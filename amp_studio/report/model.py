@@ -227,3 +227,8 @@ def counted(number: int, noun: str) -> str:
     if noun == "advice":
         return f"{number} {'piece' if number == 1 else 'pieces'} of advice"
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def printable(text: str) -> str:
+    """Return a text without signs that would steer a printer, a terminal or the direction of writing."""
+    return text if text.isprintable() else "".join(c if c.isprintable() else " " for c in text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .model import MARKS, Listing, Report, counted
+from .model import MARKS, Listing, Report, counted, printable
 
 
 def render_html(report: Report) -> bytes:
@@ -14,11 +14,16 @@ def render_html(report: Report) -> bytes:
     environment = Environment(
         loader=FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True,
+        finalize=_cleaned,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.tests["listing"] = lambda part: isinstance(part, Listing)
     template = environment.get_template("report.html.j2")
-    is_listing = lambda part: isinstance(part, Listing)  # noqa: E731  # a test of the template, in one word
-    environment.tests["listing"] = is_listing
     return template.render(report=report, marks=MARKS, counted=counted).encode("utf-8")
+
+
+def _cleaned(value: object) -> object:
+    """Take steering signs out of a text of the file; what the template itself made stays."""
+    return printable(value) if type(value) is str else value

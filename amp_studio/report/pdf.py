@@ -1,7 +1,8 @@
 """The report as PDF: a template writes Typst, Typst sets the pages.
 
-Only Typst's own fonts are used, so that a report looks alike on every machine,
-and nothing but the report's date tells when it was made.
+Typst's own fonts are used, so that a report looks alike on every machine (those
+of the system are asked only for writing that Typst has no font for), and
+nothing but the report's date tells when it was made.
 """
 
 from __future__ import annotations
@@ -9,10 +10,24 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from .model import MARKS, Listing, Report, counted
+from .model import MARKS, Listing, Report, counted, printable
 
-_LONG_RUN = re.compile(r"[^\s\u200b]{13,}")
-_WORD = re.compile(r"[^\W\d_]{1,16}")
+_BREAK = "\u200b"
+"""Zero-width space: a line may be broken here."""
+_LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
+_JOINT = re.compile(r"\\.|[^\w-]|_|[^\W_]{8}")
+_FOREIGN = re.compile(
+    r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
+)
+"""Writing that Typst's own fonts lack (Chinese, Japanese, Korean, Thai, …); they have Latin, Greek and Cyrillic."""
+_BRIEF = 40
+"""Signs of a text in the running head."""
+
+
+class Exact(str):
+    """A text that is written as it is: without places where it may be broken."""
+
+    __slots__ = ()
 
 
 def typst_literal(value: object) -> str:
@@ -21,25 +36,13 @@ def typst_literal(value: object) -> str:
         return "true" if value else "false"
     if isinstance(value, int):
         return str(value)
-    return '"' + "".join(_character(c) for c in _breakable(str(value))) + '"'
-
-
-def _character(c: str) -> str:
-    if c in '"\\':
-        return "\\" + c
-    if c.isprintable():
-        return c
-    return " " if ord(c) < 32 or 0x7F <= ord(c) < 0xA0 or 0xD800 <= ord(c) < 0xE000 else f"\\u{{{ord(c):x}}}"
+    text = printable(str(value)).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{text if isinstance(value, Exact) else _breakable(text)}"'
 
 
 def _breakable(text: str) -> str:
-    """Let a long run of signs without a space be broken; a word of usual length stays whole."""
-
-    def broken(found: re.Match[str]) -> str:
-        run = found.group()
-        return run if _WORD.fullmatch(run) else "\u200b".join(run[n : n + 6] for n in range(0, len(run), 6))
-
-    return _LONG_RUN.sub(broken, text)
+    """Let a long run of signs without a space be broken, so that it stays in its column."""
+    return _LONG_RUN.sub(lambda run: _JOINT.sub(rf"\g<0>{_BREAK}", run.group()), text)
 
 
 def typst_source(report: Report) -> str:
@@ -54,16 +57,18 @@ def typst_source(report: Report) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["exact"] = Exact
+    environment.filters["brief"] = lambda text: text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
-    return environment.get_template("report.typ.j2").render(
-        report=report, marks=MARKS, counted=counted
-    )
+    return environment.get_template("report.typ.j2").render(report=report, marks=MARKS, counted=counted)
 
 
 def render_pdf(report: Report) -> bytes:
     """Return the PDF; the same report gives the same bytes."""
     import typst
 
-    pages = typst.compile(typst_source(report).encode("utf-8"), format="pdf", ignore_system_fonts=True)
+    source = typst_source(report)
+    own_fonts = _FOREIGN.search(source) is None
+    pages = typst.compile(source.encode("utf-8"), format="pdf", ignore_system_fonts=own_fonts)
     assert isinstance(pages, bytes)
     return pages

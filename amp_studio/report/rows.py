@@ -5,7 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import Address, Parameter, StateInfo, UnitError, Value, convert, label_of, shown, write_number
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    StateInfo,
+    UnitError,
+    Value,
+    convert,
+    label_of,
+    shown,
+    write_number,
+)
 
 from .model import Row
 
@@ -25,7 +35,7 @@ def rows_of(file: ParameterFile) -> Rows:
     """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted."""
     axes = printed_axes(file)
     rows, hidden, unfitted = [], 0, 0
-    marks: dict[StateInfo, str] = {}
+    marks: dict[tuple[str, str], str] = {}
     for address in file.addresses():
         if scope_of(file, address) == "axis" and address[1] not in axes:
             unfitted += 1
@@ -36,12 +46,14 @@ def rows_of(file: ParameterFile) -> Rows:
     return Rows(tuple(rows), hidden, unfitted)
 
 
-def _state_mark(state: StateInfo, marks: dict[StateInfo, str]) -> str:
+def _state_mark(state: StateInfo, marks: dict[tuple[str, str], str]) -> str:
     """Return the mark of a state with its reason, numbering the reasons as they come."""
     letter = {"ignored": "i", "unusable": "u"}.get(state.state)
     if letter is None:
         return ""
-    return marks.setdefault(state, f"{letter}{sum(m[0] == letter for m in marks.values()) + 1}")
+    return marks.setdefault(
+        (state.state, state.why), f"{letter}{sum(m[0] == letter for m in marks.values()) + 1}"
+    )
 
 
 def printed_axes(file: ParameterFile) -> tuple[str, ...]:
@@ -77,7 +89,9 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "") -> Row:
     parameter = schema.parameters[address[0]]
     value, default, state = file.get(address), file.default(address), file.situation.state(address)
     known = value or default
-    unit = known.unit if known else "" if parameter.choices else file.situation.unit(address, file.header.units)
+    unit = (
+        known.unit if known else "" if parameter.choices else file.situation.unit(address, file.header.units)
+    )
     on_axis = scope_of(file, address) == "axis"
     return Row(
         id=address[0],

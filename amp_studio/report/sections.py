@@ -52,7 +52,9 @@ def _by_axis(file: ParameterFile, rows: Sequence[Row]) -> tuple[Section, ...]:
     for axis in printed_axes(file):
         own = [r for r in rows if r.instance == axis and _is_axis(file, r)]
         if own:
-            sections.append(Section(f"axis-{axis}", axis_label(file, axis), _listings(file, own, by_place=False)))
+            sections.append(
+                Section(f"axis-{axis}", axis_label(file, axis), _listings(file, own, by_place=False))
+            )
     rest = [r for r in rows if not _is_axis(file, r)]
     if rest:
         by_place = any(r.place for r in rest)
@@ -76,7 +78,7 @@ def _group_title(file: ParameterFile, row: Row) -> str:
 
 def _by_group(file: ParameterFile, rows: Sequence[Row]) -> tuple[Section, ...]:
     """Return one section for each group; the parts of a long group, which share its name, stay together."""
-    sections = []
+    sections: list[Section] = []
     for name, members in groupby(rows, key=lambda r: r.group):
         parts: list[Listing | Grid] = []
         for title, part in groupby(members, key=lambda r: file.schema.group_of[r.id].section):

@@ -7,7 +7,19 @@ import io
 
 from .model import Report, Row
 
-HEADS = ("number", "id", "instance", "name", "group", "value", "unit", "default", "changed", "state", "forced")
+HEADS = (
+    "number",
+    "id",
+    "instance",
+    "name",
+    "group",
+    "value",
+    "unit",
+    "default",
+    "changed",
+    "state",
+    "forced",
+)
 
 
 def render_csv(report: Report) -> bytes:

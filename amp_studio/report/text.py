@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from .model import MARKS, Listing, Note, Report, Row, counted
+from .model import MARKS, Listing, Note, Report, Row, counted, printable
 
 WIDTH = 100
 
@@ -41,7 +41,10 @@ def _lines(report: Report) -> Iterator[str]:
 
 def _title(report: Report) -> Iterator[str]:
     yield "=" * WIDTH
-    yield f"{report.program}   MACHINE PARAMETERS {report.order.upper()}".ljust(WIDTH - len(report.when)) + report.when
+    yield (
+        f"{report.program}   MACHINE PARAMETERS {report.order.upper()}".ljust(WIDTH - len(report.when))
+        + report.when
+    )
     yield "=" * WIDTH
     for title, text in (*report.facts, *report.counts):
         yield from _wrapped(text, f"{title + ' ':.<30} ")
@@ -112,7 +115,9 @@ def _table(rows: Iterable[Row], by_place: bool) -> Iterator[str]:
     before = ""
     for row in rows:
         name = row.name if row.id != before else ""
-        value = row.text + (f" ({row.detail})" if row.detail else "") + (f" [{row.forced}]" if row.forced else "")
+        value = (
+            row.text + (f" ({row.detail})" if row.detail else "") + (f" [{row.forced}]" if row.forced else "")
+        )
         yield from _beside((row.number or "–", name, row.place, value, row.default, row.marks), widths)
         before = row.id
 
@@ -129,16 +134,13 @@ def _columns(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[s
 def _beside(texts: Sequence[str], widths: Sequence[int]) -> Iterator[str]:
     """Write texts beside each other, each wrapped in its own width; a width of 0 leaves its column out."""
     pairs = [(text, width) for text, width in zip(texts, widths, strict=True) if width]
-    wrapped = [textwrap.wrap(_plain(text), width) or [""] for text, width in pairs]
+    wrapped = [textwrap.wrap(printable(text), width) or [""] for text, width in pairs]
     for n in range(max(len(lines) for lines in wrapped)):
         cells = (lines[n] if n < len(lines) else "" for lines in wrapped)
         yield " ".join(cell.ljust(width) for cell, (_, width) in zip(cells, pairs, strict=True))
 
 
 def _wrapped(text: str, start: str) -> list[str]:
-    return textwrap.wrap(_plain(text), WIDTH, initial_indent=start, subsequent_indent=" " * len(start)) or [start]
-
-
-def _plain(text: str) -> str:
-    """Return a text without what would move the printer's head."""
-    return "".join(c if c.isprintable() else " " for c in text)
+    return textwrap.wrap(
+        printable(text), WIDTH, initial_indent=start, subsequent_indent=" " * len(start)
+    ) or [start]

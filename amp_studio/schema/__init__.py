@@ -8,9 +8,21 @@ from .catalog import Address, Schema, UnknownParameter, load_schema, read_addres
 from .constraint import Limits, clip, fault, limits
 from .load import DatabaseFault, database_folder, family_ids, read_rules
 from .model import AxisProfile, Choice, Condition, Erratum, Group, Parameter, Rule, Table
-from .situation import IN_FORCE, Reading, Situation, StateInfo, canonical_value, program
+from .situation import IN_FORCE, Reading, Situation, StateInfo, canonical_value, program, same_value
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
-from .values import Value, ValueFault, label_of, read_value, show_value, write_number, write_value
+from .values import (
+    Value,
+    ValueFault,
+    field_at,
+    field_value,
+    label_of,
+    read_number,
+    read_value,
+    show_value,
+    with_field,
+    write_number,
+    write_value,
+)
 
 __all__ = [
     "IN_FORCE",
@@ -43,16 +55,21 @@ __all__ = [
     "database_folder",
     "family_ids",
     "fault",
+    "field_at",
+    "field_value",
     "label_of",
     "limits",
     "load_schema",
     "program",
     "read_address",
+    "read_number",
     "read_rules",
     "read_value",
+    "same_value",
     "show_value",
     "shown",
     "unit_named",
+    "with_field",
     "write_number",
     "write_value",
     "written",

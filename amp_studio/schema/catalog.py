@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 from .load import load_compiled
-from .model import Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Table
+from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Table
 from .units import angular
 
 Address = tuple[str, str]
@@ -152,8 +152,9 @@ class Schema:
     def units_of(self, parameter: Parameter) -> tuple[str, ...]:
         """Return every unit a parameter can be entered in, in any unit system, straight or turning."""
         if parameter.id not in self._unit_table:
-            units = [self.unit(parameter, system, turns) for turns in (False, True) for system in self.family.units]
-            self._unit_table[parameter.id] = tuple(dict.fromkeys(units)) or ("",)
+            systems = tuple(self.family.units) or ("",)
+            units = [self.unit(parameter, system, turns) for turns in (False, True) for system in systems]
+            self._unit_table[parameter.id] = tuple(dict.fromkeys(units))
         return self._unit_table[parameter.id]
 
     @cached_property
@@ -162,15 +163,22 @@ class Schema:
 
     @cached_property
     def signature(self) -> str:
-        """Checksum over numbers, names, types, units and choices; travels with every file and exchange."""
+        """Checksum over instances, numbers, names, types, units, storage, choices and bits; travels with every file."""
         lines = []
         for parameter in self.parameters.values():
+            instances = {m.key: self.instances(parameter, m.key) for m in self.family.machines}
             numbers = {m.key: self.numbers(parameter, m.key) for m in self.family.machines}
-            choices = [(c.key, c.label, c.raw) for c in parameter.choices or ()]
+            choices = _codes(parameter.choices)
+            bits = [(b.bit, b.width, b.label, _codes(b.choices)) for b in parameter.bits or ()]
+            storage = parameter.storage.model_dump() if parameter.storage else None
             lines.append([parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit,
-                          numbers, choices])  # fmt: skip
+                          instances, numbers, choices, bits, storage])  # fmt: skip
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _codes(choices: tuple[Choice, ...] | None) -> list[tuple[str, str, int | None]]:
+    return [(c.key, c.label, c.raw) for c in choices or ()]
 
 
 _PLAIN_UNITS = {

@@ -7,6 +7,7 @@ the models. A fault in a fact is told with file and line.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import tempfile
@@ -18,6 +19,7 @@ import platformdirs
 from pydantic import TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
+from .consistency import Place, faults_between
 from .model import Errata, Erratum, Family, Group, Model, Rule, Rules, Table, Tables
 
 T = TypeVar("T", bound=Model)
@@ -82,12 +84,10 @@ def compile_family(folder: Path) -> Compiled:
     rules = read_rules(rules_file) if rules_file.is_file() else ()
     errata = _read(errata_file, Errata).errata if errata_file.is_file() else ()
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
-    seen: set[str] = set()
-    for key, group in zip(family.groups, groups, strict=True):
-        for parameter in group.parameters:
-            if parameter.id in seen:
-                raise DatabaseFault(folder / "groups" / f"{key}.yaml", None, f"{parameter.id} stands twice")
-            seen.add(parameter.id)
+    fault = next(iter(faults_between(family, groups)), None)
+    if fault is not None:
+        path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
+        raise DatabaseFault(path, _line_of(path, fault.place), fault.what)
     return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables)
 
 
@@ -111,16 +111,16 @@ def _read(path: Path, model: type[T]) -> T:
         return TypeAdapter(model).validate_python(data)
     except ValidationError as error:
         first = error.errors()[0]
-        raise DatabaseFault(path, _line_of(path, first), f"{_place(data, first)}{first['msg']}") from None
+        raise DatabaseFault(path, _line_of(path, first["loc"]), f"{_place(data, first)}{first['msg']}") from None
 
 
-def _line_of(path: Path, fault: ErrorDetails) -> int | None:
-    """Return the line of a pydantic fault by walking the YAML once more with its line marks."""
+def _line_of(path: Path, place: Place) -> int | None:
+    """Return the line of a place in a file by walking the YAML once more with its line marks."""
     from ruamel.yaml import YAML
 
     node = YAML(typ="rt").load(path.read_text(encoding="utf-8"))
-    line: int | None = None
-    for step in fault["loc"]:
+    line: int | None = 1
+    for step in place:
         try:
             marks = node.lc
             line = (marks.key(step) if isinstance(step, str) else marks.item(step))[0] + 1
@@ -157,14 +157,17 @@ def _content_key(files: list[Path]) -> str:
 
 def _keep(cached: Path, compiled: Compiled) -> None:
     """Write the cache file; a cache that cannot be written costs time only."""
+    name = ""
     try:
         cached.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=cached.parent, suffix=".tmp")
         with os.fdopen(handle, "w", encoding="utf-8") as stream:
             stream.write(compiled.model_dump_json(exclude_defaults=True))
         os.replace(name, cached)
+        for old in cached.parent.glob(f"{cached.name.rsplit('-', 1)[0]}-*.json"):
+            if old != cached:
+                old.unlink(missing_ok=True)
     except OSError:
-        return
-    for old in cached.parent.glob(f"{cached.name.rsplit('-', 1)[0]}-*.json"):
-        if old != cached:
-            old.unlink(missing_ok=True)
+        if name:
+            with contextlib.suppress(OSError):
+                os.unlink(name)

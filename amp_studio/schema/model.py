@@ -121,6 +121,10 @@ class Numbers(Model):
     def _one_way(self) -> Numbers:
         if self.start is None and self.listed is None and "{n}" in self.format:
             raise ValueError("numbers need 'start', 'listed' or a format without {n}")
+        try:
+            self.format.format(n=0, i="")
+        except (LookupError, ValueError):
+            raise ValueError(f"the format {self.format!r} may hold {{n}} and {{i}} and nothing else in braces") from None
         return self
 
 
@@ -216,9 +220,9 @@ class Parameter(Model):
         if self.type == "boolean" and (not self.choices or len(self.choices) != 2):
             raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
         if self.choices:
-            for field in ("key", "label"):
-                seen = [getattr(c, field) for c in self.choices]
-                if len(set(seen)) != len(seen):
+            for field in ("key", "label", "code"):
+                seen = [" ".join(said.casefold().split()) for c in self.choices if (said := getattr(c, field)) is not None]
+                if len(set(seen)) != len(seen):  # compared as a person's word is: read_value ignores case and blanks
                     raise ValueError(f"two choices share a {field}")
         if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:
             raise ValueError("the choices of a yes/no parameter have the keys 'yes' and 'no'")

@@ -6,6 +6,8 @@ until it is told that an address changed; it never changes a value.
 
 from __future__ import annotations
 
+import contextlib
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -14,7 +16,7 @@ from typing import Any
 from .catalog import Address, Schema, UnknownParameter, read_address
 from .cel_engine import Program, compile_expression
 from .model import Condition, Parameter, Scope, State, StateRule
-from .units import canonical
+from .units import canonical, dimension
 from .values import Value
 
 Canonical = float | str | bool | None
@@ -221,6 +223,23 @@ class Situation:
             raise UnknownParameter(f"number {text} means {names} here: say which by id")
         return existing[0]
 
+    def find_bit(self, text: str) -> tuple[Address, int | None]:
+        """Return the instance a person means and, where he names a bit of a word (``P3N0.5``), its number.
+
+        Raises UnknownParameter.
+        """
+        try:
+            return self.find(text), None
+        except UnknownParameter:
+            head, _, bit = text.strip().rpartition(".")
+            if not re.fullmatch("[0-9]{1,2}", bit):
+                raise
+            with contextlib.suppress(UnknownParameter):
+                address = self.find(head)
+                if self.schema.parameters[address[0]].type == "bits":
+                    return address, int(bit)
+            raise
+
     def _nearest(self, claims: list[Address]) -> list[Address]:
         """Return, of parameters that are all hidden, those that the fewest conditions hide."""
         def hiding(address: Address) -> int:
@@ -264,6 +283,13 @@ def _offered(instances: tuple[str, ...]) -> str:
 
 def _state_names(parameter: Parameter) -> set[str]:
     return {r.when or r.unless or "" for r in parameter.states}
+
+
+def same_value(a: Value | None, b: Value | None) -> bool:
+    """Tell whether two values are the same, whatever their units (1 in is 25.4 mm, 1 mm is not 1 deg)."""
+    if a is None or b is None or isinstance(a.value, (str, bool)) or isinstance(b.value, (str, bool)):
+        return a == b
+    return dimension(a.unit) == dimension(b.unit) and canonical_value(a) == canonical_value(b)
 
 
 def canonical_value(value: Value | None) -> Canonical:

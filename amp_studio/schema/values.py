@@ -176,16 +176,16 @@ def write_value(parameter: Parameter, value: Value | None) -> str:
         return label_of(parameter, value.value)
     if isinstance(value.value, bool):
         return label_of(parameter, "yes" if value.value else "no")
-    number = _number_text(parameter, value.value)
+    number = _number_text(parameter, value)
     return f"{number} {value.unit}" if value.unit else number
 
 
-def _number_text(parameter: Parameter, number: float) -> str:
-    """Write a number as the control does: a word of bits that it shows in hexadecimal, so."""
-    storage = parameter.storage
-    if storage and storage.notation == "hex" and isinstance(number, int) and number >= 0:
+def _number_text(parameter: Parameter, value: Value) -> str:
+    """Write a number; a word of bits that the control shows in hexadecimal, so."""
+    number, storage = value.value, parameter.storage
+    if parameter.type == "bits" and storage and storage.notation == "hex" and isinstance(number, int) and number >= 0:
         return f"0x{number:0{(storage.bits or 0) // 4}X}"
-    return write_number(number)
+    return write_number(float(number) if not isinstance(number, int) else number)
 
 
 def show_value(parameter: Parameter, value: Value | None) -> str:
@@ -194,7 +194,7 @@ def show_value(parameter: Parameter, value: Value | None) -> str:
         return "—"
     if isinstance(value.value, (str, bool)):
         return write_value(parameter, value)
-    number = _number_text(parameter, value.value)
+    number = _number_text(parameter, value)
     unit = shown(value.unit)
     return f"{number}{unit}" if unit in ("°",) else f"{number} {unit}" if unit else number
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from amp_studio.schema import Table
+
 from . import ninepc
 from .reading import MotorGains, Readings, Value, ValueOf
 from .servo import AxisServo, SimulationError
@@ -14,6 +16,11 @@ BINDINGS: dict[str, Binding] = {"9pc": ninepc.axis_servo}
 """Families whose servo is known."""
 MODEL_SETTINGS: dict[str, Mapping[str, str]] = {"9pc": ninepc.MODEL_SETTINGS}
 """Family -> figures that are no parameters and can be given by hand -> what they are."""
+
+
+def standard_gains(family: str, tables: Mapping[str, Table]) -> MotorGains | None:
+    """Return a look-up into the family's printed motor tables; None when it has none."""
+    return ninepc.standard_gains(tables) if family == "9pc" else None
 
 
 def axis_servo(

@@ -16,7 +16,10 @@ times between both gains at the end of the tuning procedure (appendix A, from A-
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
+
+from amp_studio.schema import Table
 
 from .reading import MotorGains, Readings
 from .servo import AxisServo, SimulationError, Source
@@ -285,7 +288,7 @@ _CLOSED = (
     (
         "The velocity command is proportional to the following error (7-14, 7-25); what lies beyond the gain"
         " break point counts only gain break ratio times (7-22, 7-27), a broken line without a jump (the"
-        " figure of 7-23 is lost)."
+        " figure of 7-23 was not legible)."
     ),
 )
 _ZFE = (
@@ -311,3 +314,20 @@ _ALWAYS = (
     ),
     "Excess error and feedrate suppression are watched once a servo cycle (7-20, 7-21).",
 )
+
+
+def standard_gains(tables: Mapping[str, Table]) -> MotorGains | None:
+    """Return a look-up into Tables 7.B and 7.C (pages 7-55, 7-56) by motor and inertia ratio keys."""
+    proportional, integral = tables.get("7.B"), tables.get("7.C")
+    if proportional is None or integral is None:
+        return None
+
+    def gains(motor: str, ratio: str) -> tuple[float, float] | None:
+        row = int(ratio.removeprefix("r"))
+        found = [
+            next((column.values[row] for column in table.columns if motor.upper() in column.motors), None)
+            for table in (proportional, integral)
+        ]
+        return (found[0], found[1]) if found[0] is not None and found[1] is not None else None
+
+    return gains

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import Table
 
-from .reading import MotorGains, Value
+from .bind import standard_gains
+from .reading import Value
 from .scenarios import SCENARIOS
 from .servo import SimulationError
 from .trace import Trace
@@ -37,18 +37,5 @@ def simulate(
         return file.situation.canonical((parameter_id, instance))
 
     return SCENARIOS[scenario].run(
-        value, chosen, settings or {}, file.schema.family.family, standard_gains(file.schema.tables)
+        value, chosen, settings or {}, file.schema.family.family, standard_gains(file.schema.family.family, file.schema.tables)
     )
-
-
-def standard_gains(tables: Mapping[str, Table]) -> MotorGains | None:
-    """Return a look-up into the family's tables of standard motor gains; None when it has none."""
-    proportional, integral = tables.get("7.B"), tables.get("7.C")
-    if proportional is None or integral is None:
-        return None
-
-    def gains(motor: str, ratio: str) -> tuple[float, float] | None:
-        found = tuple(table.look_up(motor, ratio) for table in (proportional, integral))
-        return (found[0], found[1]) if found[0] is not None and found[1] is not None else None
-
-    return gains

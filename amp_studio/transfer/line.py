@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Callable
 from typing import TypeVar
@@ -106,6 +107,13 @@ class Line:
                 raise self._gave_up(cause, held()) from cause
             self.pause(pause, held)
             pause = min(pause * 1.5, LONGEST_PAUSE)
+
+    def once(self, action: Callable[[Conversation], object]) -> None:
+        """Run ``action`` if there is a line, whether or not it succeeds, and hang up."""
+        if self._talk is not None:
+            with contextlib.suppress(LinkError, Silence, Refusal):
+                action(self._talk)
+        self.close()
 
     def moved(self) -> None:
         """Something got further: patience begins anew."""

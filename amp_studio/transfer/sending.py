@@ -7,10 +7,9 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .conversation import Conversation, Silence
-from .errors import Cancelled, Held, ImageChanged, error_of
+from .conversation import Conversation
+from .errors import Cancelled, Held, ImageChanged, TransferError, error_of
 from .line import Line
-from .link import LinkError
 from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, Refusal
 from .streaming import push
 
@@ -40,11 +39,12 @@ class Sending:
         self._progress = progress
         self._digest = hashlib.sha256(image).digest()
         self._transfer = line.random(16)
+        self._cancel: threading.Event | None = None
         self.held: Held = "old"
 
     def run(self, cancel: threading.Event | None) -> Sent:
         """Return what the control answered to the commit; raises TransferError."""
-        self._line.cancel = cancel
+        self._cancel = cancel
         self._line.reconnections = 0
         try:
             return Sent(self._stage_and_commit(), self._line.reconnections)
@@ -59,19 +59,23 @@ class Sending:
             try:
                 return self._line.persist(self._attempt, lambda: self.held)
             except Refusal as refusal:
-                # A refusal changes nothing, and a commit that has happened is not refused.
-                self.held = "old"
                 lost = refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE, Code.DIGEST)
                 if not (lost and left):
                     raise self._error(refusal) from None
-                self._transfer = self._line.random(16)
+                self._transfer, self.held = self._line.random(16), "old"
         raise AssertionError("the last attempt returns or raises")
 
     def _attempt(self, talk: Conversation) -> Committed:
         """Take the download up where the control says, and commit it."""
         total = len(self._image)
         opening = OpenDownload(self._transfer, total, self._digest, self._expected, self._signature)
+        if self.held == "old":
+            self._line.cancel = self._cancel
         ready = talk.request(opening, Ready)
+        if ready.offset < total:
+            # A commit asked for on an earlier line has not happened: what it needs is no longer staged.
+            self.held = "old"
+            self._line.cancel = self._cancel
         self._line.moved()
 
         def done(staged: int) -> None:
@@ -80,7 +84,11 @@ class Sending:
 
         done(ready.offset)
         push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
-        self._look()
+        return self._commit(talk)
+
+    def _commit(self, talk: Conversation) -> Committed:
+        if self._cancel is not None and self._cancel.is_set() and self.held == "old":
+            raise Cancelled("cancelled")
         self._line.cancel = None  # from here on the matter is seen through
         self.held = "unknown"
         self._progress("commit", 0, 1)
@@ -89,16 +97,16 @@ class Sending:
         self._progress("commit", 1, 1)
         return committed
 
-    def _look(self) -> None:
-        if self._line.cancel is not None and self._line.cancel.is_set():
-            raise Cancelled("cancelled")
+    def _error(self, refusal: Refusal) -> TransferError:
+        """Return the error of a refusal, which changes nothing: a commit that has happened is not refused.
 
-    def _error(self, refusal: Refusal) -> Exception:
-        """Return the error of a refusal; a changed image may also be ours, committed and then forgotten."""
-        error = error_of(refusal, self.held)
+        Only where the image is another one after a commit was asked for, ours may have come and gone.
+        """
+        error = error_of(refusal)
         welcome = self._line.welcome
-        if isinstance(error, ImageChanged) and welcome is not None and welcome.sha256 == self._digest:
-            error.held = "new"
+        if isinstance(error, ImageChanged) and self.held == "unknown":
+            error.held = "new" if welcome is not None and welcome.sha256 == self._digest else "unknown"
+        self.held = error.held
         return error
 
     def _abort(self) -> None:

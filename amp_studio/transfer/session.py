@@ -7,6 +7,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from typing import TypeVar
 
 from .address import Address, parse_address
 from .conversation import Conversation, Silence
@@ -28,6 +29,9 @@ from .message import (
 from .pace import Limits
 from .sending import RESTAGINGS, Progress, Sending, Sent
 from .streaming import pull
+
+
+Result = TypeVar("Result")
 
 
 def quiet(stage: str, done: int, total: int) -> None:
@@ -171,15 +175,15 @@ class Session:
 
     def _fetch_once(self, progress: Progress, stage: str) -> tuple[UploadReady, bytes]:
         """Read one image; when the line is cut, go on with the pieces that are there if it is still the same image."""
-        opened: UploadReady | None = None
+        opened: tuple[UploadReady, int] | None = None
         pieces: dict[int, bytes] = {}
 
         def read(talk: Conversation) -> UploadReady:
             nonlocal opened
             ready = talk.request(OpenUpload(), UploadReady)
             chunk, limit = self._line.sizes(talk)
-            if ready != opened or any(at % chunk for at in pieces):
-                opened = ready
+            if (ready, chunk) != opened:
+                opened = (ready, chunk)
                 pieces.clear()
 
             def done(received: int) -> None:
@@ -192,7 +196,7 @@ class Session:
         ready = self._line.persist(read)
         return ready, b"".join(pieces[at] for at in sorted(pieces))
 
-    def _ask(self, action: Callable[[Conversation], State | Restarting]) -> State:
+    def _ask(self, action: Callable[[Conversation], Result]) -> Result:
         try:
             return self._line.persist(action)
         except Refusal as refusal:

@@ -1,0 +1,87 @@
+"""What the fact files of a family say of each other: names that must exist, and stand once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from .cel_engine import compile_expression
+from .model import BoundRef, Family, Group, Parameter
+
+Place = tuple[str | int, ...]
+"""The way to a value in a file: keys of mappings, positions in lists."""
+
+
+@dataclass(frozen=True, slots=True)
+class Inconsistency:
+    """A fault that one file alone does not show; ``group`` is the file's key, None for ``family.yaml``."""
+
+    group: str | None
+    place: Place
+    what: str
+
+
+def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Inconsistency]:
+    """Yield every name that is used and does not exist, and every parameter that stands twice."""
+    ids = {p.id for group in groups for p in group.parameters}
+    yield from _in_family(family, ids)
+    seen: set[str] = set()
+    for group in groups:
+        for position, parameter in enumerate(group.parameters):
+            here: Place = ("parameters", position)
+            if parameter.id in seen:
+                yield Inconsistency(group.key, (*here, "id"), f"{parameter.id} stands twice")
+            seen.add(parameter.id)
+            for place, what in _in_parameter(family, parameter, ids):
+                yield Inconsistency(group.key, (*here, *place), f"{parameter.id}: {what}")
+
+
+def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
+    for name, condition in family.conditions.items():
+        here: Place = ("conditions", name)
+        try:
+            compile_expression(condition.when)
+        except ValueError as error:
+            yield Inconsistency(None, (*here, "when"), f"condition {name}: {_first_line(error)}")
+        for short, text in condition.reads.items():
+            if text.partition("@")[0] not in ids:
+                yield Inconsistency(None, (*here, "reads", short), f"condition {name} reads '{text}', which does not exist")
+    if family.angular_when is not None and family.angular_when not in family.conditions:
+        yield Inconsistency(None, ("angular_when",), f"there is no condition '{family.angular_when}'")
+    if family.machine_parameter is not None and family.machine_parameter not in ids:
+        yield Inconsistency(None, ("machine_parameter",), f"there is no parameter '{family.machine_parameter}'")
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).splitlines()[0]
+
+
+def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterator[tuple[Place, str]]:
+    for n, state in enumerate(parameter.states):
+        key = "when" if state.when else "unless"
+        if (state.when or state.unless) not in family.conditions:
+            yield ("states", n, key), f"there is no condition '{state.when or state.unless}'"
+    for n, variant in enumerate(parameter.range_variants):
+        if variant.when not in family.conditions:
+            yield ("range_variants", n, "when"), f"there is no condition '{variant.when}'"
+    for place, ranges in _all_ranges(parameter):
+        for unit, pair in ranges:
+            for end, bound in enumerate(pair):
+                if isinstance(bound, BoundRef) and bound.param not in ids:
+                    yield (*place, unit, end, "param"), f"there is no parameter '{bound.param}' to bound it"
+    for place, scope in _all_scopes(parameter):
+        if scope not in family.scopes:
+            yield place, f"the family has no scope '{scope}'"
+
+
+def _all_ranges(parameter: Parameter) -> Iterator[tuple[Place, list[tuple[str, tuple[object, object]]]]]:
+    yield ("ranges",), list((parameter.ranges or {}).items())
+    for n, variant in enumerate(parameter.range_variants):
+        yield ("range_variants", n, "ranges"), list(variant.ranges.items())
+
+
+def _all_scopes(parameter: Parameter) -> Iterator[tuple[Place, str]]:
+    if parameter.layouts is None:
+        yield ("scope",), parameter.scope
+    for n, layout in enumerate(parameter.layouts or ()):
+        yield ("layouts", n, "scope"), layout.scope

@@ -1,0 +1,175 @@
+"""The three verbs between a file and a control: download, upload, verify.
+
+Words as the manuals use them: a download goes from here to the control, an
+upload from the control to here.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from .errors import HELD_TEXT, Held, KeepFailed, NotInEmergencyStop, SignatureMismatch, TransferError
+from .message import Committed, Flags, Welcome
+from .sending import Progress
+from .session import Session, quiet
+
+RESTART_WAIT = 60.0  # seconds a control may take to come back
+
+Keep = Callable[[bytes], str]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a download ended.
+
+    ``held``      what the control holds now: the "old" image, the "new" one, or "unknown"
+    ``verified``  whether every byte of the new image was read back and is equal
+    ``written``   whether the control had to take anything
+    ``kept``      where the image it held before is kept; None when nothing was replaced or it held none
+    ``restart``   "not needed"; "done" (the image is current); "needed" (by hand); "missed" (it did not come back)
+    ``sha256``    of the image, in hexadecimal
+    ``text``      all of it in one sentence or two
+    """
+
+    held: Held
+    verified: bool
+    written: bool
+    kept: str | None
+    restart: Literal["not needed", "done", "needed", "missed"]
+    sha256: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Verification:
+    """Whether a control holds an image; ``first_difference`` is the offset in bytes of the first that differs.
+
+    ``held`` is what was read from the control.
+    """
+
+    same: bool
+    first_difference: int | None
+    held: bytes
+
+
+def upload(session: Session, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
+    """Return the image the control holds; raises TransferError."""
+    session.hello(cancel)
+    return session.fetch(progress, cancel)
+
+
+def verify(
+    session: Session, image: bytes, progress: Progress = quiet, cancel: threading.Event | None = None
+) -> Verification:
+    """Read everything the control holds and compare it with an image byte for byte; raises TransferError."""
+    session.hello(cancel)
+    held = session.fetch(progress, cancel, "verify")
+    at = first_difference(image, held)
+    return Verification(at is None, at, held)
+
+
+def download(
+    session: Session,
+    image: bytes,
+    keep: Keep,
+    *,
+    signature: str,
+    progress: Progress = quiet,
+    cancel: threading.Event | None = None,
+    restart_wait: float = RESTART_WAIT,
+) -> Outcome:
+    """Put an image into a control, and prove it.
+
+    Fetches what the control holds and hands it to ``keep``, which returns where it has kept it, before anything is
+    replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to ``restart_wait`` seconds for
+    the restart, reads everything back and compares. ``signature`` is the schema's under which the image was made.
+    Raises TransferError, whose ``held`` and ``kept`` say what the control holds and where its old image is.
+    """
+    digest = hashlib.sha256(image)
+    welcome = session.hello(cancel)
+    _check(welcome, signature, digest.digest())
+    old = session.fetch(progress, cancel, "keep")
+    if old == image:
+        return _nothing_to_do(welcome, digest.hexdigest())
+    kept = _keep(keep, old) if old else None
+    try:
+        sent = session.send(
+            image,
+            signature=signature,
+            expected=hashlib.sha256(old).digest(),
+            progress=progress,
+            cancel=cancel,
+        )
+    except TransferError as error:
+        error.kept = kept
+        raise
+    try:
+        return _prove(session, image, sent.committed, kept, progress, cancel, restart_wait)
+    except TransferError as error:
+        error.held, error.kept = "new", kept
+        raise
+
+
+def first_difference(a: bytes, b: bytes) -> int | None:
+    """Return where two images first differ (the length of the shorter where one goes on), None when they are equal."""
+    if a == b:
+        return None
+    pairs = enumerate(zip(a, b, strict=False))
+    return next((at for at, (x, y) in pairs if x != y), min(len(a), len(b)))
+
+
+def _check(welcome: Welcome, signature: str, digest: bytes) -> None:
+    """Refuse what can be seen before anything is moved; an image that is there already needs no E-stop."""
+    if welcome.signature != signature:
+        raise SignatureMismatch(
+            f"the control '{welcome.name}' (revision {welcome.revision}) numbers its parameters by another schema"
+        )
+    if welcome.sha256 != digest and not welcome.flags & Flags.ESTOP:
+        raise NotInEmergencyStop("please place the control in E-stop to download")
+
+
+def _nothing_to_do(welcome: Welcome, digest: str) -> Outcome:
+    waiting = bool(welcome.flags & Flags.RESTART_NEEDED)
+    text = "The control holds exactly this image already; nothing was written."
+    if waiting:
+        text += " Restart the control to make it current."
+    return Outcome("new", True, False, None, "needed" if waiting else "not needed", digest, text)
+
+
+def _keep(keep: Keep, old: bytes) -> str:
+    try:
+        return keep(old)
+    except Exception as error:  # whatever goes wrong there, the old image is not kept
+        raise KeepFailed(f"what the control holds could not be kept ({error})") from error
+
+
+def _prove(
+    session: Session,
+    image: bytes,
+    committed: Committed,
+    kept: str | None,
+    progress: Progress,
+    cancel: threading.Event | None,
+    restart_wait: float,
+) -> Outcome:
+    """Wait for the restart, read back, compare."""
+    digest = hashlib.sha256(image).hexdigest()
+    before = f" What it held before is kept in {kept}." if kept else ""
+    restart: Literal["done", "needed"] = "needed"
+    if committed.restarting:
+        if session.wait_restarted(committed.incarnation, restart_wait, progress, cancel) is None:
+            text = f"Download complete, but the control has not come back from its restart within {restart_wait:g} s."
+            return Outcome("new", False, True, kept, "missed", digest, text + before)
+        restart = "done"
+    held = session.fetch(progress, cancel, "verify")
+    at = first_difference(image, held)
+    if at is not None:
+        text = f"The control took the image, but what it holds differs from byte {at} on; {HELD_TEXT['unknown']}."
+        return Outcome("unknown", False, True, kept, restart, digest, text + before)
+    text = "Download complete and read back equal"
+    text += "; the control has restarted with it." if restart == "done" else ". Restart the control to make it current."
+    return Outcome("new", True, True, kept, restart, digest, text + before)

@@ -1,0 +1,106 @@
+"""What an emulated control remembers besides its images."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from .memory import Memory
+from .message import Committed, Flags
+
+RECORD = "control.json"
+
+
+class StateFault(ValueError):
+    """A state folder that cannot be used; one clear sentence."""
+
+
+@dataclass(frozen=True)
+class Identity:
+    """What a control says of itself: family id, signature of its schema, its name, its software revision."""
+
+    family: str
+    signature: str
+    name: str = "Emulated control"
+    revision: str = "1.0"
+
+
+@dataclass
+class Record:
+    """The state of a control; ``committed`` is its answer to the last commit, in words JSON has."""
+
+    family: str
+    signature: str
+    estop: bool = True
+    autostart: bool = True
+    incarnation: int = 0
+    running: bool = True
+    restart_needed: bool = False
+    changed_at_control: bool = False
+    committed: dict[str, Any] | None = None
+
+    def save(self, memory: Memory) -> None:
+        """Write the record; raises OSError, and then the old one stands."""
+        memory.replace(RECORD, to_json(asdict(self)))
+
+    def flags(self) -> Flags:
+        """Return the state as it is sent."""
+        flags = Flags(0)
+        for on, flag in (
+            (self.estop, Flags.ESTOP),
+            (self.running, Flags.RUNNING),
+            (self.restart_needed, Flags.RESTART_NEEDED),
+            (self.autostart, Flags.AUTOSTART),
+            (self.changed_at_control, Flags.CHANGED_AT_CONTROL),
+        ):
+            if on:
+                flags |= flag
+        return flags
+
+    def answer_to(self, transfer: bytes, sha256: bytes) -> Committed | None:
+        """Return what was answered to this commit, if it was the last that happened."""
+        found = self.committed
+        if found is None or (found["transfer"], found["sha256"]) != (transfer.hex(), sha256.hex()):
+            return None
+        return Committed(transfer, sha256, found["incarnation"], found["restarting"])
+
+
+def load_record(memory: Memory, identity: Identity) -> Record:
+    """Return the record of a folder, or a new one; raises StateFault when it is another control's or damaged."""
+    found = load_json(memory, RECORD)
+    if found is None:
+        return Record(identity.family, identity.signature)
+    try:
+        record = Record(**found)
+    except TypeError:
+        raise StateFault(f"{memory.folder / RECORD} is not what an emulated control writes") from None
+    if record.family != identity.family:
+        raise StateFault(f"{memory.folder} is the memory of a {record.family}, not of a {identity.family}")
+    if record.signature != identity.signature:
+        raise StateFault(f"{memory.folder} is the memory of a control with another parameter schema")
+    return record
+
+
+def written(answer: Committed) -> dict[str, Any]:
+    """Return an answer in words JSON has."""
+    return {name: value.hex() if isinstance(value, bytes) else value for name, value in asdict(answer).items()}
+
+
+def to_json(content: dict[str, Any]) -> bytes:
+    """Return the bytes of a JSON file."""
+    return json.dumps(content, indent=1).encode() + b"\n"
+
+
+def load_json(memory: Memory, name: str) -> dict[str, Any] | None:
+    """Return the object a JSON file holds, None when there is no such file; raises StateFault."""
+    content = memory.read(name)
+    if content is None:
+        return None
+    try:
+        found = json.loads(content)
+    except ValueError:
+        found = None
+    if not isinstance(found, dict):
+        raise StateFault(f"{memory.folder / name} is damaged")
+    return found

@@ -1,0 +1,94 @@
+"""The download an emulated control has begun to take: collected in a file of its own, so that it can be resumed."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from dataclasses import asdict, dataclass
+
+from .memory import Memory
+from .record import StateFault, load_json, to_json
+
+PREFIX = "staged-"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a download is to become: ``size`` bytes with this digest, in the place of the image ``expected``."""
+
+    transfer: bytes
+    size: int
+    sha256: bytes
+    expected: bytes
+
+    @property
+    def part(self) -> str:
+        """The file its bytes are collected in."""
+        return f"{PREFIX}{self.transfer.hex()}.part"
+
+    @property
+    def note(self) -> str:
+        """The file that holds the plan."""
+        return f"{PREFIX}{self.transfer.hex()}.json"
+
+
+class Staging:
+    """At most one download, taken up again after a restart. ``size`` is how many of its bytes have come."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+        self.plan: Plan | None = None
+        self.size = 0
+        for name in memory.names():
+            if self.plan is None and name.startswith(PREFIX) and name.endswith(".json"):
+                self.plan = self._load(name)
+        if self.plan is not None:
+            self.size = memory.size(self.plan.part)
+        self._tidy()
+
+    def begin(self, plan: Plan) -> None:
+        """Throw away what was begun before and begin this; raises OSError."""
+        self.drop()
+        note = {name: value.hex() if isinstance(value, bytes) else value for name, value in asdict(plan).items()}
+        self._memory.replace(plan.note, to_json(note))
+        self._memory.append(plan.part, b"")
+        self.plan, self.size = plan, 0
+
+    def add(self, plan: Plan, content: bytes) -> None:
+        """Add bytes to the end; raises OSError, and then nothing was added."""
+        self._memory.append(plan.part, content)
+        self.size += len(content)
+
+    def content(self, plan: Plan) -> bytes | None:
+        """Return what has come if it has the digest it was to have, else None."""
+        content = self._memory.read(plan.part)
+        if content is None or len(content) != plan.size or hashlib.sha256(content).digest() != plan.sha256:
+            return None
+        return content
+
+    def drop(self) -> None:
+        """Throw away what was begun. What cannot be removed now is removed at the next start."""
+        plan, self.plan, self.size = self.plan, None, 0
+        if plan is not None:
+            for name in (plan.part, plan.note):
+                with contextlib.suppress(OSError):
+                    self._memory.remove(name)
+
+    def _load(self, name: str) -> Plan | None:
+        found = load_json(self._memory, name) or {}
+        try:
+            return Plan(
+                bytes.fromhex(found["transfer"]),
+                int(found["size"]),
+                bytes.fromhex(found["sha256"]),
+                bytes.fromhex(found["expected"]),
+            )
+        except (KeyError, TypeError, ValueError):
+            raise StateFault(f"{self._memory.folder / name} is damaged") from None
+
+    def _tidy(self) -> None:
+        """Remove what belongs to no download."""
+        wanted = {self.plan.note, self.plan.part} if self.plan is not None else set()
+        for name in self._memory.names():
+            if name.startswith(PREFIX) and name not in wanted:
+                self._memory.remove(name)
