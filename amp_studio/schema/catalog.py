@@ -7,7 +7,7 @@ import json
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
-from .load import load_compiled
+from .load import Compiled, load_compiled
 from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Table
 from .units import angular
 
@@ -209,15 +209,17 @@ def read_address(text: str) -> Address:
 @lru_cache(maxsize=None)
 def load_schema(family_id: str) -> Schema:
     """Return a family's schema; raises KeyError for an unknown family, DatabaseFault for a bad fact."""
-    compiled = load_compiled(family_id)
-    parameters = {p.id: p for group in compiled.groups for p in group.parameters}
-    group_of = {p.id: group for group in compiled.groups for p in group.parameters}
+    return schema_of(load_compiled(family_id))
+
+
+def schema_of(compiled: Compiled) -> Schema:
+    """Return the schema of compiled facts."""
     return Schema(
         family=compiled.family,
         groups=compiled.groups,
         rules=compiled.rules,
         errata={e.id: e for e in compiled.errata},
         tables={t.id: t for t in compiled.tables},
-        parameters=parameters,
-        group_of=group_of,
+        parameters={p.id: p for group in compiled.groups for p in group.parameters},
+        group_of={p.id: group for group in compiled.groups for p in group.parameters},
     )

@@ -12,11 +12,23 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator, model_validator
+
+from .units import UNITS
 
 ParameterId = Annotated[str, Field(pattern=r"^[a-z0-9_]+(\.[a-z0-9_]+)+$")]
 Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_+-]*$")]
 Page = Annotated[str, Field(pattern=r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$")]
+
+
+
+def _known_unit(unit: str) -> str:
+    if unit not in UNITS:
+        raise ValueError(f"'{unit}' is no unit: {', '.join(u for u in UNITS if u)}")
+    return unit
+
+
+Unit = Annotated[str, AfterValidator(_known_unit)]
 
 Scope = Literal["global", "axis", "spindle", "process", "group", "word", "register"]
 ValueType = Literal["integer", "real", "choice", "boolean", "bits", "text", "format"]
@@ -62,7 +74,7 @@ class RangeVariant(Model):
     """Ranges that hold instead of the plain ones while a condition is true."""
 
     when: str
-    ranges: dict[str, Range]
+    ranges: dict[Unit, Range]
 
 
 class Choice(Model):
@@ -91,7 +103,7 @@ class Bit(Model):
 class Storage(Model):
     """How the control itself holds the value."""
 
-    unit: str | None = None
+    unit: Unit | None = None
     decimals: int | None = None
     scale: float = 1.0
     """Stored number per unit of ``unit`` (65.536 for counts/s in a 1.25 ms scan)."""
@@ -176,7 +188,7 @@ class Default(Model):
 
     value: float | bool | str
     """A number in ``unit``, a choice key, or a text."""
-    unit: str = ""
+    unit: Unit = ""
     page: Page
     instances: dict[str, float | bool | str] | None = None
     """Instances whose default differs from ``value``."""
@@ -194,10 +206,10 @@ class Parameter(Model):
     """Instead of scope, numbers and instances where they depend on the machine type."""
     type: ValueType
     quantity: Quantity = ""
-    unit: str | None = None
+    unit: Unit | None = None
     """Fixes the unit where the quantity alone leaves it open (``ms``, ``s``; ``counts``)."""
     decimals: int | None = None
-    ranges: dict[str, Range] | None = None
+    ranges: dict[Unit, Range] | None = None
     range_variants: tuple[RangeVariant, ...] = ()
     choices: tuple[Choice, ...] | None = None
     bits: tuple[Bit, ...] | None = None
@@ -298,7 +310,7 @@ class Family(Model):
     """The parameter whose choice keys are the machine types, where there is one."""
     revisions: tuple[str, ...] = ()
     scopes: dict[Scope, ScopeInfo]
-    units: dict[str, dict[str, str]]
+    units: dict[str, dict[str, Unit]]
     """Per unit system (``metric``, ``inch``) the unit of each quantity."""
     angular_when: str | None = None
     """Condition under which length-like quantities of an axis are entered in degrees."""

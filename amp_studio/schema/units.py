@@ -15,6 +15,7 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "": ("", Fraction(1)),
     "mm": ("length", Fraction(1)),
     "in": ("length", Fraction(254, 10)),
+    "um": ("length", Fraction(1, 1000)),
     "deg": ("angle", Fraction(1)),
     "mm/min": ("velocity", Fraction(1)),
     "in/min": ("velocity", Fraction(254, 10)),
@@ -33,12 +34,15 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "deg/s3": ("angular jerk", Fraction(1)),
     "ms": ("time", Fraction(1)),
     "s": ("time", Fraction(1000)),
+    "us": ("time", Fraction(1, 1000)),
     "%": ("percent", Fraction(1)),
     "V": ("voltage", Fraction(1)),
     "A": ("current", Fraction(1)),
     "Hz": ("frequency", Fraction(1)),
     "rpm": ("rotation", Fraction(1)),
     "counts": ("counts", Fraction(1)),
+    "counts/s": ("count rate", Fraction(1)),
+    "counts/s2": ("count acceleration", Fraction(1)),
     "W": ("power", Fraction(1)),
 }
 
@@ -53,12 +57,14 @@ ALIASES: dict[str, str] = {
     "in/min/sec": "in/min/s", "mm/s/s/s": "mm/s3", "mm/sec/sec/sec": "mm/s3", "mm/s³": "mm/s3",
     "in/s/s/s": "in/s3", "in/sec/sec/sec": "in/s3", "in/s³": "in/s3", "deg/s/s/s": "deg/s3",
     "deg/sec/sec/sec": "deg/s3", "deg/s³": "deg/s3", "msec": "ms", "sec": "s", "second": "s", "seconds": "s",
+    "µm": "um", "μm": "um", "micron": "um", "microns": "um", "µs": "us", "μs": "us", "usec": "us",
+    "counts/sec": "counts/s", "cts/s": "counts/s", "counts/s/s": "counts/s2", "counts/sec/sec": "counts/s2",
     "percent": "%", "volt": "V", "volts": "V", "v": "V", "amp": "A", "amps": "A", "a": "A", "hz": "Hz",
     "r/min": "rpm", "1/min": "rpm", "count": "counts", "cts": "counts", "watt": "W", "w": "W", "teeth": "",
 }  # fmt: skip
 
 SHOWN: dict[str, str] = {"mm/s2": "mm/s²", "in/s2": "in/s²", "deg/s2": "deg/s²", "mm/s3": "mm/s³",
-                         "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°"}  # fmt: skip
+                         "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°", "um": "µm", "us": "µs", "counts/s2": "counts/s²"}  # fmt: skip
 
 class UnitError(ValueError):
     """A unit that is not known, or does not measure what is asked for."""

@@ -25,7 +25,9 @@ class Address:
 
     def __str__(self) -> str:
         if self.kind == "tcp":
-            return f"tcp://[{self.host}]:{self.port}" if ":" in self.host else f"tcp://{self.host}:{self.port}"
+            return (
+                f"tcp://[{self.host}]:{self.port}" if ":" in self.host else f"tcp://{self.host}:{self.port}"
+            )
         if self.kind == "serial":
             rate = "" if self.baud == DEFAULT_BAUD else f"?baud={self.baud}"
             return f"serial:{self.device}{rate}"
@@ -49,7 +51,9 @@ def parse_address(text: str) -> Address:
 def _tcp(text: str) -> Address:
     found = re.fullmatch(r"tcp://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?", text, re.ASCII)
     if found is None:
-        raise ValueError(f"'{text}' is no TCP address: write tcp://host:port, for example tcp://192.168.0.5:7090")
+        raise ValueError(
+            f"'{text}' is no TCP address: write tcp://host:port, for example tcp://192.168.0.5:7090"
+        )
     port = int(found[3])
     if port > 65_535:
         raise ValueError(f"'{text}' names port {port}, and ports end at 65535")
@@ -65,6 +69,8 @@ def _serial(text: str, rest: str) -> Address:
         if key != "baud":
             raise ValueError(f"'{text}' sets '{key}', and a serial line has only 'baud'")
         if not re.fullmatch(r"[1-9]\d{1,6}", value, re.ASCII):
-            raise ValueError(f"'{text}' has the rate '{value}': write a number of bits a second, such as baud=9600")
+            raise ValueError(
+                f"'{text}' has the rate '{value}': write a number of bits a second, such as baud=9600"
+            )
         baud = int(value)
     return Address("serial", device=device, baud=baud)

@@ -138,7 +138,8 @@ class Control:
         self._need_expected(wish.expected)
         if wish.size > self._capacity:
             raise Refusal(
-                Code.TOO_LARGE, f"the image has {wish.size} bytes, and the control has room for {self._capacity}"
+                Code.TOO_LARGE,
+                f"the image has {wish.size} bytes, and the control has room for {self._capacity}",
             )
         plan = Plan(wish.transfer, wish.size, wish.sha256, wish.expected)
         begun = self._staging.plan
@@ -277,7 +278,9 @@ class Control:
 
     def _need_expected(self, expected: bytes) -> None:
         if expected != self._digest:
-            raise Refusal(Code.IMAGE_CHANGED, "the control's image was changed by somebody else in the meantime")
+            raise Refusal(
+                Code.IMAGE_CHANGED, "the control's image was changed by somebody else in the meantime"
+            )
 
 
 @contextlib.contextmanager
@@ -286,4 +289,6 @@ def _storing() -> Any:
     try:
         yield
     except OSError as error:
-        raise Refusal(Code.STORAGE, f"the control cannot store the image ({error.strerror or error})") from None
+        raise Refusal(
+            Code.STORAGE, f"the control cannot store the image ({error.strerror or error})"
+        ) from None

@@ -29,7 +29,13 @@ class Conversation:
     """
 
     def __init__(
-        self, link: Link, clock: Callable[[], float], limits: Limits, *, first: int = 1, look: Callable[[], None]
+        self,
+        link: Link,
+        clock: Callable[[], float],
+        limits: Limits,
+        *,
+        first: int = 1,
+        look: Callable[[], None],
     ) -> None:
         self.link = link
         self.pace = Pace(limits)
@@ -73,7 +79,9 @@ class Conversation:
             if left == 0 and not self._received:
                 return None
 
-    def request(self, message: Message, answer: type[AnyMessage], *, at_least: float = 0.0, tries: int = 0) -> AnyMessage:
+    def request(
+        self, message: Message, answer: type[AnyMessage], *, at_least: float = 0.0, tries: int = 0
+    ) -> AnyMessage:
         """Send a request until it is answered.
 
         Repeats it under the same number, waiting twice as long each time and at first ``at_least`` seconds.

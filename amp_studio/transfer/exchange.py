@@ -171,5 +171,9 @@ def _prove(
         text = f"The control took the image, but what it holds differs from byte {at} on; {HELD_TEXT['unknown']}."
         return Outcome("unknown", False, True, kept, restart, digest, text + before)
     text = "Download complete and read back equal"
-    text += "; the control has restarted with it." if restart == "done" else ". Restart the control to make it current."
+    text += (
+        "; the control has restarted with it."
+        if restart == "done"
+        else ". Restart the control to make it current."
+    )
     return Outcome("new", True, True, kept, restart, digest, text + before)

@@ -8,7 +8,16 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from .conversation import Conversation, Silence
-from .errors import Cancelled, ControlBusy, ControlSilent, Held, LineCut, ProtocolMismatch, TransferError, WrongFamily
+from .errors import (
+    Cancelled,
+    ControlBusy,
+    ControlSilent,
+    Held,
+    LineCut,
+    ProtocolMismatch,
+    TransferError,
+    WrongFamily,
+)
 from .link import Link, LinkError
 from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, Refusal, Welcome
 from .pace import Limits
@@ -75,14 +84,18 @@ class Line:
             raise Silence
         if welcome.version != PROTOCOL_VERSION or not 1 <= welcome.chunk <= MAX_CHUNK or welcome.window < 1:
             self.close()
-            raise ProtocolMismatch("the control answers in a way that version 1 of the protocol does not know")
+            raise ProtocolMismatch(
+                "the control answers in a way that version 1 of the protocol does not know"
+            )
         if self._family and welcome.family != self._family:
             self.close()
             raise WrongFamily(f"the control is a {welcome.family}, not a {self._family}")
         self.welcome = welcome
         return welcome
 
-    def persist(self, action: Callable[[Conversation], Result], held: Callable[[], Held] = lambda: "old") -> Result:
+    def persist(
+        self, action: Callable[[Conversation], Result], held: Callable[[], Held] = lambda: "old"
+    ) -> Result:
         """Run ``action`` to its end, on as many lines as it takes.
 
         ``held`` says what the control holds should no line come back. Raises Refusal, LineCut, ControlSilent, ControlBusy.
@@ -140,7 +153,9 @@ class Line:
     def _gave_up(self, cause: Exception, held: Held) -> TransferError:
         waited = f"for {self._patience:g} s"
         if isinstance(cause, LinkError):
-            return LineCut(f"the line to the control is cut and could not be made again {waited} ({cause})", held)
+            return LineCut(
+                f"the line to the control is cut and could not be made again {waited} ({cause})", held
+            )
         if isinstance(cause, Refusal):
             return ControlBusy(f"another client has had the control {waited}", held)
         return ControlSilent(f"the control has not answered {waited}", held)

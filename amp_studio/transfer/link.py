@@ -61,7 +61,9 @@ def connect(address: Address, timeout: float = 3.0) -> Link:
         from .serial_line import open_port
 
         return open_port(address)
-    raise LinkError(address, "a pseudo terminal can only be listened on; connect to the serial: name it was given")
+    raise LinkError(
+        address, "a pseudo terminal can only be listened on; connect to the serial: name it was given"
+    )
 
 
 def listen(address: Address) -> Listener:

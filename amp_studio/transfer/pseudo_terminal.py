@@ -59,7 +59,9 @@ class PtyListener:
 
     def __init__(self) -> None:
         if sys.platform == "win32":
-            raise LinkError("pty:", "this system has no pseudo terminals; use a pair of serial ports or tcp://")
+            raise LinkError(
+                "pty:", "this system has no pseudo terminals; use a pair of serial ports or tcp://"
+            )
         import tty
 
         try:

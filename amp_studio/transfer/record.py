@@ -84,7 +84,9 @@ def load_record(memory: Memory, identity: Identity) -> Record:
 
 def written(answer: Committed) -> dict[str, Any]:
     """Return an answer in words JSON has."""
-    return {name: value.hex() if isinstance(value, bytes) else value for name, value in asdict(answer).items()}
+    return {
+        name: value.hex() if isinstance(value, bytes) else value for name, value in asdict(answer).items()
+    }
 
 
 def to_json(content: dict[str, Any]) -> bytes:

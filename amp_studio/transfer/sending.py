@@ -48,8 +48,9 @@ class Sending:
         self._line.reconnections = 0
         try:
             return Sent(self._stage_and_commit(), self._line.reconnections)
-        except (Cancelled, KeyboardInterrupt):
-            self._abort()
+        except (TransferError, KeyboardInterrupt):
+            if self.held == "old":
+                self._abort()
             raise
         finally:
             self._line.cancel = None
@@ -111,7 +112,7 @@ class Sending:
 
     def _abort(self) -> None:
         """Tell the control to throw the staged bytes away; a control that does not hear it keeps them for nothing."""
-        if self.held != "old":
-            return
         self._line.cancel = None
-        self._line.once(lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1))
+        self._line.once(
+            lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1)
+        )

@@ -9,7 +9,9 @@ from typing import Any
 from .address import Address
 from .link import LinkError
 
-SLICE = 0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
+SLICE = (
+    0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
+)
 WRITE_LIMIT = 10.0  # seconds
 
 

@@ -116,7 +116,11 @@ class Session:
         return incarnation
 
     def wait_restarted(
-        self, incarnation: int, seconds: float, progress: Progress = quiet, cancel: threading.Event | None = None
+        self,
+        incarnation: int,
+        seconds: float,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
     ) -> Welcome | None:
         """Call the control until it answers with another incarnation; None when it has not after ``seconds``.
 

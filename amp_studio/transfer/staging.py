@@ -49,7 +49,9 @@ class Staging:
     def begin(self, plan: Plan) -> None:
         """Throw away what was begun before and begin this; raises OSError."""
         self.drop()
-        note = {name: value.hex() if isinstance(value, bytes) else value for name, value in asdict(plan).items()}
+        note = {
+            name: value.hex() if isinstance(value, bytes) else value for name, value in asdict(plan).items()
+        }
         self._memory.replace(plan.note, to_json(note))
         self._memory.append(plan.part, b"")
         self.plan, self.size = plan, 0

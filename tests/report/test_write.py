@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
 import time
 from datetime import datetime
 from pathlib import Path
@@ -11,8 +9,113 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Header, ParameterFile, SaveFault, new_file
-from amp_studio.report import FORMATS, SORTS, build_report, write_report
+from amp_studio.report import FORMATS, SORTS, write_report
 from amp_studio.report.model import Sort
 from amp_studio.schema import Value, family_ids, load_schema
 
-from .conftest import Machine  # type: ignore[import-not-found]
+ODD = '#panic("x") $x$ *b* _i_ `c` \\ " <script>alert(1)</script> &amp; {{ 1 }} {% if %} // /* @ref = \x00\x1b[2J\u202e 机 é'
+"""What Typst, HTML, the template engine, a terminal or a printer could take for an order."""
+
+STARTS = {".pdf": b"%PDF-", ".html": b"<!DOCTYPE html>", ".csv": b"\xef\xbb\xbfnumber,", ".txt": b"=" * 100}
+
+
+@pytest.mark.parametrize("sort", SORTS)
+@pytest.mark.parametrize("ending", FORMATS)
+@pytest.mark.parametrize("changed_only", [False, True])
+def test_a_new_file_is_printed_in_every_format_and_order(
+    tmp_path: Path, ending: str, sort: Sort, changed_only: bool
+) -> None:
+    path = tmp_path / f"report{ending}"
+    file = new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"])
+    write_report(file, path, sort=sort, changed_only=changed_only)
+    assert path.read_bytes().startswith(STARTS[ending])
+    assert list(tmp_path.iterdir()) == [path], "nothing else may be left in the folder, not even a backup"
+
+
+@pytest.mark.parametrize("family", family_ids())
+@pytest.mark.parametrize("ending", FORMATS)
+@pytest.mark.parametrize("sort", SORTS)
+def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort: Sort) -> None:
+    path = tmp_path / f"report{ending}"
+    write_report(new_file(family), path, sort=sort)
+    assert path.read_bytes().startswith(STARTS[ending])
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_a_file_without_a_single_value_is_printed(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"report{ending}"
+    for changed_only in (False, True):
+        write_report(ParameterFile(load_schema("9pc"), Header()), path, changed_only=changed_only)
+        assert path.read_bytes().startswith(STARTS[ending])
+
+
+@pytest.mark.parametrize("sort", SORTS)
+@pytest.mark.parametrize("ending", FORMATS)
+def test_no_text_of_a_file_is_taken_for_an_order(
+    tmp_path: Path, mill: ParameterFile, ending: str, sort: Sort
+) -> None:
+    mill.header.name = mill.header.notes = mill.header.revision = ODD
+    mill.header.notes = "= not a heading\n- not a list\n" + ODD + "W" * 300
+    mill.forced[("servo.gain_break_point", "1")] = ODD
+    mill.unknown[ODD] = "1"
+    path = tmp_path / f"report{ending}"
+    write_report(mill, path, sort=sort, source=tmp_path / ("n" * 120 + "#.amp"))
+    content = path.read_bytes()
+    assert content.startswith(STARTS[ending])
+    if ending == ".html":
+        assert b"<script>alert" not in content
+    if ending in (".html", ".txt"):
+        assert not {0x00, 0x1B} & set(content), "no sign may steer a terminal or a printer"
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_the_same_file_on_the_same_date_gives_the_same_report(
+    tmp_path: Path, mill: ParameterFile, date: datetime, ending: str
+) -> None:
+    for name in ("one", "two"):
+        write_report(mill.copy(), tmp_path / f"{name}{ending}", date=date)
+    assert (tmp_path / f"one{ending}").read_bytes() == (tmp_path / f"two{ending}").read_bytes()
+
+
+def test_a_report_that_exists_is_replaced(tmp_path: Path, mill: ParameterFile) -> None:
+    path = tmp_path / "report.TXT"
+    path.write_text("old")
+    write_report(mill, path)
+    assert path.read_bytes().startswith(STARTS[".txt"])
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("name", ["report.doc", "report", "report.pdf.bak"])
+def test_another_ending_is_refused_in_one_sentence(tmp_path: Path, mill: ParameterFile, name: str) -> None:
+    with pytest.raises(ValueError, match=r"a report is written as \.pdf, \.html, \.csv, \.txt") as refused:
+        write_report(mill, tmp_path / name)
+    assert "\n" not in str(refused.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
+    with pytest.raises(ValueError, match="'name' is no order of a report: axis, number, group"):
+        write_report(mill, tmp_path / "report.txt", sort="name")  # type: ignore[arg-type]
+
+
+def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:
+    with pytest.raises(SaveFault, match=r"report\.txt cannot be written: No such file or directory"):
+        write_report(mill, tmp_path / "nowhere" / "report.txt")
+
+
+@pytest.mark.parametrize("sort", SORTS)
+def test_a_full_machine_is_set_in_well_under_three_seconds(
+    tmp_path: Path, eight_axes: ParameterFile, sort: Sort
+) -> None:
+    write_report(eight_axes, tmp_path / "warm.pdf", sort=sort)  # loads Typst once
+    start = time.perf_counter()
+    write_report(eight_axes, tmp_path / "report.pdf", sort=sort)
+    assert time.perf_counter() - start < 3.0
+
+
+def test_writing_a_report_changes_nothing_in_the_file(tmp_path: Path, mill: ParameterFile) -> None:
+    before, forced = dict(mill.values), dict(mill.forced)
+    for ending in FORMATS:
+        write_report(mill, tmp_path / f"report{ending}")
+    assert (mill.values, mill.forced) == (before, forced)
+    assert mill.get(("home.calibration", "1")) == Value(12.5, "mm")

@@ -1,0 +1,198 @@
+"""The three orders of the documenter, and what is left out of them."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, content_of, digest_of, fitted_axes, new_file, save_file
+from amp_studio.report import SORTS, build_report
+from amp_studio.report.model import Grid, Listing, Row, Sort
+from amp_studio.report.sections import number_key
+from amp_studio.schema import Value
+
+
+def row_with(number: str) -> Row:
+    return Row(
+        id="a.b", instance="", number=number, name="", group="", place="", value="", unit="", shown_unit="",
+        detail="", default="", plain_default="", is_changed=False, state="in-force", why="", state_mark="", forced="",
+    )  # fmt: skip
+
+
+def rows_by_anchor(file: ParameterFile) -> dict[str, Row]:
+    return {r.anchor: r for r in build_report(file, sort="number").rows()}
+
+
+# -- orders --------------------------------------------------------------------
+
+
+def test_numbers_are_sorted_as_numbers_and_what_has_none_comes_last() -> None:
+    ordered = ["2", "11", "1300", "2300", "20020", "P2N9", "P2N10", "P21N3", "Pr61", "R3", "R2051", ""]
+    assert ordered == sorted(reversed(ordered), key=lambda n: number_key(row_with(n)))
+
+
+def test_the_order_by_number_runs_through_all_axes(mill: ParameterFile) -> None:
+    numbers = [int(r.number) for r in build_report(mill, sort="number").rows() if r.number]
+    assert all(a <= b for a, b in pairwise(numbers))
+    assert {1300, 2300, 3300, 4300, 5300} <= set(numbers)
+
+
+def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: ParameterFile) -> None:
+    sections = build_report(mill, sort="axis").sections
+    assert [s.title for s in sections] == [
+        "Axis 1 X", "Axis 2 Y", "Axis 3 Z", "Axis 4 B", "Axis 5 S", "Non-axis parameters"]  # fmt: skip
+    for axis, section in zip("12345", sections[:-1], strict=True):
+        assert {r.instance for part in section.parts for r in part.rows} == {axis}
+    assert {r.instance for part in sections[-1].parts for r in part.rows} <= {"", "1", "2"}
+
+
+def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: ParameterFile) -> None:
+    report = build_report(mill, sort="group")
+    groups = list(dict.fromkeys(g.name for g in mill.schema.groups))
+    assert [s.title for s in report.sections] == [g for g in groups if g in {s.title for s in report.sections}]
+    home = next(s for s in report.sections if s.title == "Home Parameters").parts[0]
+    assert isinstance(home, Grid)
+    assert home.columns == ("1 X", "2 Y", "3 Z", "4 B", "5 S")
+    line = next(n for n in home.lines if n.name == "Home Calibration")
+    assert (line.number, line.shown_unit) == ("1300–5300", "mm")
+    assert [line.cell_text(r) if r else None for r in line.cells][:4] == ["12.5", "-0.1 in", "0", "0°"]
+
+
+def test_the_parts_of_a_long_group_stay_together(mill: ParameterFile) -> None:
+    servo = next(s for s in build_report(mill).sections if s.title == "Servo Parameters")
+    assert [p.title for p in servo.parts][:2] == [
+        "SERCOS and General Servo Parameters", "Position Loop Parameters"]  # fmt: skip
+
+
+def test_a_value_of_no_axis_spans_the_columns(mill: ParameterFile) -> None:
+    parts = [p for s in build_report(mill).sections for p in s.parts]
+    spanning = {n.name for p in parts if isinstance(p, Grid) for n in p.lines if n.spans}
+    assert "Control Type" in spanning
+    assert any(isinstance(p, Listing) for p in parts), "a group without an axis parameter needs no columns"
+
+
+# -- what is printed -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("sort", SORTS)
+def test_every_existing_value_of_a_fitted_axis_is_printed_once(mill: ParameterFile, sort: Sort) -> None:
+    printed = [(r.id, r.instance) for r in build_report(mill, sort=sort).rows()]
+    axes = fitted_axes(mill)
+    for parameter, instance in mill.addresses():
+        layout = mill.schema.layout(mill.schema.parameters[parameter], mill.machine)
+        is_fitted = layout is None or layout.scope != "axis" or instance in axes
+        exists = mill.situation.state((parameter, instance)).state != "hidden"
+        assert printed.count((parameter, instance)) == int(is_fitted and exists), (parameter, instance)
+
+
+def test_what_is_left_out_is_counted(mill: ParameterFile) -> None:
+    report = build_report(mill)
+    counts = dict(report.counts)
+    told = sum(int(counts[k]) for k in ("Values", "Hidden, left out", "Of unfitted axes, left out"))
+    assert told == len(mill.addresses())
+    assert int(counts["Values"]) == len(list(report.rows()))
+
+
+@pytest.mark.parametrize("sort", SORTS)
+def test_changed_only_keeps_what_differs_from_the_printed_default(mill: ParameterFile, sort: Sort) -> None:
+    changed = {r.anchor for r in build_report(mill, sort=sort, changed_only=True).rows()}
+    everything = build_report(mill, sort=sort)
+    assert changed == {r.anchor for r in everything.rows() if r.is_changed}
+    assert {"home.calibration@1", "home.calibration@2", "servo.gain_break_point@1"} <= changed
+    assert "home.calibration@3" not in changed
+    assert all(part.rows for s in build_report(mill, sort=sort, changed_only=True).sections for part in s.parts)
+
+
+def test_marks_tell_changed_forced_and_ignored_apart(mill: ParameterFile) -> None:
+    rows = rows_by_anchor(mill)
+    assert rows["home.calibration@1"].marks == "*"
+    assert rows["home.calibration@3"].marks == ""
+    assert rows["servo.gain_break_point@1"].marks == "*!"
+    ignored = next(r for r in rows.values() if r.state == "ignored")
+    assert ignored.state_mark.startswith("i")
+    assert ignored.why
+
+
+def test_each_reason_has_one_number_and_stands_below_its_table(mill: ParameterFile) -> None:
+    report = build_report(mill)
+    reasons = {r.state_mark: r.why for r in report.rows() if r.state_mark}
+    assert len(set(reasons.values())) == len(reasons)
+    for section in report.sections:
+        for part in section.parts:
+            assert {m for m, _ in part.reasons} == {r.state_mark for r in part.rows if r.state_mark}
+
+
+def test_a_number_that_belongs_to_another_parameter_is_not_printed(mill: ParameterFile) -> None:
+    schema = mill.schema
+    disputed = [r for r in rows_by_anchor(mill).values() if schema.is_disputed(r.id, mill.machine)]
+    assert all(r.number == "" for r in disputed)
+
+
+# -- around the values ---------------------------------------------------------
+
+
+def test_the_axes_are_summed_up(mill: ParameterFile) -> None:
+    report = build_report(mill)
+    assert report.axis_heads == (
+        "Axis", "Name", "Axis Type", "Servo Hardware Type", "Servo Loop Type", "Values", "Changed", "Findings"
+    )  # fmt: skip
+    assert [line[:2] for line in report.axes] == [("1", "X"), ("2", "Y"), ("3", "Z"), ("4", "B"), ("5", "S")]
+    assert "1 error" in report.axes[0][-1], "the value forced out of range is a finding of axis 1"
+
+
+def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFile) -> None:
+    report = build_report(mill)
+    assert [(r.number, r.text, r.forced) for r in report.forced] == [
+        ("1730", "999999 mm", "by J. Fitter on 2026-07-01")]  # fmt: skip
+    assert ("2735", "Inposition Band", "Axis 2 Y") in report.not_set
+    errors = report.severities()["error"]
+    assert [n.about for n in errors if n.about][0] == (
+        ("servo.gain_break_point@1", "1730 Gain Break Point (Axis 1 X)"),)  # fmt: skip
+    assert errors[0].page == "7-22"
+
+
+def test_a_forced_value_of_an_axis_that_is_not_fitted_is_not_forgotten(mill: ParameterFile) -> None:
+    mill.forced[("home.calibration", "8")] = "by hand"
+    assert "home.calibration@8" in {r.anchor for r in build_report(mill).forced}
+
+
+def test_the_facts_name_the_file_and_its_checksum(tmp_path: Path, mill: ParameterFile, date: datetime) -> None:
+    path = tmp_path / "mill.amp"
+    save_file(mill, path)
+    facts = dict(build_report(mill, source=path, date=date).facts)
+    assert facts["File"] == str(path)
+    assert facts["SHA-256 of the file"] == str(digest_of(path))[:16]
+    assert facts["Schema signature"] == mill.schema.signature[:16]
+    assert facts["Machine type"] == "Mill"
+    assert facts["Axes"] == "5 of 8 fitted"
+    assert build_report(mill, source=path, date=date).when == "2026-07-01 14:05"
+
+
+def test_a_checksum_is_never_printed_beside_other_values_unsaid(tmp_path: Path, mill: ParameterFile) -> None:
+    path = tmp_path / "mill.amp"
+    save_file(mill, path)
+    mill.set(("home.calibration", "1"), Value(13.0, "mm"))
+    assert "unsaved changes" in dict(build_report(mill, source=path).facts)["SHA-256 of the file"]
+    path.write_bytes(b"cut off")
+    assert "cannot be read" in dict(build_report(mill, source=path).facts)["SHA-256 of the file"]
+    assert "not saved yet" in dict(build_report(mill).facts)["SHA-256 of the file"]
+
+
+def test_a_file_of_another_schema_is_told(mill: ParameterFile) -> None:
+    mill.header.signature = "0" * 64
+    assert "the file was written under 0000000000000000" in dict(build_report(mill).facts)["Schema signature"]
+
+
+def test_a_saved_file_prints_as_it_did_in_memory(tmp_path: Path, mill: ParameterFile) -> None:
+    from amp_studio.files import read_content
+
+    again = read_content(tmp_path / "mill.amp", content_of(mill))
+    assert list(build_report(again).rows()) == list(build_report(mill).rows())
+
+
+def test_a_machine_type_without_axes_of_its_own_prints_too() -> None:
+    report = build_report(new_file("9pc", "lathe", ["X", "Z"]))
+    assert [line[1] for line in report.axes] == ["X", "Z"]
