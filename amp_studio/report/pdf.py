@@ -12,6 +12,7 @@ from pathlib import Path
 
 from .model import MARKS, Listing, Report, counted, printable
 
+_TEMPLATES = Path(__file__).parent / "templates"
 _BREAK = "\u200b"
 """Zero-width space: a line may be broken here."""
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
@@ -50,7 +51,7 @@ def typst_source(report: Report) -> str:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
+        loader=FileSystemLoader(_TEMPLATES),
         finalize=typst_literal,
         autoescape=False,  # noqa: S701  # every expression becomes a Typst literal
         undefined=StrictUndefined,
@@ -69,6 +70,7 @@ def render_pdf(report: Report) -> bytes:
 
     source = typst_source(report)
     own_fonts = _FOREIGN.search(source) is None
-    pages = typst.compile(source.encode("utf-8"), format="pdf", ignore_system_fonts=own_fonts)
+    # The root is given because Typst takes the working folder otherwise, which may be gone.
+    pages = typst.compile(source.encode("utf-8"), root=_TEMPLATES, format="pdf", ignore_system_fonts=own_fonts)
     assert isinstance(pages, bytes)
     return pages

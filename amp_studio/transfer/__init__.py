@@ -33,8 +33,9 @@ from .exchange import Outcome, Verification, download, first_difference, upload,
 from .faults import Faults, read_faults
 from .link import LinkError, connect, listen
 from .message import Flags, Welcome
+from .progress import Progress
 from .record import Identity, StateFault
-from .sending import Progress, Sent
+from .sending import Sent
 from .session import Session
 
 __all__ = [

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from .address import Address, parse_address
 from .control import Control
-from .faults import FaultyLine, Faults, arm
+from .faults import Faults, FaultyLine, arm
 from .frame import FrameDecoder, encode_frame
 from .link import Link, LinkError, Listener, listen
 from .message import Code, Flags, Refusal, Refused, pack

@@ -14,8 +14,8 @@ from typing import Literal
 
 from .errors import HELD_TEXT, Held, KeepFailed, NotInEmergencyStop, SignatureMismatch, TransferError
 from .message import Committed, Flags, Welcome
-from .sending import Progress
-from .session import Session, quiet
+from .progress import Progress, quiet
+from .session import Session
 
 RESTART_WAIT = 60.0  # seconds a control may take to come back
 

@@ -21,7 +21,7 @@ class Memory:
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
-        self.on_step: Callable[[str], None] = lambda step: None
+        self.on_step: Callable[[str], None] = lambda _: None
         self.full_at: int | None = None  # a file that is added to cannot grow past this many bytes
 
     def names(self) -> list[str]:

@@ -14,7 +14,6 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum, IntFlag
-from functools import cache
 from typing import Any, ClassVar, TypeVar
 
 from .frame import MAX_PAYLOAD, Frame
@@ -263,16 +262,17 @@ MESSAGES: dict[int, type[Message]] = {
 AnyMessage = TypeVar("AnyMessage", bound=Message)
 
 
-@cache
-def layout(kind: type[Message]) -> tuple[tuple[str, str], ...]:
-    """Return the fields of a message in the order of the wire: name and kind."""
-    return tuple((field.name, field.metadata["wire"]) for field in dataclasses.fields(kind))
+LAYOUTS: dict[int, tuple[tuple[str, str], ...]] = {
+    number: tuple((field.name, field.metadata["wire"]) for field in dataclasses.fields(kind))
+    for number, kind in MESSAGES.items()
+}
+"""The fields of each message in the order of the wire: name and kind."""
 
 
 def pack(message: Message, sequence: int) -> Frame:
     """Return the frame of a message; raises ValueError for a value that its field cannot hold."""
     try:
-        parts = [_PACK[kind](getattr(message, name)) for name, kind in layout(type(message))]
+        parts = [_PACK[kind](getattr(message, name)) for name, kind in LAYOUTS[message.TYPE]]
     except struct.error as error:
         raise ValueError(f"{message!r} cannot be packed: {error}") from None
     return Frame(message.TYPE, sequence, b"".join(parts))
@@ -286,7 +286,7 @@ def unpack(frame: Frame) -> Message:
     values: list[Any] = []
     at = 0
     try:
-        for _, wire in layout(kind):
+        for _, wire in LAYOUTS[kind.TYPE]:
             value, at = _UNPACK[wire](frame.payload, at)
             values.append(value)
     except (struct.error, UnicodeDecodeError, IndexError, ValueError):
@@ -352,7 +352,7 @@ _FIELDS = {
     "bytes32": _fixed(32),
     "text": (_pack_text, _unpack_text),
     "flag": (lambda value: b"\x01" if value else b"\x00", _unpack_flag),
-    "rest": (lambda value: bytes(value), lambda data, at: (data[at:], len(data))),
+    "rest": (bytes, lambda data, at: (data[at:], len(data))),
 }
 _PACK = {kind: both[0] for kind, both in _FIELDS.items()}
 _UNPACK = {kind: both[1] for kind, both in _FIELDS.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import tempfile
 import threading
 from datetime import datetime
@@ -10,8 +11,11 @@ from pathlib import Path
 from amp_studio.files import ENDING, ParameterFile, content_of, new_file, write_atomic
 from amp_studio.schema import Address, fault, written
 
+from .control import Control
+from .emulator import serve
 from .exchange import Outcome, download, upload
 from .image import ImageFault, decode_image, encode_image, patch_image
+from .record import Identity
 from .session import Progress, Session, quiet
 
 
@@ -77,14 +81,10 @@ def emulate(
 
     It is born with the family's printed defaults; its memory lies in ``state``, or in a temporary folder.
     """
-    from .emulator import Birth, serve
-
     file = new_file(family, machine)
-    birth = Birth(
-        family=family, signature=file.schema.signature, name="CNC_1", revision="emulated",
-        image=encode_image(file), estop=estop, autostart=autostart,
-    )  # fmt: skip
-    if state is not None:
-        return serve(listen, state, birth, patch_image)
-    with tempfile.TemporaryDirectory(prefix="amp-studio-control-") as folder:
-        return serve(listen, Path(folder), birth, patch_image)
+    identity = Identity(family=family, signature=file.schema.signature, name="CNC_1", revision="emulated")
+    with contextlib.ExitStack() as stack:
+        folder = state or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-control-")))
+        folder.mkdir(parents=True, exist_ok=True)
+        control = Control(folder, identity, encode_image(file), estop=estop, autostart=autostart, accept=decode_image)
+        return serve(listen, control, patch=patch_image)

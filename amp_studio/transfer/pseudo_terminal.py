@@ -74,7 +74,7 @@ class PtyListener:
             raise LinkError("pty:", str(error)) from None
         self._link: PtyLink | None = None
 
-    def accept(self, timeout: float) -> PtyLink | None:
+    def accept(self, timeout: float) -> PtyLink | None:  # noqa: ARG002 -- nothing here is waited for
         """Return the line; while one is in use, None (nobody connects to a serial port)."""
         if self._link is not None and self._link.is_open:
             return None

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import threading
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from .conversation import Conversation
 from .errors import Cancelled, Held, ImageChanged, TransferError, error_of
 from .line import Line
 from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, Refusal
+from .progress import Progress
 from .streaming import push
-
-Progress = Callable[[str, int, int], None]
 
 RESTAGINGS = 3  # how often a transfer whose staged bytes the control has lost or spoilt is begun anew
 COMMIT_WAIT = 2.0  # seconds a control may at least take to write an image to its memory

@@ -27,15 +27,13 @@ from .message import (
     shorten,
 )
 from .pace import Limits
-from .sending import RESTAGINGS, Progress, Sending, Sent
+from .progress import Progress, quiet
+from .sending import RESTAGINGS, Sending, Sent
 from .streaming import pull
-
 
 Result = TypeVar("Result")
 
-
-def quiet(stage: str, done: int, total: int) -> None:
-    """Tell nobody."""
+__all__ = ["Progress", "Session", "quiet"]
 
 
 class Session:

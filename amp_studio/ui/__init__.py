@@ -12,8 +12,8 @@ from pathlib import Path
 __all__ = ["main"]
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Open the desktop program, on a file if one is named; returns the exit code."""
+def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
+    """Open the desktop program, on a file if one is named; ``emulate`` starts an emulated control. Returns the exit code."""
     from PySide6.QtWidgets import QApplication
 
     from .main_window import MainWindow
@@ -26,4 +26,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     window.show()
     if arguments:
         window.open_first(Path(arguments[0]))
+    if emulate:
+        window.control.start_emulated()
     return int(application.exec())

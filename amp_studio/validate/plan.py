@@ -53,9 +53,17 @@ class RuleFault(ValueError):
         super().__init__(f"rule {rule}: {what}")
 
 
-@lru_cache(maxsize=32)
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:
     """Return the plan for a machine type with the family's rules and further ones; raises RuleFault."""
+    return _make(schema, machine, extra) if extra else _family_plan(schema, machine)
+
+
+@lru_cache(maxsize=32)
+def _family_plan(schema: Schema, machine: str) -> Plan:
+    return _make(schema, machine, ())
+
+
+def _make(schema: Schema, machine: str, extra: tuple[Rule, ...]) -> Plan:
     situation = Situation(schema, lambda _: None, lambda: machine)
     addresses = schema.addresses(machine)
     states = {address: frozenset(situation.state_reads(address)) for address in addresses}

@@ -89,7 +89,7 @@ class Validator:
         """Return the rules that read an address itself."""
         readers = self._plan.rule_readers.get(address, ())
         direct = [c.rule for c in readers if any(address in r.addresses for r in c.readings.values())]
-        return tuple(dict.fromkeys(direct))
+        return tuple({rule.id: rule for rule in direct}.values())
 
     # -- one address -----------------------------------------------------------
 
