@@ -61,6 +61,7 @@ class Emulator:
         self._chunk = chunk
         self._say = say
         self._commands: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self._next: Link | None = None
         self._quit = False
         self._restart_due = False
         arm(control, faults)
@@ -76,7 +77,7 @@ class Emulator:
             if self._restart_due:
                 self._restart()
                 continue
-            link = self._listener.accept(SLICE)
+            link, self._next = self._next or self._listener.accept(SLICE), None
             if link is not None:
                 self._serve(self._line.wrap(link))
 
@@ -107,7 +108,7 @@ class Emulator:
         if other is None:
             return True
         if time.monotonic() - heard > HELD_LINE:
-            other.close()  # it calls again, and then the line is free
+            self._next = other
             return False
         turn_away(other)
         return True

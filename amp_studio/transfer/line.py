@@ -87,6 +87,9 @@ class Line:
             raise ProtocolMismatch(
                 "the control answers in a way that version 1 of the protocol does not know"
             )
+        if self.welcome is not None and _identity(welcome) != _identity(self.welcome):
+            self.close()
+            raise ProtocolMismatch(f"another control answers on this line than before: '{welcome.name}'")
         if self._family and welcome.family != self._family:
             self.close()
             raise WrongFamily(f"the control is a {welcome.family}, not a {self._family}")
@@ -159,3 +162,7 @@ class Line:
         if isinstance(cause, Refusal):
             return ControlBusy(f"another client has had the control {waited}", held)
         return ControlSilent(f"the control has not answered {waited}", held)
+
+
+def _identity(welcome: Welcome) -> tuple[str, str, str]:
+    return welcome.family, welcome.signature, welcome.name

@@ -72,7 +72,10 @@ class NullModem:
 
 
 class NullLink:
-    """The client's end of one line. What is on the way arrives in order, each piece with its last byte."""
+    """The client's end of one line. What is on the way arrives in order, each piece with its last byte.
+
+    A control that hangs up has sent its answer before; the line is cut when that has arrived.
+    """
 
     def __init__(self, modem: NullModem) -> None:
         self._modem = modem
@@ -105,7 +108,8 @@ class NullLink:
                 clock.now = max(at, clock.now)
                 return data
             else:
-                self._check()
+                if not self._to_client:
+                    self._check()
                 clock.now = end
                 return b""
 

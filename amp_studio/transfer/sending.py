@@ -46,9 +46,12 @@ class Sending:
         self._line.reconnections = 0
         try:
             return Sent(self._stage_and_commit(), self._line.reconnections)
-        except (TransferError, KeyboardInterrupt):
-            if self.held == "old":
-                self._abort()
+        except TransferError as error:
+            error.held = self.held
+            self._abort()
+            raise
+        except KeyboardInterrupt:
+            self._abort()
             raise
         finally:
             self._line.cancel = None
@@ -111,6 +114,8 @@ class Sending:
     def _abort(self) -> None:
         """Tell the control to throw the staged bytes away; a control that does not hear it keeps them for nothing."""
         self._line.cancel = None
+        if self.held != "old":
+            return
         self._line.once(
             lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1)
         )

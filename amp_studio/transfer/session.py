@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from .address import Address, parse_address
 from .conversation import Conversation, Silence
-from .errors import ControlSilent, ImageDamaged, NoConnection, TransferError, error_of
+from .errors import ControlSilent, ImageDamaged, NoConnection, ProtocolMismatch, TransferError, error_of
 from .line import PAUSE, Line
 from .link import Link, LinkError, connect
 from .message import (
@@ -32,6 +32,8 @@ from .sending import RESTAGINGS, Sending, Sent
 from .streaming import pull
 
 Result = TypeVar("Result")
+
+MAX_IMAGE = 1 << 26  # bytes; a control that states more is not understood rightly
 
 __all__ = ["Progress", "Session", "quiet"]
 
@@ -183,6 +185,8 @@ class Session:
         def read(talk: Conversation) -> UploadReady:
             nonlocal opened
             ready = talk.request(OpenUpload(), UploadReady)
+            if ready.size > MAX_IMAGE:
+                raise ProtocolMismatch(f"the control states an image of {ready.size} bytes, which cannot be")
             chunk, limit = self._line.sizes(talk)
             if (ready, chunk) != opened:
                 opened = (ready, chunk)

@@ -44,7 +44,11 @@ class TcpLink:
 
     def close(self) -> None:
         with contextlib.suppress(OSError):
-            self._socket.shutdown(socket.SHUT_RDWR)
+            self._socket.shutdown(socket.SHUT_WR)
+            # What came and was not read would make the system break the connection off, last answer and all.
+            self._socket.setblocking(False)
+            while self._socket.recv(READ_SIZE):
+                pass
         self._socket.close()
 
 

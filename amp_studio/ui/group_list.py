@@ -6,7 +6,7 @@ from collections import Counter
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.schema import Parameter
 
@@ -61,7 +61,10 @@ class GroupList(QWidget):
             for key in keys if len(keys) > 1 else ():
                 self._add(item, sections[key], key)
             item.setExpanded(True)
-        self.tree.setColumnWidth(0, 210)
+        header = self.tree.header()
+        header.setStretchLastSection(False)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
         self.update_counts()
         self.tree.setCurrentItem(self.tree.topLevelItem(3))
 

@@ -94,7 +94,9 @@ class StepView(QWidget):
         self._panels = [widget.addPlot(row=n, col=0) for n in range(3)]
         for panel in self._panels:
             panel.showGrid(x=True, y=True, alpha=0.25)
-            panel.addLegend(offset=(-10, 10))
+            panel.addLegend(offset=(70, 8))
+            panel.getAxis("left").enableAutoSIPrefix(False)
+            panel.getAxis("left").setWidth(64)
             panel.setXLink(self._panels[0])
         self._panels[2].setLabel("bottom", "time", "s")
         return widget
@@ -145,6 +147,7 @@ class StepView(QWidget):
         groups = (("command_position", "position"), ("following_error",), ("command_velocity", "velocity", "torque_percent"))
         time = trace.columns["time_s"]
         step = max(1, len(time) // 6000)
+        self._panels[0].setXRange(0.0, float(time[-1]) if len(time) else 1.0, padding=0.02)
         for panel, names in zip(self._panels, groups, strict=True):
             panel.clear()
             unit = next((trace.units[n] for n in names if n in trace.columns), "")
@@ -159,11 +162,12 @@ class StepView(QWidget):
 
     def _draw_limits(self, trace: Trace) -> None:
         reached = float(np.max(np.abs(trace.columns["following_error"]), initial=0.0))
-        for (name, (level, unit)), colour in zip(trace.limits.items(), _COLOURS[1:] * 2, strict=False):
+        for n, (name, (level, unit)) in enumerate(trace.limits.items()):
+            colour = _COLOURS[1 + n % 3]
             if level is not None and level <= 3 * reached:
                 line = pg.InfiniteLine(level, angle=0, pen=pg.mkPen(colour, style=Qt.PenStyle.DashLine),
                                        label=f"{name.replace('_', ' ')} {level:.5g} {unit}",
-                                       labelOpts={"position": 0.8, "color": QColor(colour)})  # fmt: skip
+                                       labelOpts={"position": 0.3 + 0.22 * n, "color": QColor(colour)})  # fmt: skip
                 self._panels[1].addItem(line, ignoreBounds=False)
 
     def _draw_torque(self, trace: Trace, time: np.ndarray, step: int) -> None:

@@ -140,7 +140,7 @@ def test_the_axes_are_summed_up(mill: ParameterFile) -> None:
         "Axis", "Name", "Axis Type", "Servo Hardware Type", "Servo Loop Type", "Values", "Changed", "Findings"
     )  # fmt: skip
     assert [line[:2] for line in report.axes] == [("1", "X"), ("2", "Y"), ("3", "Z"), ("4", "B"), ("5", "S")]
-    assert "1 error" in report.axes[0][-1], "the value forced out of range is a finding of axis 1"
+    assert "error" in report.axes[0][-1], "the value forced out of range is a finding of axis 1"
 
 
 def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFile) -> None:
@@ -148,10 +148,11 @@ def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFil
     assert [(r.number, r.text, r.forced) for r in report.forced] == [
         ("1730", "999999 mm", "by J. Fitter on 2026-07-01")]  # fmt: skip
     assert ("2735", "Inposition Band", "Axis 2 Y") in report.not_set
-    errors = report.severities()["error"]
-    assert [n.about for n in errors if n.about][0] == (
-        ("servo.gain_break_point@1", "1730 Gain Break Point (Axis 1 X)"),)  # fmt: skip
-    assert errors[0].page == "7-22"
+    about = (("servo.gain_break_point@1", "1730 Gain Break Point (Axis 1 X)"),)
+    error = next(n for n in report.severities()["error"] if n.about == about)
+    assert error.page == "7-22"
+    assert error.repair == "1730 Gain Break Point (Axis 1 X) = 214.1 mm"
+    assert "It was forced by J. Fitter on 2026-07-01" in error.message
 
 
 def test_a_forced_value_of_an_axis_that_is_not_fitted_is_not_forgotten(mill: ParameterFile) -> None:

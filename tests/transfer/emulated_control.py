@@ -1,0 +1,41 @@
+"""An emulated control for the tests, in a process of its own: ``emulated_control.py ADDRESS FOLDER [OPTIONS]``.
+
+OPTIONS is a JSON object: ``initial`` (text), ``signature``, ``estop``, ``autostart``, ``faults`` and ``restart_seconds``.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from amp_studio.transfer import Control, Faults, Identity, serve
+
+
+def patch(image: bytes, key: str, value: str) -> bytes:
+    """Append a line, as a control's own editor would change a value."""
+    if not value.isdigit():
+        raise ValueError("patch values are plain numbers")
+    return image + f"{key} {value}\n".encode()
+
+
+def main(address: str, folder: str, options: str = "{}") -> int:
+    said = json.loads(options)
+    control = Control(
+        Path(folder),
+        Identity("9pc", said.get("signature", "s1"), "CNC_1", "3.05"),
+        said.get("initial", "old image\n").encode(),
+        estop=said.get("estop"),
+        autostart=said.get("autostart"),
+    )
+    return serve(
+        address,
+        control,
+        patch=patch,
+        faults=Faults(**said.get("faults", {})),
+        restart_seconds=said.get("restart_seconds", 0.1),
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
