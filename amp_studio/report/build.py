@@ -10,15 +10,14 @@ from pathlib import Path
 
 from amp_studio import __version__
 from amp_studio.files import FileFault, ParameterFile, axis_instances, content_of, open_file
-from amp_studio.schema import Address, Value, label_of, show_value
+from amp_studio.schema import Address, label_of
 from amp_studio.validate import Finding, Validator
 
-from .model import SORTS, Note, Report, Row, Sort, counted
-from .rows import Rows, axis_label, axis_name, printed_axes, row_of, rows_of, scope_of
+from .findings import joined_places, notes_of
+from .model import SORTS, Report, Row, Sort, counted
+from .rows import Rows, axis_name, printed_axes, row_of, rows_of, scope_of
 from .sections import number_span, sections_of
 
-_NAMED = 6
-"""Values a finding names one by one; a message about more names the first of them itself."""
 _SHORT = 16
 """Digits of a checksum that are printed."""
 
@@ -40,7 +39,6 @@ def build_report(
         raise ValueError(f"'{sort}' is no order of a report: {', '.join(SORTS)}")
     found = rows_of(file)
     printed = tuple(r for r in found.rows if r.is_changed) if changed_only else found.rows
-    anchors = {r.anchor for r in printed}
     findings = Validator(file).run()
     heads, axes = _axes(file, found.rows, findings)
     family = file.schema.family
@@ -58,7 +56,7 @@ def build_report(
         remarks=file.header.notes.strip(),
         axis_heads=heads,
         axes=axes,
-        notes=tuple(_note(file, f, anchors) for f in findings),
+        notes=notes_of(file, findings, {r.anchor for r in printed}),
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, sort),
@@ -140,26 +138,15 @@ def _forced(file: ParameterFile, rows: Sequence[Row]) -> tuple[Row, ...]:
 
 
 def _is_missing(row: Row) -> bool:
-    return not row.value and row.state == "in-force"
+    return not row.is_set and row.state == "in-force"
 
 
 def _not_set(rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
     """Yield number, name and places of each parameter that is in force without a value."""
     for _, members in groupby((r for r in rows if _is_missing(r)), key=lambda r: r.id):
         own = list(members)
-        yield number_span(own), own[0].name, _places(own)
-
-
-def _places(rows: Sequence[Row]) -> str:
-    """Return ``Axis 1 X, 2 Y``: the word they share is said once."""
-    if not any(r.place for r in rows):
-        return ""
-    texts, word = [], ""
-    for place in (r.place or "Control" for r in rows):
-        first, _, rest = place.partition(" ")
-        texts.append(rest if rest and first == word else place)
-        word = first
-    return ", ".join(texts)
+        places = [r.place or "Control" for r in own] if any(r.place for r in own) else []
+        yield number_span(own), own[0].name, joined_places(places)
 
 
 # -- axes ----------------------------------------------------------------------
@@ -198,30 +185,3 @@ def _axis(
 def _setting(file: ParameterFile, address: Address) -> str:
     value = file.get(address)
     return label_of(file.schema.parameters[address[0]], str(value.value)) if value else "–"
-
-
-# -- findings ------------------------------------------------------------------
-
-
-def _note(file: ParameterFile, finding: Finding, anchors: set[str]) -> Note:
-    named = finding.addresses if len(finding.addresses) <= _NAMED else ()
-    links = ((f"{a[0]}@{a[1]}", _called(file, a)) for a in named)
-    return Note(
-        severity=finding.severity,
-        about=tuple((anchor if anchor in anchors else "", label) for anchor, label in links),
-        message=finding.message,
-        repair="; ".join(
-            f"{_called(file, r.address)} = {_shown(file, r.address, r.value)}" for r in finding.repairs
-        ),
-        page=finding.page or "",
-    )
-
-
-def _called(file: ParameterFile, address: Address) -> str:
-    """Return ``1300 Home Calibration (Axis 1 X)``."""
-    label = file.schema.label(address, file.machine)
-    return f"{label} ({axis_label(file, address[1])})" if scope_of(file, address) == "axis" else label
-
-
-def _shown(file: ParameterFile, address: Address, value: Value) -> str:
-    return show_value(file.schema.parameters[address[0]], value)

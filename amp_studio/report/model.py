@@ -44,6 +44,7 @@ class Row:
     group: str
     place: str
     """``Axis 1 X``; empty for a value of the whole control."""
+    is_set: bool
     value: str
     """Label or number without its unit; empty when not set."""
     unit: str
@@ -85,8 +86,13 @@ class Row:
     def text(self) -> str:
         """Value and unit; a dash when it is not set."""
         if not self.value:
-            return "—"
+            return self.bare_text
         return f"{self.value}{'' if self.shown_unit == '°' else ' '}{self.shown_unit}".rstrip()
+
+    @property
+    def bare_text(self) -> str:
+        """Value without its unit; a dash when it is not set."""
+        return self.value or ("(empty)" if self.is_set else "—")
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +116,7 @@ class Line:
 
     def cell_text(self, row: Row) -> str:
         """Return what stands in a cell."""
-        return row.value if row.value and row.shown_unit == self.shown_unit else row.text
+        return row.bare_text if row.shown_unit == self.shown_unit else row.text
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,12 +169,14 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """One finding."""
+    """One finding, or several that say the same of other axes."""
 
     severity: Severity
+    count: int
+    place: str
+    """``Axis 1 X, 2 Y``; empty for a finding about many values, whose message names the first of them."""
     about: tuple[tuple[str, str], ...]
-    """(anchor, label) of the values it is about; an empty anchor where the report does not print the value.
-    Empty for a finding about many values, whose message names the first of them."""
+    """(anchor, label) of the values it is about; an empty anchor where the report does not print the value."""
     message: str
     repair: str
     page: str
@@ -231,4 +239,6 @@ def counted(number: int, noun: str) -> str:
 
 def printable(text: str) -> str:
     """Return a text without signs that would steer a printer, a terminal or the direction of writing."""
-    return text if text.isprintable() else "".join(c if c.isprintable() else " " for c in text)
+    return (
+        text if text.isprintable() else "".join(c if c.isprintable() or c == "\u00a0" else " " for c in text)
+    )

@@ -60,6 +60,7 @@ def typst_source(report: Report) -> str:
     )
     environment.filters["exact"] = Exact
     environment.filters["brief"] = lambda text: text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
+    environment.filters["tied"] = lambda text: text.replace(" ", "\u00a0").replace(",\u00a0", ", ")
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     return environment.get_template("report.typ.j2").render(report=report, marks=MARKS, counted=counted)
 
@@ -70,7 +71,10 @@ def render_pdf(report: Report) -> bytes:
 
     source = typst_source(report)
     own_fonts = _FOREIGN.search(source) is None
-    # The root is given because Typst takes the working folder otherwise, which may be gone.
-    pages = typst.compile(source.encode("utf-8"), root=_TEMPLATES, format="pdf", ignore_system_fonts=own_fonts)
+    # The root is given because Typst takes the working folder otherwise, which may be gone;
+    # the library's stubs want it in the type of the source, the library itself does not.
+    pages = typst.compile(  # type: ignore[call-overload]
+        source.encode("utf-8"), root=_TEMPLATES, format="pdf", ignore_system_fonts=own_fonts
+    )
     assert isinstance(pages, bytes)
     return pages

@@ -12,9 +12,10 @@ from amp_studio.schema import (
     UnitError,
     Value,
     convert,
+    field_value,
     label_of,
     shown,
-    write_number,
+    write_value,
 )
 
 from .model import Row
@@ -100,6 +101,7 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "") -> Row:
         name=parameter.name,
         group=schema.group_of[address[0]].name,
         place=axis_label(file, address[1]) if on_axis else schema.instance_label(address, machine),
+        is_set=value is not None,
         value=_bare(parameter, value),
         unit=unit,
         shown_unit=shown(unit),
@@ -116,13 +118,7 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "") -> Row:
 
 def _bare(parameter: Parameter, value: Value | None) -> str:
     """Write a value without its unit, so that it reads back exactly; empty when there is none."""
-    if value is None:
-        return ""
-    if isinstance(value.value, bool):
-        return label_of(parameter, "yes" if value.value else "no")
-    if isinstance(value.value, str):
-        return label_of(parameter, value.value)
-    return write_number(value.value)
+    return "" if value is None else write_value(parameter, Value(value.value))
 
 
 def _default(parameter: Parameter, default: Value | None, unit: str) -> str:
@@ -148,7 +144,7 @@ def _bits(parameter: Parameter, value: Value | None) -> str:
         return ""
     word, parts = int(value.value), []
     for bit in parameter.bits:
-        field = word >> bit.bit & ((1 << bit.width) - 1)
+        field = field_value(bit, word)
         if bit.choices or bit.width > 1:
             label = next((c.label for c in bit.choices or () if c.raw == field), str(field))
             parts.append(f"{bit.label}: {label}")

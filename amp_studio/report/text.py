@@ -69,7 +69,7 @@ def _findings(report: Report) -> Iterator[str]:
     if not report.notes:
         yield "No errors, no warnings, no advice."
     for severity, notes in report.severities().items():
-        yield counted(len(notes), severity).capitalize()
+        yield counted(sum(n.count for n in notes), severity).capitalize()
         for note in notes:
             yield from _finding(note)
     yield ""
@@ -77,7 +77,7 @@ def _findings(report: Report) -> Iterator[str]:
 
 def _finding(note: Note) -> Iterator[str]:
     page = f" (page {note.page})" if note.page else ""
-    yield from _wrapped(note.message + page, "  - ")
+    yield from _wrapped((f"{note.place}: " if note.place else "") + note.message + page, "  - ")
     if note.about:
         yield from _wrapped(", ".join(label for _, label in note.about), "    about  ")
     if note.repair:

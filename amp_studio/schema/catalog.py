@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from .load import Compiled, load_compiled
@@ -22,7 +22,7 @@ class UnknownParameter(KeyError):
         return str(self.args[0])
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Schema:
     """One family. Built by ``load_schema``, once; never changed."""
 
@@ -32,7 +32,10 @@ class Schema:
     errata: dict[str, Erratum]
     tables: dict[str, Table]
     parameters: dict[str, Parameter]
-    group_of: dict[str, Group] = field(repr=False)
+    group_of: dict[str, Group]
+
+    def __repr__(self) -> str:
+        return f"Schema({self.family.family!r})"
 
     # -- instances and numbers -------------------------------------------------
 

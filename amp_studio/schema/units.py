@@ -66,6 +66,9 @@ ALIASES: dict[str, str] = {
 SHOWN: dict[str, str] = {"mm/s2": "mm/s²", "in/s2": "in/s²", "deg/s2": "deg/s²", "mm/s3": "mm/s³",
                          "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°", "um": "µm", "us": "µs", "counts/s2": "counts/s²"}  # fmt: skip
 
+_SIGNS = {sign: unit for unit, sign in SHOWN.items()}
+
+
 class UnitError(ValueError):
     """A unit that is not known, or does not measure what is asked for."""
 
@@ -75,7 +78,8 @@ def unit_named(text: str) -> str:
     word = text.strip().replace(" ", "")
     if word in UNITS:
         return word
-    unit = ALIASES.get(word, ALIASES.get(word.lower()))
+    word = _SIGNS.get(word, word)
+    unit = word if word in UNITS else ALIASES.get(word, ALIASES.get(word.lower()))
     if unit is None:
         unit = word.lower() if word.lower() in UNITS else None
     if unit is None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from .control import Control
 from .link import Link, LinkError
-from .responder import Responder
+from .responder import CHUNK, WINDOW, Responder
 
 
 class VirtualClock:
@@ -41,8 +41,12 @@ class NullModem:
         bytes_per_second: float | None = None,
         latency: float = 0.0,
         restart_seconds: float = 0.5,
+        window: int = WINDOW,
+        chunk: int = CHUNK,
     ) -> None:
         self.control = control
+        self.window = window
+        self.chunk = chunk
         self.clock = clock
         self.bytes_per_second = bytes_per_second
         self.latency = latency
@@ -79,7 +83,7 @@ class NullLink:
 
     def __init__(self, modem: NullModem) -> None:
         self._modem = modem
-        self._responder = Responder(modem.control)
+        self._responder = Responder(modem.control, window=modem.window, chunk=modem.chunk)
         self._to_control: list[tuple[float, bytes]] = []
         self._to_client: list[tuple[float, bytes]] = []
         self._is_open = True

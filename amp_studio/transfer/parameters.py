@@ -18,6 +18,8 @@ from .image import ImageFault, decode_image, encode_image, patch_image
 from .record import Identity
 from .session import Progress, Session, quiet
 
+__all__ = ["Outcome", "download_file", "emulate", "fetch_file", "keep_image", "out_of_range"]
+
 
 def download_file(
     file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,

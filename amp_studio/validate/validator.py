@@ -26,6 +26,9 @@ from .finding import SEVERITIES, Finding, Repair
 from .formulas import rule_functions
 from .plan import Plan, RuleCheck, make_plan
 
+EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
+"""What CEL raises for a value of a kind that an expression does not speak of."""
+
 
 class Validator:
     """Checks ranges, choices, states and rules of one file.
@@ -157,7 +160,7 @@ class Validator:
         try:
             if check.when.execute(context) is not True or check.check.execute(context) is not False:
                 return
-        except (TypeError, ValueError, RuntimeError, ArithmeticError):
+        except EVALUATION_FAULTS:
             return  # a value of a kind the rule does not speak of; its own range check says what is wrong
         self._rules[check.key] = self._rule_finding(check)
 
@@ -204,7 +207,7 @@ class Validator:
     def _text(self, expression: Any, unit: str, turns: bool) -> str:
         try:
             found = expression.execute(self._context)
-        except (TypeError, ValueError, RuntimeError, ArithmeticError):
+        except EVALUATION_FAULTS:
             return "?"
         if isinstance(found, (bool, str)) or not isinstance(found, (int, float)):
             return str(found)
@@ -221,7 +224,7 @@ class Validator:
         parameter = self.file.schema.parameters[address[0]]
         try:
             found = program(expression).execute(self._context)
-        except (TypeError, ValueError, RuntimeError, ArithmeticError):
+        except EVALUATION_FAULTS:
             return None
         if isinstance(found, (bool, str)):
             value = Value(found)
@@ -229,7 +232,7 @@ class Validator:
             old = self.file.values.get(address)
             unit = old.unit if old else self.file.situation.unit(address, self.file.header.units)
             number = float(f"{convert(float(found), canonical_unit(unit), unit):.12g}")
-            if parameter.decimals is not None and unit in (parameter.ranges or {unit: None}):
+            if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
                 number = round(number, parameter.decimals)
             value = Value(int(number) if parameter.type == "integer" else number, unit)
         if value == self.file.values.get(address) or fault(self.file.situation, address, value):

@@ -58,7 +58,7 @@ def test_every_value_is_printed_and_table_heads_are_repeated(
         assert {r.number for r in build_report(eight_axes).rows() if r.number} <= words
     assert "Set up by" in text
     assert "Released by" in text
-    heads = {"About", "Number"}  # of findings, of values
+    heads = {"Where", "Number"}  # of findings, of values
     for page in range(2, pages_of(path) + 1):
         assert heads & set(said_by("pdftotext", "-f", str(page), "-l", str(page), path, "-").split()), page
 
@@ -67,10 +67,16 @@ def test_every_value_is_printed_and_table_heads_are_repeated(
 def test_many_axes_lie_across_the_page_and_few_do_not(
     tmp_path: Path, mill: ParameterFile, eight_axes: ParameterFile
 ) -> None:
-    for file, sort, across in ((eight_axes, "group", True), (eight_axes, "number", False), (mill, "axis", False)):
+    for file, sort, across in (
+        (eight_axes, "group", True),
+        (eight_axes, "number", False),
+        (mill, "axis", False),
+    ):
         write_report(file, tmp_path / "r.pdf", sort=sort)  # type: ignore[arg-type]
         last = str(pages_of(tmp_path / "r.pdf"))
-        size = re.search(r"size:\s+([\d.]+) x ([\d.]+)", said_by("pdfinfo", "-f", last, "-l", last, tmp_path / "r.pdf"))
+        size = re.search(
+            r"size:\s+([\d.]+) x ([\d.]+)", said_by("pdfinfo", "-f", last, "-l", last, tmp_path / "r.pdf")
+        )
         assert size
         assert (float(size.group(1)) > float(size.group(2))) == across
 

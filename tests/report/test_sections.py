@@ -17,7 +17,7 @@ from amp_studio.schema import Value
 
 def row_with(number: str) -> Row:
     return Row(
-        id="a.b", instance="", number=number, name="", group="", place="", value="", unit="", shown_unit="",
+        id="a.b", instance="", number=number, name="", group="", place="", is_set=False, value="", unit="", shown_unit="",
         detail="", default="", plain_default="", is_changed=False, state="in-force", why="", state_mark="", forced="",
     )  # fmt: skip
 
@@ -31,7 +31,8 @@ def rows_by_anchor(file: ParameterFile) -> dict[str, Row]:
 
 def test_numbers_are_sorted_as_numbers_and_what_has_none_comes_last() -> None:
     ordered = ["2", "11", "1300", "2300", "20020", "P2N9", "P2N10", "P21N3", "Pr61", "R3", "R2051", ""]
-    assert ordered == sorted(reversed(ordered), key=lambda n: number_key(row_with(n)))
+    backwards = ordered[::-1]
+    assert ordered == sorted(backwards, key=lambda n: number_key(row_with(n)))
 
 
 def test_the_order_by_number_runs_through_all_axes(mill: ParameterFile) -> None:
@@ -52,7 +53,9 @@ def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: Paramete
 def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: ParameterFile) -> None:
     report = build_report(mill, sort="group")
     groups = list(dict.fromkeys(g.name for g in mill.schema.groups))
-    assert [s.title for s in report.sections] == [g for g in groups if g in {s.title for s in report.sections}]
+    assert [s.title for s in report.sections] == [
+        g for g in groups if g in {s.title for s in report.sections}
+    ]
     home = next(s for s in report.sections if s.title == "Home Parameters").parts[0]
     assert isinstance(home, Grid)
     assert home.columns == ("1 X", "2 Y", "3 Z", "4 B", "5 S")
@@ -103,7 +106,9 @@ def test_changed_only_keeps_what_differs_from_the_printed_default(mill: Paramete
     assert changed == {r.anchor for r in everything.rows() if r.is_changed}
     assert {"home.calibration@1", "home.calibration@2", "servo.gain_break_point@1"} <= changed
     assert "home.calibration@3" not in changed
-    assert all(part.rows for s in build_report(mill, sort=sort, changed_only=True).sections for part in s.parts)
+    assert all(
+        part.rows for s in build_report(mill, sort=sort, changed_only=True).sections for part in s.parts
+    )
 
 
 def test_marks_tell_changed_forced_and_ignored_apart(mill: ParameterFile) -> None:
@@ -148,11 +153,24 @@ def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFil
     assert [(r.number, r.text, r.forced) for r in report.forced] == [
         ("1730", "999999 mm", "by J. Fitter on 2026-07-01")]  # fmt: skip
     assert ("2735", "Inposition Band", "Axis 2 Y") in report.not_set
-    about = (("servo.gain_break_point@1", "1730 Gain Break Point (Axis 1 X)"),)
+    about = (("servo.gain_break_point@1", "1730 Gain Break Point"),)
     error = next(n for n in report.severities()["error"] if n.about == about)
     assert error.page == "7-22"
-    assert error.repair == "1730 Gain Break Point (Axis 1 X) = 214.1 mm"
+    assert error.place == "Axis 1 X"
+    assert error.repair == "1730 Gain Break Point = 214.1 mm"
     assert "It was forced by J. Fitter on 2026-07-01" in error.message
+
+
+def test_the_same_sentence_about_several_axes_is_said_once(mill: ParameterFile) -> None:
+    before = [n for n in build_report(mill).notes if n.about and n.about[0][0].startswith("home.calibration")]
+    assert before == []
+    for axis in "23":
+        mill.set(("home.calibration", axis), Value(2e6, "mm"))
+    found = [n for n in build_report(mill).notes if n.about and n.about[0][0].startswith("home.calibration")]
+    assert [(n.place, n.count, n.repair) for n in found] == [
+        ("Axis 2 Y, 3 Z", 2, "2300, 3300 Home Calibration = 999999.99 mm")]  # fmt: skip
+    assert found[0].about == (
+        ("home.calibration@2", "2300"), ("home.calibration@3", "3300 Home Calibration"))  # fmt: skip
 
 
 def test_a_forced_value_of_an_axis_that_is_not_fitted_is_not_forgotten(mill: ParameterFile) -> None:
@@ -160,7 +178,9 @@ def test_a_forced_value_of_an_axis_that_is_not_fitted_is_not_forgotten(mill: Par
     assert "home.calibration@8" in {r.anchor for r in build_report(mill).forced}
 
 
-def test_the_facts_name_the_file_and_its_checksum(tmp_path: Path, mill: ParameterFile, date: datetime) -> None:
+def test_the_facts_name_the_file_and_its_checksum(
+    tmp_path: Path, mill: ParameterFile, date: datetime
+) -> None:
     path = tmp_path / "mill.amp"
     save_file(mill, path)
     facts = dict(build_report(mill, source=path, date=date).facts)

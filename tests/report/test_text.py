@@ -19,7 +19,7 @@ from amp_studio.report.text import render_text
 
 def row(number: str, name: str, value: str, **more: object) -> Row:
     known: dict[str, object] = {
-        "id": name, "instance": "", "number": number, "name": name, "group": "Home", "place": "", "value": value,
+        "id": name, "instance": "", "number": number, "name": name, "group": "Home", "place": "", "is_set": True, "value": value,
         "unit": "mm", "shown_unit": "mm", "detail": "", "default": "0", "plain_default": "0", "is_changed": False,
         "state": "in-force", "why": "", "state_mark": "", "forced": "",
     }  # fmt: skip
@@ -30,7 +30,7 @@ SMALL = Report(
     title="Mill 7", family="9/PC", file_name="mill.amp", date=datetime(2026, 7, 1, 14, 5, tzinfo=UTC), program="AMP Studio",
     order="by axis", changed_only=False, facts=(("Machine", "Mill 7"),), counts=(("Values", "3"),), remarks="",
     axis_heads=("Axis", "Name"), axes=(("1", "X"),),
-    notes=(Note("error", (("a@1", "1300 Home Calibration (Axis 1 X)"),), "Too far.", "1300 = 0 mm", "5-10"),),
+    notes=(Note("error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"),),
     forced=(), not_set=(("1004", "G30 Position", "Axis 1 X"),),
     sections=(Section("axis-1", "Axis 1 X", (Listing("Home", (
         row("1300", "Home Calibration", "12.5", is_changed=True),
@@ -60,8 +60,8 @@ def test_a_small_report_to_the_letter() -> None:
     findings = said[said.index("FINDINGS") + 2 : said.index("NOT SET: THE CONTROL KEEPS ITS OWN VALUE") - 2]
     assert findings == [
         "1 error",
-        "  - Too far. (page 5-10)",
-        "    about  1300 Home Calibration (Axis 1 X)",
+        "  - Axis 1 X: Too far. (page 5-10)",
+        "    about  1300 Home Calibration",
         "    repair 1300 = 0 mm",
     ]
     assert "Machine ...................... Mill 7" in said
@@ -84,13 +84,15 @@ def test_no_line_is_wider_than_the_paper_and_every_value_is_there(
 @given(st.text(st.characters(exclude_categories=["Cs"])))
 def test_a_typst_literal_is_one_string_whatever_it_holds(text: str) -> None:
     literal = typst_literal(text)
-    assert re.fullmatch(r'"(?:[^"\\]|\\["\\])*"', literal), "a quote or a backslash that stands alone would end it"
-    assert all(c.isprintable() or c == "\u200b" for c in literal)
+    assert re.fullmatch(r'"(?:[^"\\]|\\["\\])*"', literal), (
+        "a quote or a backslash that stands alone would end it"
+    )
+    assert all(c.isprintable() or c in "\u200b\u00a0" for c in literal)
 
 
 @given(st.text(st.characters(exclude_categories=["Cs"])))
 def test_places_to_break_add_nothing_else(text: str) -> None:
-    plain = "".join(c if c.isprintable() else " " for c in text)
+    plain = "".join(c if c.isprintable() or c == "\u00a0" else " " for c in text)
     read = re.sub(r"\\(.)", r"\1", typst_literal(text)[1:-1].replace("\u200b", ""))
     assert read == plain
 

@@ -77,13 +77,13 @@ def facts(tmp_path: Path) -> Facts:
     return Facts(tmp_path / "small")
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def head() -> str:
     """Return the ``family.yaml`` of a small family, to be added to."""
     return HEAD
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def machine() -> type[Machine]:
     """Return what makes a machine out of a schema and its values."""
     return Machine

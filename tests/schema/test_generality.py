@@ -162,7 +162,7 @@ def test_the_scope_of_a_parameter_may_differ_between_mill_and_lathe(facts, machi
         type: real
         quantity: length
         ranges: {mm: [0, 10]}
-        help: {what: One for the mill, one an axis on a lathe.}
+        help: {what: One value on a mill and one for each axis of a lathe.}
         page: "4-9"
     """)
     assert (("plane.radius", ""),) == schema.addresses("mill")
@@ -245,7 +245,7 @@ def test_a_bound_may_be_another_parameter_of_the_same_axis(facts, machine) -> No
 
 
 def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
-    """9/PC Excess Error: 214.1 mm on a slide, 1440 degrees on a spindle (page 7-19)."""
+    """9/PC Excess Error: 214.1 mm on a slide, 1440 degrees on a spindle (page 7-20)."""
     text = SHARED + """
   - id: servo.excess_error
     name: Excess Error
@@ -255,7 +255,7 @@ def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
     ranges: {mm: [0, 214.1], in: [0, 8.42913]}
     range_variants: [{when: spindle_axis, ranges: {deg: [0, 1440]}}]
     help: {what: The error at which the axis stops.}
-    page: "7-19"
+    page: "7-20"
 """
     here = machine(
         facts.schema(text, head + SPINDLE_AXIS + "angular_when: spindle_axis\n"),

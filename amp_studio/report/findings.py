@@ -1,0 +1,87 @@
+"""Findings as they are printed: the same sentence about several axes is said once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import groupby
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, show_value
+from amp_studio.validate import Finding, Repair
+
+from .model import Note
+from .rows import axis_label, scope_of
+
+_NAMED = 6
+"""Values a finding names one by one; a message about more names the first of them itself."""
+
+
+def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
+    """Return the findings in their order; ``printed`` are the anchors of the values a report prints."""
+    alike: dict[tuple[str, str, str], list[Finding]] = {}
+    for finding in findings:
+        alike.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
+    return tuple(_note(file, same, printed) for same in alike.values())
+
+
+def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:
+    addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
+    repairs = list(dict.fromkeys(r for f in same for r in f.repairs))
+    return Note(
+        severity=same[0].severity,
+        count=len(same),
+        place=_places(file, addresses),
+        about=tuple(_links(file, addresses, printed)),
+        message=same[0].message,
+        repair="; ".join(_repairs(file, repairs)),
+        page=same[0].page or "",
+    )
+
+
+def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:
+    axes = sorted({a[1] for a in addresses if scope_of(file, a) == "axis"}, key=lambda i: (len(i), i))
+    if not axes:
+        return "Control" if addresses else ""
+    return joined_places([axis_label(file, axis) for axis in axes])
+
+
+def joined_places(places: Iterable[str]) -> str:
+    """Return ``Axis 1 X, 2 Y``: the word that neighbours share is said once."""
+    texts, word = [], ""
+    for place in places:
+        first, _, rest = place.partition(" ")
+        texts.append(rest if rest and first == word else place)
+        word = first
+    return ", ".join(texts)
+
+
+def _links(file: ParameterFile, addresses: Sequence[Address], printed: set[str]) -> Iterable[tuple[str, str]]:
+    """Yield anchor and label: of one parameter's values ``1300``, ``2300`` and then ``3300 Home Calibration``."""
+    order = [a[0] for a in addresses]
+    for _, members in groupby(sorted(addresses, key=lambda a: order.index(a[0])), key=lambda a: a[0]):
+        same = list(members)
+        for n, address in enumerate(same):
+            anchor = f"{address[0]}@{address[1]}"
+            yield (anchor if anchor in printed else "", _label(file, address, n == 0, n == len(same) - 1))
+
+
+def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool) -> str:
+    """Return number and name of the last of one parameter's values, the number alone of the others.
+
+    Without a number it is the name and the axis of the first, and the axis alone of the others.
+    """
+    schema, machine = file.schema, file.machine
+    number = schema.number(address, machine)
+    if number and not schema.is_disputed(address[0], machine):
+        return schema.label(address, machine) if is_last else number
+    return schema.label(address, machine) if is_first else schema.instance_label(address, machine)
+
+
+def _repairs(file: ParameterFile, repairs: Sequence[Repair]) -> Iterable[str]:
+    """Yield ``1300, 2300 Home Calibration = 0 mm`` for each parameter and new value."""
+    wanted: dict[tuple[str, str], list[Address]] = {}
+    for repair in repairs:
+        text = show_value(file.schema.parameters[repair.address[0]], repair.value)
+        wanted.setdefault((repair.address[0], text), []).append(repair.address)
+    for (_, text), addresses in wanted.items():
+        yield ", ".join(label for _, label in _links(file, addresses, set())) + f" = {text}"

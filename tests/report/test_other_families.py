@@ -1,0 +1,125 @@
+"""A family that is nothing like the 9/PC: many axes that are always there, words of bits, texts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile
+from amp_studio.report import FORMATS, SORTS, build_report, write_report
+from amp_studio.report.model import Grid, Sort
+from amp_studio.schema import Value
+from amp_studio.schema.catalog import schema_of
+from amp_studio.schema.load import compile_family
+
+FAMILY = """
+family: wide
+name: Wide control
+document: wide-manual
+title: Wide Manual
+machines: [{key: machine, name: Machine}]
+default_machine: machine
+scopes:
+  global: {instances: [""], label: Control}
+  axis: {instances: ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11"], label: "Axis {i}"}
+  word: {instances: ["0", "1", "2"], label: "Word {i}"}
+units: {metric: {length: mm}}
+effect: {level: restart}
+groups: [all]
+"""
+GROUP = """
+key: all
+name: Everything
+chapter: "1"
+parameters:
+  - id: axis.position
+    name: Position
+    scope: axis
+    numbers: {format: "P10N{i}"}
+    type: real
+    quantity: length
+    help: {what: A length.}
+    page: "1-1"
+  - id: word.mode
+    name: Mode word
+    scope: word
+    numbers: {format: "P2N{i}"}
+    type: bits
+    bits:
+      - {bit: 0, label: Axis turns}
+      - {bit: 3, label: Second gear}
+      - {bit: 4, width: 2, label: Loop, choices: [{key: open, label: open, raw: 0}, {key: closed, label: closed, raw: 2}]}
+    default: {value: 0, page: "1-2"}
+    help: {what: Bits.}
+    page: "1-2"
+  - id: machine.name
+    name: Name of the machine
+    type: text
+    help: {what: A text.}
+    page: "1-3"
+"""
+
+
+@pytest.fixture
+def wide(tmp_path: Path) -> ParameterFile:
+    folder = tmp_path / "wide"
+    (folder / "groups").mkdir(parents=True)
+    (folder / "family.yaml").write_text(FAMILY)
+    (folder / "groups" / "all.yaml").write_text(GROUP)
+    file = ParameterFile(schema_of(compile_family(folder)))
+    for n in range(12):
+        file.set(("axis.position", str(n)), Value(n / 8, "mm"))
+    file.set(("word.mode", "0"), Value(0b101001))
+    file.set(("word.mode", "1"), Value(0))
+    file.set(("machine.name", ""), Value(""))
+    return file
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+@pytest.mark.parametrize("sort", SORTS)
+def test_it_is_printed_in_every_format_and_order(
+    tmp_path: Path, wide: ParameterFile, ending: str, sort: Sort
+) -> None:
+    write_report(wide, tmp_path / f"r{ending}", sort=sort)
+    assert (tmp_path / f"r{ending}").stat().st_size > 500
+
+
+def test_more_axes_than_a_page_is_wide_go_into_another_table(wide: ParameterFile) -> None:
+    parts = build_report(wide).sections[0].parts
+    assert [p.columns for p in parts if isinstance(p, Grid)] == [tuple("01234567"), ("8", "9", "10", "11")]
+    assert [r.value for r in parts[1].rows] == ["1", "1.125", "1.25", "1.375"]
+
+
+def test_a_value_of_no_axis_is_printed_once(wide: ParameterFile) -> None:
+    anchors = [r.anchor for r in build_report(wide).rows()]
+    assert len(anchors) == len(set(anchors)) == 16
+
+
+def test_the_order_by_axis_has_every_axis(wide: ParameterFile) -> None:
+    titles = [s.title for s in build_report(wide, sort="axis").sections]
+    assert titles == [*(f"Axis {n}" for n in range(12)), "Non-axis parameters"]
+
+
+def test_the_order_by_number_counts_within_a_number(wide: ParameterFile) -> None:
+    numbers = [r.number for r in build_report(wide, sort="number").rows()]
+    assert numbers == ["P2N0", "P2N1", "P2N2", *(f"P10N{n}" for n in range(12)), ""]
+
+
+def test_the_bits_of_a_word_are_said_in_words(wide: ParameterFile) -> None:
+    rows = {r.anchor: r for r in build_report(wide).rows()}
+    assert rows["word.mode@0"].detail == "bit 0: Axis turns; bit 3: Second gear; Loop: closed"
+    assert rows["word.mode@1"].detail == "Loop: open"
+    assert rows["word.mode@2"].detail == ""
+
+
+def test_an_empty_text_is_not_taken_for_a_missing_one(wide: ParameterFile) -> None:
+    report = build_report(wide)
+    assert report.not_set == (("P2N2", "Mode word", "Word 2"),)
+    assert {r.anchor: r.text for r in report.rows()}["machine.name@"] == "(empty)"
+
+
+def test_a_family_without_an_axis_profile_has_no_axis_summary(wide: ParameterFile) -> None:
+    report = build_report(wide)
+    assert (report.axis_heads, report.axes) == ((), ())
+    assert "Of unfitted axes, left out" not in dict(report.counts)

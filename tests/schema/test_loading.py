@@ -1,0 +1,278 @@
+"""Loading facts: a fault is told with file and line, and the cache never gives yesterday's facts."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from amp_studio.schema import DatabaseFault, family_ids, load_schema, read_rules
+from amp_studio.schema import load as loading
+from amp_studio.schema.catalog import schema_of
+from amp_studio.schema.load import compile_family, database_folder, load_compiled
+
+GOOD = """
+- id: a.speed
+  name: Speed
+  type: real
+  quantity: velocity
+  ranges:
+    mm/min: [0, 100]
+  states:
+    - {state: ignored, when: slow}
+  default: {value: 5, unit: mm/min, page: "2"}
+  help: {what: How fast.}
+  page: "1"
+- id: a.kind
+  name: Kind
+  scope: axis
+  type: choice
+  choices:
+    - {key: one, label: One, code: a, raw: 1}
+    - {key: two, label: Two, code: b, raw: 2}
+  default:
+    value: one
+    page: "2"
+  help: {what: Which kind.}
+  page: "1"
+"""
+SLOW = 'conditions:\n  slow:\n    reads: {speed: a.speed}\n    when: speed < 1.0\n    why: too slow\n'
+def line_with(path: Path, text: str) -> int:
+    """Return the last line of a file that holds a text."""
+    return max(n for n, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if text in line)
+
+
+def test_good_facts_load(facts, head) -> None:
+    schema = facts.schema(GOOD, head + SLOW)
+    assert ["a.speed", "a.kind"] == list(schema.parameters)
+    assert "All" == schema.group_of["a.kind"].name
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "marked", "said"),
+    [
+        ("  quantity: velocity", "  quantity: velocity\n  unnit: mm", "unnit", "a.speed: unnit: Extra inputs are not permitted"),
+        ("  name: Speed\n", "", "- id: a.speed", "a.speed: name: Field required"),
+        ("type: real", "type: reel", "type: reel", "a.speed: type: Input should be"),
+        ("id: a.kind", "id: a.speed", "- id: a.speed", "a.speed stands twice"),
+        ("id: a.kind", "id: Kind", "- id: Kind", "Kind: id: String should match pattern"),
+        ("value: one", "value: three", "- id: a.kind", "a.kind: Value error, default 'three' is none of its choices"),
+        ("label: Two", "label: ONE", "- id: a.kind", "a.kind: Value error, two choices share a label"),
+        ("key: two", "key: one", "- id: a.kind", "a.kind: Value error, two choices share a key"),
+        ("code: b", "code: A", "- id: a.kind", "a.kind: Value error, two choices share a code"),
+        ("mm/min: [0, 100]", "mm/h: [0, 100]", "mm/h", "'mm/h' is no unit"),
+        ("mm/min: [0, 100]", "mm/min: [0, fast]", "mm/min: [0, fast]", "a.speed: ranges: mm/min"),
+        ("mm/min: [0, 100]", "mm/min: [0, {param: a.top}]", "mm/min: [0", "there is no parameter 'a.top' to bound it"),
+        ("when: slow", "when: slo", "- {state: ignored", "a.speed: there is no condition 'slo'"),
+        ("when: slow", "when: slow, unless: slow", "- {state: ignored", "a state takes either 'when' or 'unless'"),
+        ("scope: axis", "scope: word", "scope: word", "a.kind: the family has no scope 'word'"),
+        ('page: "1"\n- id: a.kind', 'page: page one\n- id: a.kind', "page: page one", "a.speed: page: String should match"),
+        ("name: Kind", "numbers: {format: 'P{x}'}\n  name: Kind", "numbers", "the format 'P{x}' may hold"),
+        ("name: Kind", "numbers: {step: 3}\n  name: Kind", "numbers", "numbers need 'start', 'listed' or a format without"),
+        ("name: Kind", "name: Kind\n  name: Sort", "name: Sort", "duplicate key"),
+        ("name: Kind", "name: [Kind", "scope: axis", "expected"),
+    ],
+)  # fmt: skip
+def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
+    text = GOOD.replace(old, new, 1)
+    assert text != GOOD
+    with pytest.raises(DatabaseFault) as refused:
+        facts.schema(text, head + SLOW)
+    assert (facts.folder / "groups" / "all.yaml") == refused.value.path
+    assert said in refused.value.what
+    assert line_with(refused.value.path, marked) == refused.value.line
+    assert f"all.yaml, line {refused.value.line}: " in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "marked", "said"),
+    [
+        ("default_machine: mill", "default_machine: mill\ncolour: red", "colour", "colour: Extra inputs"),
+        ("length: mm", "length: mn", "length: mn", "'mn' is no unit"),
+        ("speed < 1.0", "speed <", "    when: speed <", "condition slow:"),
+        ("speed < 1.0", "loop < 1.0", "    when: loop", "condition slow:"),
+        ("{speed: a.speed}", "{speed: a.sped}", "    reads:", "condition slow reads 'a.sped', which does not exist"),
+        ("groups: [all]", "groups: [all]\nangular_when: turns", "angular_when", "there is no condition 'turns'"),
+        ("groups: [all]", "groups: [all]\nmachine_parameter: a.b", "machine_parameter", "there is no parameter 'a.b'"),
+    ],
+)
+def test_a_fault_in_the_family_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
+    text = (head + SLOW).replace(old, new, 1)
+    with pytest.raises(DatabaseFault) as refused:
+        facts.schema(GOOD, text)
+    assert ("family.yaml", True) == (refused.value.path.name, said in refused.value.what)
+    assert line_with(refused.value.path, marked) == refused.value.line
+
+
+def test_a_group_file_that_is_missing_empty_or_another_is_told(facts, head) -> None:
+    facts.write("family.yaml", head)
+    with pytest.raises(DatabaseFault, match=r"all\.yaml: .*No such file"):
+        compile_family(facts.folder)
+    facts.write("groups/all.yaml", "")
+    with pytest.raises(DatabaseFault, match=r"all\.yaml, line 1: "):
+        compile_family(facts.folder)
+    facts.group("  []", key="all").write_text('key: other\nname: All\nchapter: "1"\nparameters: []\n')
+    with pytest.raises(DatabaseFault, match=r"all\.yaml, line 1: its key is 'other'"):
+        compile_family(facts.folder)
+    (facts.folder / "groups" / "all.yaml").write_bytes(b"key: all\nname: \xff\n")
+    with pytest.raises(DatabaseFault, match=r"all\.yaml: .*codec can't decode"):
+        compile_family(facts.folder)
+
+
+def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts) -> None:
+    path = facts.write(
+        "rules.yaml",
+        """\
+        rules:
+          - id: small.order
+            title: Order
+            severity: fatal
+            reads: {a: a.speed}
+            check: a > 0.0
+            message: no
+            page: "1"
+        """,
+    )
+    with pytest.raises(DatabaseFault) as refused:
+        read_rules(path)
+    assert (4, path) == (refused.value.line, refused.value.path)
+    assert refused.value.what.startswith("small.order: severity: ")
+
+
+def test_an_unknown_family_is_a_key_error() -> None:
+    with pytest.raises(KeyError, match="no-such-family"):
+        load_schema("no-such-family")
+
+
+def test_every_family_with_a_folder_is_known() -> None:
+    assert "9pc" in family_ids()
+    assert tuple(sorted(family_ids())) == family_ids()
+    assert all((database_folder() / name / "family.yaml").is_file() for name in family_ids())
+
+
+# -- the cache ----------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def database(facts, head, monkeypatch, tmp_path: Path) -> Path:
+    """Return a folder of facts with one small family, and a cache of its own; the folder is read anew each time."""
+    facts.write("family.yaml", head + SLOW)
+    facts.group(GOOD)
+    monkeypatch.setattr(loading, "database_folder", lambda: facts.folder.parent)
+    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache" / name))
+    return facts.folder.parent
+
+
+def load():
+    """Load the small family as a new process would."""
+    return load_compiled.__wrapped__("small")
+
+
+def cached(tmp_path: Path) -> list[Path]:
+    """Return what lies in the cache."""
+    return sorted((tmp_path / "cache" / "amp-studio").iterdir())
+
+
+def count_parsing(monkeypatch) -> list[Path]:
+    """Return a list that grows with every fact file that is parsed."""
+    parsed: list[Path] = []
+    original = loading._read
+    monkeypatch.setattr(loading, "_read", lambda path, model: (parsed.append(path), original(path, model))[1])
+    return parsed
+
+
+def test_what_comes_from_the_cache_is_what_was_compiled_and_costs_no_parsing(database, monkeypatch) -> None:
+    first, parsed = load(), count_parsing(monkeypatch)
+    second = load()
+    assert first == second
+    assert schema_of(first).signature == schema_of(second).signature
+    assert [] == parsed
+
+
+def test_the_real_families_come_from_the_cache_as_they_were_compiled(monkeypatch, tmp_path) -> None:
+    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache" / name))
+    for family in family_ids():
+        compiled = load_compiled.__wrapped__(family)
+        assert compiled == load_compiled.__wrapped__(family) == compile_family(database_folder() / family)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"{", b"null", b"[]", b"{}", b"\xff\xfe", b'{"family": {}}', b'{"family": "9pc"', os.urandom(64)],
+)
+def test_a_cache_file_that_cannot_be_read_is_made_again(database, tmp_path, content: bytes) -> None:
+    expected = load()
+    (path,) = cached(tmp_path)
+    whole = path.read_bytes()
+    path.write_bytes(content)
+    assert expected == load()
+    assert whole == path.read_bytes()
+
+
+def test_a_cache_cut_off_anywhere_is_made_again(database, tmp_path) -> None:
+    expected = load()
+    (path,) = cached(tmp_path)
+    whole = path.read_bytes()
+    for length in range(0, len(whole), 97):
+        path.write_bytes(whole[:length])
+        assert expected == load()
+        assert whole == path.read_bytes()
+
+
+def test_a_cache_that_cannot_be_written_costs_nothing_but_time(database, tmp_path, monkeypatch) -> None:
+    expected = load()
+    (path,) = cached(tmp_path)
+    path.unlink()
+    path.mkdir()  # a folder stands where the file should
+    assert expected == load()
+    assert [path] == cached(tmp_path), "and no temporary file is left"
+    path.rmdir()
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(loading.os, "replace", full)
+    assert expected == load()
+    assert [] == cached(tmp_path)
+
+
+def test_a_changed_fact_is_seen_at_once_and_the_old_cache_goes(database, tmp_path) -> None:
+    first = load()
+    (old,) = cached(tmp_path)
+    path = database / "small" / "groups" / "all.yaml"
+    path.write_text(path.read_text().replace("How fast.", "How very fast."))
+    second = load()
+    (new,) = cached(tmp_path)
+    assert ("How fast.", "How very fast.") == (first.groups[0].parameters[0].help.what, second.groups[0].parameters[0].help.what)
+    assert old != new
+
+
+def test_every_fact_file_counts_for_the_key_of_the_cache(database, tmp_path) -> None:
+    keys = []
+    for name, text in (
+        ("", ""),
+        ("errata.yaml", "errata: []\n"),
+        ("tables/one.yaml", "tables: []\n"),
+        ("rules.yaml", "rules: []\n"),
+        ("rules.yaml", "rules: []\n# a comment\n"),
+    ):
+        if name:
+            (database / "small" / name).parent.mkdir(exist_ok=True)
+            (database / "small" / name).write_text(text)
+        load()
+        keys.append(cached(tmp_path)[0].name)
+    assert 5 == len(set(keys))
+
+
+def test_the_cache_of_another_family_stays(database, tmp_path, facts) -> None:
+    load()
+    other = tmp_path / "cache" / "amp-studio" / "another-0123.json"
+    other.write_text(json.dumps({}))
+    path = facts.folder / "groups" / "all.yaml"
+    path.write_text(path.read_text() + "# changed\n")
+    load()
+    assert other in cached(tmp_path)
+    assert 2 == len(cached(tmp_path))

@@ -1,0 +1,126 @@
+"""Ranges: the edges as printed, in the unit as printed."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from amp_studio.schema import Value, clip, fault, limits
+
+LINEAR = {"axis.type@1": Value("linear"), "axis.type@2": Value("rotary"), "axis.type@3": Value("spindle")}
+
+
+@pytest.fixture
+def here(ninepc, machine):
+    """Return a 9/PC with a linear axis 1, a rotary axis 2 and a spindle 3."""
+    return machine(ninepc, LINEAR)
+
+
+def allowed(here, name: str, value: Value) -> bool:
+    """Tell whether a value is allowed."""
+    return fault(here.situation, tuple(name.split("@")), value) is None
+
+
+@pytest.mark.parametrize(
+    ("inside", "outside"),
+    [
+        (Value(999999.99, "mm"), Value(1000000.0, "mm")),
+        (Value(-999999.99, "mm"), Value(-999999.9900000001, "mm")),
+        (Value(39370.07835, "in"), Value(39370.07836, "in")),
+        (Value(-39370.07835, "in"), Value(-39370.078351, "in")),
+    ],
+)
+def test_the_printed_edge_is_inside_and_the_next_figure_outside(here, inside: Value, outside: Value) -> None:
+    """Home Calibration: -999999.99 to 999999.99 mm, -39370.07835 to 39370.07835 in (page 5-10)."""
+    assert (True, False) == (allowed(here, "home.calibration@1", inside), allowed(here, "home.calibration@1", outside))
+
+
+def test_inch_and_metric_edges_differ_in_the_last_digit_and_each_holds_in_its_own_unit(here) -> None:
+    """Rapid feedrates: 10160.00004 mm/min is not 400 in/min, which are 10160 mm/min (page 10-7)."""
+    assert allowed(here, "accdec.velocity_step@1", Value(10160.00004, "mm/min"))
+    assert not allowed(here, "accdec.velocity_step@1", Value(10160.00005, "mm/min"))
+    assert allowed(here, "accdec.velocity_step@1", Value(400.0, "in/min"))
+    assert not allowed(here, "accdec.velocity_step@1", Value(400.000001, "in/min")), "10160.00003 mm/min would be inside"
+
+
+def test_a_unit_without_a_printed_range_takes_the_one_of_its_own_system(here) -> None:
+    found = limits(here.situation, ("accdec.velocity_step", "1"), "in/s")
+    assert (0.0, 400 / 60) == (found.low, found.high)
+    found = limits(here.situation, ("accdec.velocity_step", "1"), "mm/s")
+    assert (0.0, 10160.00004 / 60) == (found.low, pytest.approx(found.high, abs=1e-12))
+
+
+def test_degrees_are_borrowed_from_the_metric_figures_where_none_are_printed(here) -> None:
+    found = limits(here.situation, ("home.calibration", "2"), "deg")
+    assert (-999999.99, 999999.99, True) == (found.low, found.high, found.borrowed)
+    assert not allowed(here, "home.calibration@2", Value(1e6, "deg"))
+    printed = limits(here.situation, ("accdec.linear_acceleration", "2"), "deg/s2")
+    assert (20000.0, False) == (printed.high, printed.borrowed)
+
+
+def test_borrowed_speeds_keep_their_time(here) -> None:
+    found = limits(here.situation, ("accdec.velocity_step", "2"), "deg/s")
+    assert (True, pytest.approx(10160.00004 / 60, abs=1e-12)) == (found.borrowed, found.high)
+
+
+@pytest.mark.parametrize(("axis", "unit", "high"), [("1", "mm", 214.1), ("2", "deg", 214.0), ("3", "deg", 1440.0)])
+def test_excess_error_has_three_limits_by_axis_type(here, axis: str, unit: str, high: float) -> None:
+    """Page 7-20: 214.1 mm linear, 214 degrees rotary, 1440 degrees on a spindle."""
+    assert high == limits(here.situation, ("servo.excess_error", axis), unit).high
+    assert allowed(here, f"servo.excess_error@{axis}", Value(high, unit))
+    assert not allowed(here, f"servo.excess_error@{axis}", Value(high + 0.00001, unit))
+
+
+def test_an_edge_that_another_parameter_sets_moves_with_it(here) -> None:
+    """Positive Software Overtravel runs from Negative Software Overtravel to 2540000 mm (page 6-10)."""
+    here.set("zone.overtravel_negative@1", Value(1.0, "in"))
+    said = fault(here.situation, ("zone.overtravel_positive", "1"), Value(25.3, "mm"))
+    named = "1330 Negative Software Overtravel"
+    assert f"Positive Software Overtravel 25.3 mm is outside 25.4 to 2540000 mm (set by {named})" == said
+    assert allowed(here, "zone.overtravel_positive@1", Value(25.4, "mm"))
+    here.set("zone.overtravel_negative@1", Value(-5.0, "mm"))
+    assert allowed(here, "zone.overtravel_positive@1", Value(0.0, "mm"))
+
+
+def test_an_unset_edge_bounds_nothing_and_is_not_blamed(here) -> None:
+    said = fault(here.situation, ("zone.overtravel_positive", "1"), Value(3e6, "mm"))
+    assert "Positive Software Overtravel 3000000 mm is outside at most 2540000 mm" == said
+
+
+@given(st.floats(min_value=-1e5, max_value=1e5))
+def test_a_value_equal_to_its_bound_is_inside_in_either_unit(ninepc, machine, bound: float) -> None:
+    here = machine(ninepc, LINEAR | {"zone.overtravel_negative@1": Value(bound, "in")})
+    address = ("zone.overtravel_positive", "1")
+    assert fault(here.situation, address, Value(bound, "in")) is None
+    found = limits(here.situation, address, "mm")
+    assert fault(here.situation, address, Value(found.low, "mm")) is None
+
+
+@given(st.sampled_from(["mm", "in"]), st.floats(min_value=-1e9, max_value=1e9))
+def test_what_is_mended_is_inside_and_what_is_inside_is_not_touched(ninepc, machine, unit: str, number: float) -> None:
+    here, address = machine(ninepc, LINEAR), ("home.calibration", "1")
+    value = Value(number, unit)
+    mended = clip(here.situation, address, value)
+    assert fault(here.situation, address, mended) is None
+    assert (mended == value) == (fault(here.situation, address, value) is None)
+    assert unit == mended.unit
+
+
+def test_choices_and_texts_have_no_range_to_be_mended_into(here) -> None:
+    for name, value in (("axis.type", Value("linear")), ("zone.overtravel_used", Value(True))):
+        assert value == clip(here.situation, (name, "1"), value)
+        assert fault(here.situation, (name, "1"), value) is None
+    assert "9 is no code of Axis Type" == fault(here.situation, ("axis.type", "1"), Value("raw:9"))
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "unit"),
+    [
+        ("-999999.99 to 999999.99 mm", "home.calibration", "mm"),
+        ("1 to 32767", "servo.velocity_gear_teeth", ""),
+        ("0 to 9999 °", "axis.rollover", "deg"),
+    ],
+)
+def test_a_range_is_told_as_printed(here, text: str, name: str, unit: str) -> None:
+    assert text == limits(here.situation, (name, "1"), unit).text()

@@ -1,0 +1,161 @@
+"""What the tests of the exchange share: emulated controls, in this process or in one of their own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from amp_studio.transfer import Control, Faults, Identity, LinkError, Session
+from amp_studio.transfer.faults import FaultyLine
+from amp_studio.transfer.link import Link
+from amp_studio.transfer.null_modem import NullModem, VirtualClock
+
+OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(12))
+NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(14))
+SIGNATURE = "s1"
+
+
+@pytest.fixture(autouse=True)
+def quick_disk(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out the waiting for the disk in this process; what is written and renamed stays as it is."""
+    monkeypatch.setattr("amp_studio.transfer.memory.os.fsync", lambda handle: None)
+
+
+@pytest.fixture
+def new_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
+    """Give a function that makes a control, in a folder of its own unless one is given."""
+    made: list[Control] = []
+
+    def make(folder: Path | None = None, initial: bytes = OLD, **options: Any) -> Control:
+        place = folder or tmp_path / f"control-{len(made)}"
+        control = Control(place, Identity("9pc", SIGNATURE, "CNC_1", "3.05"), initial, **options)
+        made.append(control)
+        return control
+
+    yield make
+    for control in made:
+        control.close()
+
+
+@dataclass
+class Rig:
+    """A session and a control on a null modem, in a time of its own."""
+
+    control: Control
+    clock: VirtualClock
+    modem: NullModem
+    line: FaultyLine
+    options: dict[str, Any] = field(default_factory=dict)
+    lines_left: int = 1_000_000
+
+    def open_link(self) -> Link:
+        if self.lines_left == 0:
+            raise LinkError("null modem", "the cable is out")
+        link = self.modem.connect()
+        self.lines_left -= 1
+        return self.line.wrap(link)
+
+    def session(self) -> Session:
+        numbers = iter(range(1, 1_000_000))
+
+        def counted(length: int) -> bytes:
+            return next(numbers).to_bytes(4, "little").ljust(length, b"\x07")[:length]
+
+        return Session(
+            self.open_link, clock=self.clock, sleep=self.clock.sleep, random_bytes=counted, **self.options
+        )
+
+
+@pytest.fixture
+def rig(new_control: Callable[..., Control]) -> Callable[..., Rig]:
+    """Give a function that connects a session and a control; small pieces, so that little images have many."""
+
+    def make(
+        faults: Faults = Faults(),
+        *,
+        control: Control | None = None,
+        bytes_per_second: float | None = None,
+        latency: float = 0.0,
+        window: int = 4,
+        chunk: int = 32,
+        lines: int = 1_000_000,
+        **options: Any,
+    ) -> Rig:
+        clock = VirtualClock()
+        modem = NullModem(
+            control or new_control(),
+            clock,
+            bytes_per_second=bytes_per_second,
+            latency=latency,
+            window=window,
+            chunk=chunk,
+        )
+        return Rig(modem.control, clock, modem, FaultyLine(faults), options, lines)
+
+    return make
+
+
+@dataclass
+class Emulated:
+    """An emulated control in a process of its own; ``address`` is where it listens."""
+
+    process: subprocess.Popen[str]
+    address: str
+
+    def command(self, line: str) -> str:
+        """Give an operator's command and return what the control says to it."""
+        assert self.process.stdin is not None
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+        return self.hear()
+
+    def hear(self) -> str:
+        assert self.process.stdout is not None
+        return self.process.stdout.readline().strip()
+
+    @property
+    def is_dead(self) -> bool:
+        return self.process.poll() is not None
+
+    def kill(self) -> None:
+        self.process.kill()
+        self.process.wait(10)
+
+
+@pytest.fixture
+def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
+    """Give a function that starts an emulated control: ``emulate(folder, address, **options)``."""
+    started: list[subprocess.Popen[str]] = []
+
+    def start(folder: Path, address: str = "tcp://127.0.0.1:0", **options: Any) -> Emulated:
+        script = Path(__file__).with_name("emulated_control.py")
+        options.setdefault("initial", OLD.decode())
+        process = subprocess.Popen(
+            [sys.executable, str(script), address, str(folder), json.dumps(options)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"PYTHONPATH": str(checkout)},
+        )
+        started.append(process)
+        emulated = Emulated(process, "")
+        said = emulated.hear()
+        assert said.startswith("listening on "), f"the emulator said {said!r}"
+        emulated.address = said.removeprefix("listening on ")
+        return emulated
+
+    yield start
+    for process in started:
+        process.kill()
+        process.wait(10)
+        for stream in (process.stdin, process.stdout):
+            if stream is not None:
+                stream.close()
