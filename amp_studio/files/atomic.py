@@ -52,7 +52,7 @@ def write_atomic(path: Path, content: bytes, expected: str | None = "", keep_bac
     try:
         if expected != "" and digest_of(path) != expected:
             raise ChangedOnDisk(f"{path.name} has been changed by another program since it was opened")
-        temporary = _write_beside(path, content)
+        temporary = _write_beside(path, content, like=path)
     except ChangedOnDisk:
         raise
     except OSError as error:
@@ -75,16 +75,16 @@ def write_atomic(path: Path, content: bytes, expected: str | None = "", keep_bac
     return digest(content)
 
 
-def _write_beside(path: Path, content: bytes) -> str:
-    """Write and sync a temporary file in the same folder; leaves nothing behind when it fails."""
+def _write_beside(path: Path, content: bytes, like: Path) -> str:
+    """Write and sync a temporary file in the same folder, as readable as ``like``; leaves nothing behind when it fails."""
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(content)
             stream.flush()
             os.fsync(stream.fileno())
-        if path.exists():
-            shutil.copymode(path, temporary)
+        if like.exists():
+            shutil.copymode(like, temporary)
         else:
             os.chmod(temporary, 0o666 & ~_umask())
     except BaseException:
@@ -95,7 +95,7 @@ def _write_beside(path: Path, content: bytes) -> str:
 
 
 def _replace_copy(source: Path, target: Path) -> None:
-    temporary = _write_beside(target, source.read_bytes())
+    temporary = _write_beside(target, source.read_bytes(), like=source)
     try:
         os.replace(temporary, target)
     except BaseException:

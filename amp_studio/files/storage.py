@@ -214,6 +214,8 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     header: dict[str, Any] = {"amp_studio": FORMAT, "family": file.schema.family.family}
     header |= {key: getattr(file.header, key) for key in _HEADER if getattr(file.header, key)}
     header |= file.header.extra
+    if len(tree) and "units" not in tree and file.header.units == Header.units:
+        del header["units"]  # what goes without saying is not added to what a person wrote
     for key in [k for k in tree if k not in header and k not in ("values", "forced")]:
         _drop(tree, key)
     for key, value in header.items():
@@ -261,8 +263,9 @@ def _drop(part: Any, key: Any) -> None:
     if not below.strip():
         return
     if at > 0:
-        above = part.ca.items.setdefault(keys[at - 1], [None, None, None, None])
-        above[2] = CommentToken((above[2].value if above[2] else "\n") + below, CommentMark(0), None)
+        comments, slot = _comments_after(part, keys[at - 1])
+        before = comments[slot].value if comments[slot] else "\n"
+        comments[slot] = CommentToken(before + below, CommentMark(0), None)
     elif len(keys) > 1:
         lines = [CommentToken(line.strip() + "\n", CommentMark(part.lc.col), None) for line in below.strip().split("\n")]
         following = part.ca.items.setdefault(keys[1], [None, None, None, None])
@@ -271,10 +274,21 @@ def _drop(part: Any, key: Any) -> None:
 
 def _comment_below(part: Any, key: Any) -> str:
     """Return the comment lines between an entry, with all that is in it, and the next one."""
-    while isinstance(part[key], dict) and part[key]:
-        part, key = part[key], list(part[key])[-1]
-    token = (part.ca.items.get(key) or [None, None, None])[2] if hasattr(part, "ca") else None
-    return str(token.value).partition("\n")[2] if token else ""
+    if not hasattr(part, "ca"):
+        return ""
+    comments, slot = _comments_after(part, key)
+    return str(comments[slot].value).partition("\n")[2] if comments[slot] else ""
+
+
+def _comments_after(part: Any, key: Any) -> tuple[list[Any], int]:
+    """Return where ruamel keeps what stands after an entry: with the last thing in it. A list and the place in it."""
+    from ruamel.yaml.comments import CommentedMap, CommentedSeq
+
+    while isinstance(inner := part[key], (CommentedMap, CommentedSeq)) and inner and not inner.fa.flow_style():
+        part, key = inner, list(inner)[-1] if isinstance(inner, CommentedMap) else len(inner) - 1
+    if isinstance(part, CommentedMap):
+        return part.ca.items.setdefault(key, [None, None, None, None]), 2
+    return part.ca.items.setdefault(key, [None, None]), 0
 
 
 def save_file(file: ParameterFile, path: Path, expected: str | None = None) -> str:

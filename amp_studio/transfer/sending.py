@@ -37,6 +37,7 @@ class Sending:
         self._progress = progress
         self._digest = hashlib.sha256(image).digest()
         self._transfer = line.random(16)
+        self._reached = 0
         self._cancel: threading.Event | None = None
         self.held: Held = "old"
 
@@ -64,7 +65,7 @@ class Sending:
                 lost = refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE, Code.DIGEST)
                 if not (lost and left):
                     raise self._error(refusal) from None
-                self._transfer, self.held = self._line.random(16), "old"
+                self._transfer, self._reached, self.held = self._line.random(16), 0, "old"
         raise AssertionError("the last attempt returns or raises")
 
     def _attempt(self, talk: Conversation) -> Committed:
@@ -78,10 +79,11 @@ class Sending:
             # A commit asked for on an earlier line has not happened: what it needs is no longer staged.
             self.held = "old"
             self._line.cancel = self._cancel
-        self._line.moved()
 
         def done(staged: int) -> None:
-            self._line.moved()
+            if staged > self._reached:
+                self._reached = staged
+                self._line.moved()
             self._progress("download", staged, total)
 
         done(ready.offset)

@@ -4,26 +4,52 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar, TypeVar
 
-from PySide6.QtCore import QObject, QThread, Signal
+from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 Progress = Callable[[str, int, int], None]
 Work = Callable[[Progress, threading.Event], Any]
+Result = TypeVar("Result")
+
+PATIENCE_MS = 300
+"""How long a short piece of work may last before the window says what it waits for."""
 
 
 class Task(QThread):
-    """Runs ``work(progress, cancel)`` and gives its result or its error as a signal."""
+    """Runs ``work(progress, cancel)`` and gives its result or its error as a signal.
+
+    A task outlives the widget that started it: the program waits for all of them at its end.
+    """
 
     progressed = Signal(str, int, int)
     done = Signal(object)
     failed = Signal(object)
 
+    running: ClassVar[set[Task]] = set()
+
     def __init__(self, work: Work, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._work = work
         self.cancelled = threading.Event()
+
+    def begin(self) -> None:
+        """Start the thread."""
+        Task.running.add(self)
+        self.finished.connect(self._leave)
+        self.start()
+
+    def _leave(self) -> None:
+        Task.running.discard(self)
+
+    @classmethod
+    def end_all(cls) -> None:
+        """Cancel what still runs and wait for its end."""
+        for task in list(cls.running):
+            task.cancelled.set()
+            task.wait()
+            cls.running.discard(task)
 
     def run(self) -> None:
         try:
@@ -35,57 +61,97 @@ class Task(QThread):
 
 
 class ProgressDialog(QDialog):
-    """Shows a task: what it does, the per cent, a cancel button, and at the end how it went."""
+    """Shows a task: what it does, the per cent, and a cancel button where the work can be cancelled.
 
-    def __init__(self, title: str, work: Work, parent: QWidget | None, hint: str = "") -> None:
+    ``stages`` gives the sentence for each stage the work names; another stage is shown by its own name.
+    """
+
+    def __init__(
+        self,
+        title: str,
+        work: Work,
+        parent: QWidget | None,
+        hint: str = "",
+        stages: dict[str, str] | None = None,
+        cancellable: bool = True,
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
         self.setMinimumWidth(460)
-        self.result_value: Any = None
-        self.error: Exception | None = None
-        self._text = QLabel(hint or title)
-        self._text.setWordWrap(True)
-        self._bar = QProgressBar()
-        self._bar.setRange(0, 0)
-        self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        self._buttons.rejected.connect(self._cancel)
+        self._stages = stages or {}
+        self._cancellable = cancellable
+        self._result: Any = None
+        self._error: Exception | None = None
+        self._over = False
+        self.text = QLabel(hint or title)
+        self.text.setWordWrap(True)
+        self.bar = QProgressBar()
+        self.bar.setRange(0, 0)
+        self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
+        self.buttons.rejected.connect(self.reject)
+        self.buttons.setVisible(cancellable)
         layout = QVBoxLayout(self)
-        for widget in (self._text, self._bar, self._buttons):
+        layout.setSpacing(10)
+        for widget in (self.text, self.bar, self.buttons):
             layout.addWidget(widget)
-        self.task = Task(work, self)
+        self.task = Task(work)
         self.task.progressed.connect(self._progress)
         self.task.done.connect(self._done)
         self.task.failed.connect(self._failed)
         self.task.finished.connect(self._ended)
 
-    def run(self) -> Any:
-        """Run the task to its end; returns its result or raises its error."""
-        self.task.start()
-        self.exec()
+    def run(self, patience: int = 0) -> Any:
+        """Run the task to its end; returns its result or raises its error. Shows itself after ``patience`` ms."""
+        self.task.begin()
+        if patience:
+            self._wait_quietly(patience)
+        if not self._over:
+            self.exec()
         self.task.wait()
-        if self.error is not None:
-            raise self.error
-        return self.result_value
+        self.deleteLater()
+        if self._error is not None:
+            raise self._error
+        return self._result
+
+    def _wait_quietly(self, patience: int) -> None:
+        """Keep painting for a moment, but keep keys and clicks for afterwards."""
+        loop = QEventLoop()
+        timer = QTimer()
+        timer.setSingleShot(True)
+        timer.timeout.connect(loop.quit)
+        self.task.finished.connect(loop.quit)
+        timer.start(patience)
+        loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
 
     def _progress(self, stage: str, done: int, total: int) -> None:
-        self._text.setText(stage)
-        self._bar.setRange(0, max(total, 0))
-        self._bar.setValue(done)
+        if not self.task.cancelled.is_set():
+            self.text.setText(self._stages.get(stage, stage))
+        self.bar.setRange(0, max(total, 0))
+        self.bar.setValue(done)
 
     def _done(self, result: object) -> None:
-        self.result_value = result
+        self._result = result
 
     def _failed(self, error: Exception) -> None:
-        self.error = error
+        self._error = error
 
     def _ended(self) -> None:
-        super().accept()
-
-    def _cancel(self) -> None:
-        self.task.cancelled.set()
-        self._text.setText("Stopping at the next safe point …")
-        self._buttons.setEnabled(False)
+        self._over = True
+        self.accept()
 
     def reject(self) -> None:
         """Escape and the window's close button cancel the task; the dialog closes when it has ended."""
-        self._cancel()
+        if self._cancellable:
+            self.task.cancelled.set()
+            self.text.setText("Stopping at the next safe point …")
+            self.buttons.setEnabled(False)
+
+
+def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:
+    """Return what ``work`` gives, worked out in a thread while the window stays alive; raises what it raises."""
+
+    def run(_: Progress, __: threading.Event) -> Result:
+        return work()
+
+    result: Result = ProgressDialog(title, run, parent, f"{title} …", cancellable=False).run(PATIENCE_MS)
+    return result

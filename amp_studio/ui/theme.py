@@ -1,8 +1,13 @@
-"""Colours and fonts, for light and dark desktops alike."""
+"""Colours, icons and number widths, for light and dark desktops alike."""
 
 from __future__ import annotations
 
-from PySide6.QtGui import QColor, QGuiApplication, QPalette
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPainter, QPalette, QPen, QPixmap, QPolygonF
+from PySide6.QtWidgets import QApplication, QStyle
+
+FIGURE_SPACE = "\u2007"
+"""A blank as wide as a digit, so that numbers of different length stand in one column."""
 
 
 def is_dark() -> bool:
@@ -24,6 +29,45 @@ def severity_ink(severity: str) -> QColor:
     return QColor((dark if is_dark() else light)[severity])
 
 
+def severity_icon(severity: str) -> QIcon:
+    """Return the icon of a severity."""
+    icons = QStyle.StandardPixmap
+    found = {"error": icons.SP_MessageBoxCritical, "warning": icons.SP_MessageBoxWarning}
+    return standard_icon(found.get(severity, icons.SP_MessageBoxInformation))
+
+
 def state_colour() -> QColor:
     """Return the text colour of a parameter that is out of force."""
-    return QColor("#8f8f8f")
+    return QColor("#a0a0a0" if is_dark() else "#6e6e6e")
+
+
+def standard_icon(icon: QStyle.StandardPixmap) -> QIcon:
+    """Return one of the style's own icons."""
+    return QApplication.style().standardIcon(icon)
+
+
+def program_icon() -> QIcon:
+    """Return the program's icon: a step and the axis that follows it."""
+    icon = QIcon()
+    for size in (16, 32, 64, 128):
+        icon.addPixmap(_drawn(size))
+    return icon
+
+
+def _drawn(size: int) -> QPixmap:
+    picture = QPixmap(size, size)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.scale(size / 64, size / 64)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor("#1a4f8a"))
+    painter.drawRoundedRect(QRectF(2, 2, 60, 60), 12, 12)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    step = [QPointF(9, 48), QPointF(24, 48), QPointF(24, 17), QPointF(55, 17)]
+    follow = [QPointF(24, 48), QPointF(29, 36), QPointF(35, 24), QPointF(43, 18), QPointF(55, 17)]
+    for points, colour, width in ((step, "#8fb8e8", 4.0), (follow, "#ffb454", 6.0)):
+        painter.setPen(QPen(QColor(colour), width, cap=Qt.PenCapStyle.RoundCap, join=Qt.PenJoinStyle.RoundJoin))
+        painter.drawPolyline(QPolygonF(points))
+    painter.end()
+    return picture

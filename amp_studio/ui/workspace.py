@@ -5,57 +5,96 @@ Every view listens to this object and asks it; none keeps values of its own.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from amp_studio.files import Change, Document, ParameterFile
-from amp_studio.schema import Address, Rule, Value
+from amp_studio.files import Change, Comparison, Document, ParameterFile, compare
+from amp_studio.schema import Address, Value, read_value
 from amp_studio.validate import Finding, Validator
+
+JOURNAL_MS = 1500
+_KEPT_APART = ("units", "signature", "extra")
+"""Header entries that undo does not touch: how values are shown, and what the program writes itself."""
+
+
+@dataclass(frozen=True)
+class _Marks:
+    """What a file holds beside its values: forced marks and the header."""
+
+    forced: dict[Address, str]
+    header: dict[str, object]
+
+    @classmethod
+    def of(cls, file: ParameterFile) -> _Marks:
+        return cls(dict(file.forced), {k: v for k, v in vars(file.header).items() if k not in _KEPT_APART})
+
+    def put_back(self, file: ParameterFile) -> None:
+        machine = file.machine
+        file.forced.clear()
+        file.forced.update(self.forced)
+        for key, value in self.header.items():
+            setattr(file.header, key, value)
+        if file.machine != machine:
+            file.situation.forget()
 
 
 class _Edit(QUndoCommand):
-    """One step of the undo stack: a few values replaced together."""
+    """One step of the undo stack: a few values replaced together, with the marks that go with them."""
 
-    def __init__(self, workspace: Workspace, text: str, changes: list[Change], forced: str) -> None:
+    def __init__(self, workspace: Workspace, text: str, changes: list[Change], before: _Marks, after: _Marks) -> None:
         super().__init__(text)
-        self._workspace, self._changes, self._forced = workspace, changes, forced
+        self._workspace, self._changes, self._before, self._after = workspace, changes, before, after
         self._first = True
 
     def redo(self) -> None:
-        if not self._first:
-            for change in self._changes:
-                self._workspace.file.apply(change)
-            for change in self._changes:
-                if self._forced and change.new is not None:
-                    self._workspace.mark_if_out_of_range(change.address, self._forced)
-        self._first = False
-        self._workspace.after_edit([c.address for c in self._changes])
+        if self._first:
+            self._first = False
+        else:
+            self._apply(self._changes, self._after)
+        self._tell()
 
     def undo(self) -> None:
-        for change in reversed(self._changes):
-            self._workspace.file.apply(change.reversed())
-        self._workspace.after_edit([c.address for c in self._changes])
+        self._apply([c.reversed() for c in reversed(self._changes)], self._before)
+        self._tell()
+
+    def _apply(self, changes: list[Change], marks: _Marks) -> None:
+        for change in changes:
+            self._workspace.file.apply(change)
+        marks.put_back(self._workspace.file)
+
+    def _tell(self) -> None:
+        marked = self._before.forced.items() ^ self._after.forced.items()
+        addresses = [c.address for c in self._changes] + [a for a, _ in marked]
+        self._workspace.after_edit(list(dict.fromkeys(addresses)))
 
 
 class Workspace(QObject):
     """One open document with its validator and undo stack."""
 
     changed = Signal(list)
-    """Addresses whose values changed; findings and states are already up to date."""
+    """Addresses whose values changed (none: anything may have); findings and states are already up to date."""
     saved = Signal()
+    closed = Signal()
 
-    def __init__(self, document: Document, extra_rules: Iterable[Rule] = ()) -> None:
+    def __init__(self, document: Document, validator: Validator | None = None) -> None:
+        """Take a document; a ``validator`` that is given has run already."""
         super().__init__()
         self.document = document
         self.undo_stack = QUndoStack(self)
-        self.validator = Validator(document.file, extra_rules)
-        self.findings: tuple[Finding, ...] = self.validator.run()
+        self.validator = validator or Validator(document.file)
+        self.findings: tuple[Finding, ...] = validator.findings() if validator else self.validator.run()
+        self.as_entered = False
+        """Show every value in its unit of entry instead of the file's unit system."""
+        self.control: tuple[dict[Address, Value], str] | None = None
+        """What the control held when it was last read, and when that was."""
+        self.is_saving = False
+        self._saved = (_Marks.of(document.file), document.file.header.units)
         self._journal = QTimer(self)
         self._journal.setSingleShot(True)
-        self._journal.setInterval(1500)
         self._journal.timeout.connect(self._keep_unsaved)
 
     @property
@@ -68,36 +107,52 @@ class Workspace(QObject):
         """Where it is on disk."""
         return self.document.path
 
+    @property
+    def may_edit(self) -> bool:
+        """Whether this program holds the file; otherwise it may only look."""
+        return self.document.is_locked
+
     # -- editing ---------------------------------------------------------------
 
     def edit(self, text: str, wanted: Mapping[Address, Value | None], force: str = "") -> bool:
         """Change values as one undoable step; raises RangeFault, and then nothing is changed."""
-        return self.push(text, self.file.set_many(wanted, force), force)
+        return self.do(text, lambda: self.file.set_many(wanted, force))
 
-    def push(self, text: str, changes: list[Change], force: str = "") -> bool:
-        """Put changes that were made already on the undo stack; tells whether there were any."""
-        if not changes:
+    def do(self, text: str, operation: Callable[[], object]) -> bool:
+        """Run an operation on the file as one undoable step; tells whether it changed anything.
+
+        An operation that raises leaves the file as it was.
+        """
+        before, changes = _Marks.of(self.file), list[Change]()
+        stop = self.file.listen(changes.append)
+        try:
+            operation()
+        except BaseException:
+            stop()
+            for change in reversed(changes):
+                self.file.apply(change.reversed())
+            before.put_back(self.file)
+            raise
+        stop()
+        after = _Marks.of(self.file)
+        if not changes and before == after:
             return False
-        self.undo_stack.push(_Edit(self, text, changes, force))
+        self.undo_stack.push(_Edit(self, text, changes, before, after))
         return True
-
-    def mark_if_out_of_range(self, address: Address, forced: str) -> None:
-        """Mark a value that was forced, when it is put back by redo."""
-        from amp_studio.schema import fault
-
-        value = self.file.get(address)
-        if value is not None and fault(self.file.situation, address, value):
-            self.file.forced[address] = forced
 
     def after_edit(self, addresses: list[Address]) -> None:
         """Bring findings up to date and tell the views."""
         self.findings = self.validator.update(addresses)
-        self._journal.start()
+        if not self._journal.isActive():  # not put off by the next edit: who types on loses no more than this
+            self._journal.start(JOURNAL_MS)
         self.changed.emit(addresses)
 
-    def revalidate(self) -> None:
-        """Check everything again."""
-        self.findings = self.validator.run()
+    def show_in(self, units: str | None) -> None:
+        """Show values in a unit system of the family, or as entered (None); no value changes."""
+        self.as_entered = units is None
+        if units is not None:
+            self.file.header.units = units
+        self.findings = self.validator.run()  # messages name figures in these units
         self.changed.emit([])
 
     # -- disk ------------------------------------------------------------------
@@ -105,28 +160,63 @@ class Workspace(QObject):
     @property
     def is_dirty(self) -> bool:
         """Whether there is anything to save."""
-        return self.document.is_dirty
+        return self.document.is_dirty or self._saved != (_Marks.of(self.file), self.file.header.units)
 
-    def save(self) -> None:
-        """Save in place; raises ChangedOnDisk, SaveFault, InUse."""
+    def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
+        """Save in place, through ``run`` (a thread); raises ChangedOnDisk, SaveFault, InUse."""
         self._journal.stop()
-        self.document.save("studio")
-        self.undo_stack.setClean()
+        self.is_saving = True
+        try:
+            run(lambda: self.document.save("studio"))
+        except BaseException:
+            self._journal.start(JOURNAL_MS)
+            raise
+        finally:
+            self.is_saving = False
+        self._saved = (_Marks.of(self.file), self.file.header.units)
         self.saved.emit()
 
     def _keep_unsaved(self) -> None:
-        try:
-            self.document.keep_unsaved()
-        except OSError:
-            self._journal.start(10_000)  # a full disk may have room again later
+        if self.may_edit:
+            try:
+                self.document.keep_unsaved()
+            except OSError:
+                self._journal.start(10_000)  # a full disk may have room again later
 
     def close(self) -> None:
         """Give up the file."""
         self._journal.stop()
         self.document.close()
+        self.closed.emit()
 
     # -- asking ----------------------------------------------------------------
 
     def findings_of(self, address: Address) -> tuple[Finding, ...]:
         """Return the findings that are about one address."""
         return tuple(f for f in self.findings if address in f.addresses)
+
+    def count(self, severity: str) -> int:
+        """Return how many findings of a severity there are."""
+        return sum(f.severity == severity for f in self.findings)
+
+    def typed_unit(self, address: Address) -> str:
+        """Return the unit that a bare number has when it is typed: the one in which the value is shown."""
+        value = self.file.get(address)
+        if self.as_entered and value is not None and value.unit:
+            return value.unit
+        return self.file.situation.unit(address, self.file.header.units)
+
+    def read(self, address: Address, text: str) -> Value | None:
+        """Read what a person typed for an address, None for nothing; raises ValueFault."""
+        if not text.strip():
+            return None
+        return read_value(self.file.schema.parameters[address[0]], text, self.typed_unit(address))
+
+    def remember_control(self, values: dict[Address, Value], when: str) -> None:
+        """Keep what the control was found to hold, to be shown beside the file's values."""
+        self.control = (dict(values), when)
+        self.changed.emit([])
+
+    def differences_to(self, values: Mapping[Address, Value]) -> Comparison:
+        """Return the comparison of the file as edited with other values."""
+        return compare(self.file.schema, self.file.values, values)
