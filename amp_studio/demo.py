@@ -117,11 +117,8 @@ def _address_of(control: subprocess.Popen[str]) -> str:
 
 
 def _stop(control: subprocess.Popen[str]) -> None:
-    assert control.stdin is not None
     try:
-        control.stdin.write("quit\n")
-        control.stdin.close()
-        control.wait(timeout=5)
+        control.communicate("quit\n", timeout=5)
     except (OSError, subprocess.TimeoutExpired):
         control.kill()
-        control.wait()
+        control.communicate()

@@ -163,13 +163,15 @@ class Document:
                         self._text(c.address, c.new)]) + "\n"
             for c in changes
         )  # fmt: skip
-        with contextlib.suppress(OSError), self.history_path.open("a", encoding="utf-8") as stream:
-            stream.write(lines)
+        with contextlib.suppress(OSError), self.history_path.open("a+b") as stream:
+            if stream.tell() and stream.seek(-1, 2) >= 0 and stream.read(1) != b"\n":
+                lines = "\n" + lines  # a program was killed in the middle of its last line
+            stream.write(lines.encode("utf-8"))
 
     def history(self, address: Address | None = None) -> list[HistoryEntry]:
         """Return what was saved before, newest first; of one address, or of all."""
         try:
-            lines = self.history_path.read_text(encoding="utf-8").splitlines()
+            lines = self.history_path.read_text(encoding="utf-8", errors="replace").splitlines()
         except OSError:
             return []
         found = []

@@ -46,7 +46,7 @@ class Emulator:
         listener: Listener,
         *,
         patch: Patch | None = None,
-        faults: Faults = Faults(),  # noqa: B008 -- frozen, and it says here that nothing goes wrong by default
+        faults: Faults | None = None,
         restart_seconds: float = RESTART_SECONDS,
         window: int = WINDOW,
         chunk: int = CHUNK,
@@ -55,6 +55,7 @@ class Emulator:
         self._control = control
         self._listener = listener
         self._patch = patch
+        faults = faults or Faults()
         self._line = FaultyLine(faults)
         self._restart_seconds = restart_seconds
         self._window = window
@@ -180,7 +181,7 @@ def serve(
     control: Control,
     *,
     patch: Patch | None = None,
-    faults: Faults = Faults(),  # noqa: B008 -- see Emulator
+    faults: Faults | None = None,
     restart_seconds: float = RESTART_SECONDS,
     commands: Iterable[str] | None = None,
     say: Callable[[str], None] | None = None,

@@ -13,7 +13,7 @@ from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Read
 from .progress import Progress
 from .streaming import push
 
-RESTAGINGS = 3  # how often a transfer whose staged bytes the control has lost or spoilt is begun anew
+ATTEMPTS = 3  # how often in a row a control may lose or spoil what is staged
 COMMIT_WAIT = 2.0  # seconds a control may at least take to write an image to its memory
 ABORT_WAIT = 0.5  # seconds
 
@@ -58,15 +58,23 @@ class Sending:
             self._line.cancel = None
 
     def _stage_and_commit(self) -> Committed:
-        for left in reversed(range(RESTAGINGS)):
+        idle = spoilt = 0
+        while True:
+            before = self._reached
             try:
                 return self._line.persist(self._attempt, lambda: self.held)
             except Refusal as refusal:
-                lost = refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE, Code.DIGEST)
-                if not (lost and left):
+                # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a control may
+                # also have begun anew without the client's noticing; then it says how much it has.
+                if refusal.code == Code.DIGEST:
+                    spoilt, self._reached = spoilt + 1, 0
+                elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):
+                    idle = idle + 1 if self._reached <= before else 0
+                else:
                     raise self._error(refusal) from None
-                self._transfer, self._reached, self.held = self._line.random(16), 0, "old"
-        raise AssertionError("the last attempt returns or raises")
+                if max(idle, spoilt) >= ATTEMPTS:
+                    raise self._error(refusal) from None
+                self.held = "old"
 
     def _attempt(self, talk: Conversation) -> Committed:
         """Take the download up where the control says, and commit it."""

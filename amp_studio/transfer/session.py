@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import threading
 import time
@@ -11,29 +10,25 @@ from typing import TypeVar
 
 from .address import Address, parse_address
 from .conversation import Conversation, Silence
-from .errors import ControlSilent, ImageDamaged, NoConnection, ProtocolMismatch, TransferError, error_of
+from .errors import ControlSilent, NoConnection, TransferError, error_of
+from .fetching import Fetching
 from .line import PAUSE, Line
 from .link import Link, LinkError, connect
 from .message import (
-    Code,
-    OpenUpload,
     Refusal,
     Restart,
     Restarting,
     State,
     Status,
-    UploadReady,
     Welcome,
     shorten,
 )
 from .pace import Limits
 from .progress import Progress, quiet
-from .sending import RESTAGINGS, Sending, Sent
-from .streaming import pull
+from .sending import Sending, Sent
 
 Result = TypeVar("Result")
 
-MAX_IMAGE = 1 << 26  # bytes; a control that states more is not understood rightly
 
 __all__ = ["Progress", "Session", "quiet"]
 
@@ -149,17 +144,7 @@ class Session:
     ) -> bytes:
         """Return the control's active image, checked against its digest; raises TransferError."""
         self._line.cancel = cancel
-        for _ in range(RESTAGINGS):
-            try:
-                opened, image = self._fetch_once(progress, stage)
-            except Refusal as refusal:
-                if refusal.code != Code.NO_UPLOAD:
-                    raise error_of(refusal) from None
-                continue
-            if hashlib.sha256(image).digest() == opened.sha256:
-                progress(stage, len(image), len(image))
-                return image
-        raise ImageDamaged("what the control sends does not have the digest it states")
+        return Fetching(self._line, progress, stage).run()
 
     def send(
         self,
@@ -176,31 +161,6 @@ class Session:
         TransferError, whose ``held`` says what the control holds.
         """
         return Sending(self._line, image, signature, expected, progress).run(cancel)
-
-    def _fetch_once(self, progress: Progress, stage: str) -> tuple[UploadReady, bytes]:
-        """Read one image; when the line is cut, go on with the pieces that are there if it is still the same image."""
-        opened: tuple[UploadReady, int] | None = None
-        pieces: dict[int, bytes] = {}
-
-        def read(talk: Conversation) -> UploadReady:
-            nonlocal opened
-            ready = talk.request(OpenUpload(), UploadReady)
-            if ready.size > MAX_IMAGE:
-                raise ProtocolMismatch(f"the control states an image of {ready.size} bytes, which cannot be")
-            chunk, limit = self._line.sizes(talk)
-            if (ready, chunk) != opened:
-                opened = (ready, chunk)
-                pieces.clear()
-
-            def done(received: int) -> None:
-                self._line.moved()
-                progress(stage, received, ready.size)
-
-            pull(talk, ready.size, chunk, limit, pieces, done)
-            return ready
-
-        ready = self._line.persist(read)
-        return ready, b"".join(pieces[at] for at in sorted(pieces))
 
     def _ask(self, action: Callable[[Conversation], Result]) -> Result:
         try:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from amp_studio.files import Change, copy_axis, delete_axis, fitted_axes, retype_axis
+from amp_studio.files import axis_title, copy_axis, delete_axis, fitted_axes, retype_axis
 from amp_studio.schema.model import AxisProfile
 
 from .axis_dialogs import AxisDialog
@@ -23,12 +22,15 @@ class AxisActions:
         menu = window.menuBar().addMenu("&Axis")
         act = window.action
         menu.addActions([
-            act("&Name Axis…", self.name, None),
-            act("Confi&gure Axis Type…", self.configure_type, None),
-            act("Configure &Servo…", self.configure_servo, None),
+            act("&Name Axis…", self.name, "Ctrl+Shift+N", "axes"),
+            act("Configure Axis &Type…", self.configure_type, "Ctrl+T", "axes"),
+            act("Configure &Servo…", self.configure_servo, "Ctrl+Shift+T", "axes"),
         ])  # fmt: skip
         menu.addSeparator()
-        menu.addActions([act("&Copy Axis…", self.copy, None), act("&Delete Axis…", self.delete, None)])
+        menu.addActions([
+            act("&Copy Axis…", self.copy, None, "axes"),
+            act("&Delete Axis…", self.delete, None, "axes"),
+        ])  # fmt: skip
 
     def _workspace(self) -> tuple[Workspace, AxisProfile]:
         workspace = self.window.workspace
@@ -38,14 +40,18 @@ class AxisActions:
             raise ValueError(f"{workspace.file.schema.family.name} has no axes to configure")
         return workspace, profile
 
-    def _here(self, workspace: Workspace) -> str:
-        address = self.window.selected()
-        axes = fitted_axes(workspace.file)
-        return address[1] if address and address[1] in axes else axes[0] if axes else ""
+    def _dialog(self, title: str) -> AxisDialog:
+        """Return a dialog that offers the axis of the selected cell first."""
+        workspace, _ = self._workspace()
+        address, axes = self.window.selected(), fitted_axes(workspace.file)
+        here = axes[0] if axes else ""
+        if address and address[1] in axes and workspace.file.situation.scope(address) == "axis":
+            here = address[1]
+        return AxisDialog(workspace, title, here, self.window)
 
     def _ask(self, title: str, parameter_ids: list[str]) -> None:
         workspace, _ = self._workspace()
-        dialog = AxisDialog(workspace, title, self._here(workspace), self.window)
+        dialog = self._dialog(title)
         dialog.ask_for(parameter_ids)
         if dialog.exec():
             file = workspace.file
@@ -53,40 +59,40 @@ class AxisActions:
 
     def name(self) -> None:
         """Give an axis its name."""
-        self._ask("Name Axis", [self._workspace()[1].name])
+        self._ask("Name axis", [self._workspace()[1].name])
 
     def configure_type(self) -> None:
         """Make an axis linear, rotary, a spindle or unfitted; its lengths become angles or lengths with it."""
         workspace, profile = self._workspace()
-        dialog = AxisDialog(workspace, "Configure Axis Type", self._here(workspace), self.window)
+        dialog = self._dialog("Configure axis type")
+        dialog.note.setText("Its figures stay: what is in mm becomes degrees, or the other way round.")
         dialog.ask_for([profile.type])
         if dialog.exec():
             for address, text in dialog.texts().items():
                 key = str(workspace.file.read(address, text).value)
-                self._push("Configure axis type", lambda address=address, key=key: retype_axis(workspace.file, address[1], key))
+                workspace.do("Configure axis type", lambda axis=address[1], key=key: retype_axis(workspace.file, axis, key))
 
     def configure_servo(self) -> None:
         """Choose servo hardware and loop type of an axis."""
         profile = self._workspace()[1]
-        self._ask("Configure Servo", [p for p in (profile.hardware, profile.loop) if p])
+        self._ask("Configure servo", [p for p in (profile.hardware, profile.loop) if p])
 
     def copy(self) -> None:
         """Copy the values of one axis to another of the same type."""
         workspace, _ = self._workspace()
-        dialog = AxisDialog(workspace, "Copy Axis", self._here(workspace), self.window)
+        dialog = self._dialog("Copy axis")
         target = dialog.ask_for_target()
         dialog.note.setText("Every per-axis value of all groups is copied; the name stays. Both axes must be of one type.")
         if dialog.exec():
-            self._push("Copy axis", lambda: copy_axis(workspace.file, dialog.axis(), str(target.currentData())))
+            source, axis = dialog.axis(), str(target.currentData())
+            workspace.do(f"Copy axis {source} to {axis}", lambda: copy_axis(workspace.file, source, axis))
 
     def delete(self) -> None:
         """Make an axis unfitted, with its values at their defaults."""
         workspace, _ = self._workspace()
-        dialog = AxisDialog(workspace, "Delete Axis", self._here(workspace), self.window)
+        dialog = self._dialog("Delete axis")
         dialog.note.setText("The axis becomes unfitted and its values go back to their defaults. You can undo it.")
         if dialog.exec():
-            self._push("Delete axis", lambda: delete_axis(workspace.file, dialog.axis()))
-
-    def _push(self, text: str, operation: Callable[[], list[Change]]) -> None:
-        workspace, _ = self._workspace()
-        workspace.push(text, operation())
+            axis = dialog.axis()
+            name = axis_title(workspace.file, axis)
+            workspace.do(f"Delete axis {name}", lambda: delete_axis(workspace.file, axis))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QComboBox, QDialog, QDialogButtonBox, QFormLayout, QLabel, QVBoxLayout, QWidget
 
-from amp_studio.files import axis_instances, axis_title
+from amp_studio.files import axis_instances, axis_title, axis_type
 from amp_studio.schema import Address
 
 from .value_delegate import choice_box
@@ -23,7 +23,7 @@ class AxisDialog(QDialog):
         self.axis_box = self._axis_list(axis)
         self.axis_box.currentIndexChanged.connect(lambda _: self._fill())
         self._form = QFormLayout()
-        self._form.addRow("Axis", self.axis_box)
+        self._form.addRow("&Axis", self.axis_box)
         self.note = QLabel()
         self.note.setWordWrap(True)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
@@ -50,8 +50,13 @@ class AxisDialog(QDialog):
     def ask_for_target(self) -> QComboBox:
         """Offer a second axis, the one that receives."""
         box = self._axis_list(self.axis())
-        self._form.addRow("To axis", box)
+        same = [n for n in range(box.count()) if n != box.currentIndex() and self._is_alike(str(box.itemData(n)))]
+        box.setCurrentIndex(same[0] if same else box.currentIndex())
+        self._form.addRow("&To axis", box)
         return box
+
+    def _is_alike(self, axis: str) -> bool:
+        return axis_type(self._workspace.file, axis) == axis_type(self._workspace.file, self.axis())
 
     def _fill(self) -> None:
         for box in self._fields.values():
@@ -61,6 +66,11 @@ class AxisDialog(QDialog):
             box = choice_box(self._workspace, (parameter_id, self.axis()))
             self._form.addRow(self._workspace.file.schema.parameters[parameter_id].name, box)
             self._fields[parameter_id] = box
+
+    def done(self, result: int) -> None:
+        """Leave the dialog; what was chosen can be read until the next event."""
+        super().done(result)
+        self.deleteLater()
 
     def axis(self) -> str:
         """Return the chosen axis."""

@@ -2,59 +2,147 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.files import Comparison
-from amp_studio.schema import Address, show_value
+from amp_studio.files import Comparison, Difference
+from amp_studio.schema import Address, Value, show_value
 
 from .workspace import Workspace
 
+_DIFFERENCE = Qt.ItemDataRole.UserRole
+
+
+class DifferenceList(QTreeWidget):
+    """A row for each value that differs: where, how, and both sides."""
+
+    def __init__(self, workspace: Workspace, found: Comparison, other: str, tick: bool) -> None:
+        super().__init__()
+        self.setHeaderLabels(["Parameter", "Axis", "Difference", "This file", other[:1].upper() + other[1:]])
+        self.setRootIsDecorated(False)
+        self.setUniformRowHeights(True)
+        self.setAlternatingRowColors(True)
+        schema, machine = workspace.file.schema, workspace.file.machine
+        for difference in found.differences:
+            item = QTreeWidgetItem([
+                schema.label(difference.address, machine),
+                schema.instance_label(difference.address, machine),
+                "absent here" if difference.a is None else "absent there" if difference.b is None else "different",
+                *(show_value(schema.parameters[difference.address[0]], v) for v in (difference.a, difference.b)),
+            ])  # fmt: skip
+            item.setData(0, _DIFFERENCE, difference)
+            if tick:
+                item.setCheckState(0, Qt.CheckState.Unchecked)
+            self.addTopLevelItem(item)
+        for column, width in enumerate((290, 70, 105, 190, 190)):
+            self.setColumnWidth(column, width)
+
+    def items(self) -> list[QTreeWidgetItem]:
+        """Return every row."""
+        return [self.topLevelItem(n) for n in range(self.topLevelItemCount())]
+
+    def tick_all(self) -> None:
+        """Tick every row, or none if all are ticked."""
+        ticked = all(i.checkState(0) == Qt.CheckState.Checked for i in self.items())
+        for item in self.items():
+            item.setCheckState(0, Qt.CheckState.Unchecked if ticked else Qt.CheckState.Checked)
+
+    def ticked(self) -> list[Difference]:
+        """Return the differences whose rows are ticked."""
+        return [i.data(0, _DIFFERENCE) for i in self.items() if i.checkState(0) == Qt.CheckState.Checked]
+
+
+def counts(found: Comparison, other: str) -> str:
+    """Return the counts of a comparison in a sentence."""
+    different = len(found.differences) - found.absent_in_a - found.absent_in_b
+    return (f"{different} values are different, {found.same} the same; {found.absent_in_a} are absent in this file and "
+            f"{found.absent_in_b} in {other}.")  # fmt: skip
+
 
 class CompareDialog(QDialog):
-    """Shows what differs; ticked rows can be taken over as one step."""
+    """Shows what differs; ticked rows can be taken over as one step. Stays open beside the table."""
 
-    def __init__(self, workspace: Workspace, found: Comparison, other: str, show: Callable[[Address], None],
-                 parent: QWidget | None = None) -> None:  # fmt: skip
+    def __init__(
+        self,
+        workspace: Workspace,
+        other_values: Mapping[Address, Value],
+        other: str,
+        show: Callable[[Address], None],
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(f"Compare with {other}")
-        self.resize(760, 480)
-        self._workspace, self._found, self._show = workspace, found, show
-        file = workspace.file
-        self.list = QTreeWidget()
-        self.list.setHeaderLabels(["Parameter", "Instance", "Open file", other])
-        for difference in found.differences:
-            parameter = file.schema.parameters[difference.address[0]]
-            item = QTreeWidgetItem([
-                file.schema.label(difference.address, file.machine),
-                file.schema.instance_label(difference.address, file.machine),
-                show_value(parameter, difference.a) if difference.a is not None else "absent",
-                show_value(parameter, difference.b) if difference.b is not None else "absent",
-            ])  # fmt: skip
-            item.setData(0, Qt.ItemDataRole.UserRole, difference)
-            item.setCheckState(0, Qt.CheckState.Unchecked)
-            self.list.addTopLevelItem(item)
-        for column, width in enumerate((290, 80, 170, 170)):
-            self.list.setColumnWidth(column, width)
-        self.list.itemDoubleClicked.connect(lambda item, _: show(item.data(0, Qt.ItemDataRole.UserRole).address))
-        take = QPushButton("&Take the ticked values of the other side")
-        take.clicked.connect(self.take)
-        take.setEnabled(workspace.document.is_locked and bool(found.differences))
-        layout = QVBoxLayout(self)
-        layout.addWidget(QLabel(
-            f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in the open file, "
-            f"{found.absent_in_b} absent in {other}."
-        ))  # fmt: skip
-        layout.addWidget(self.list)
-        layout.addWidget(take)
+        self.resize(900, 500)
+        self._workspace, self._values, self._other, self._show = workspace, dict(other_values), other, show
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.list = DifferenceList(workspace, Comparison((), 0), other, tick=True)
+        self.every = QPushButton("Tick &all")
+        self.take_button = QPushButton("&Take the ticked values into this file")
+        close = QPushButton("&Close")
+        buttons = QHBoxLayout()
+        for button, act in ((self.every, self._tick_all), (self.take_button, self.take), (close, self.close)):
+            button.setAutoDefault(False)
+            button.clicked.connect(act)
+            buttons.addWidget(button)
+        buttons.insertStretch(2)
+        self._layout = QVBoxLayout(self)
+        self._layout.addWidget(self.text)
+        self._layout.addWidget(self.list)
+        self._layout.addLayout(buttons)
+        workspace.changed.connect(self._fill)
+        workspace.closed.connect(self.close)
+        self._fill()
+
+    def _fill(self, *_: object) -> None:
+        """Show what differs now; an edit may have made some the same."""
+        found = self._workspace.differences_to(self._values)
+        fresh = DifferenceList(self._workspace, found, self._other, tick=True)
+        self._layout.replaceWidget(self.list, fresh)
+        self.list.deleteLater()
+        self.list = fresh
+        self.list.itemActivated.connect(self._go)
+        self.text.setText(counts(found, self._other))
+        for button in (self.every, self.take_button):
+            button.setEnabled(self._workspace.may_edit and bool(found.differences))
+
+    def _go(self, item: QTreeWidgetItem) -> None:
+        self._show(item.data(0, _DIFFERENCE).address)
+
+    def _tick_all(self) -> None:
+        self.list.tick_all()
 
     def take(self) -> None:
-        """Take the ticked values into the open file as one step."""
-        ticked = [self.list.topLevelItem(n) for n in range(self.list.topLevelItemCount())]
-        wanted = {d.address: d.b for i in ticked if i.checkState(0) == Qt.CheckState.Checked
-                  for d in [i.data(0, Qt.ItemDataRole.UserRole)]}  # fmt: skip
+        """Take the ticked values into the open file as one step; what is out of range there stays marked."""
+        wanted = {d.address: d.b for d in self.list.ticked()}
         if wanted:
-            self._workspace.edit("Take values", wanted)
-            self.accept()
+            self._workspace.edit(f"Take values of {self._other}", wanted, force=f"as {self._other} has it")
+
+
+class DownloadPreview(QDialog):
+    """Says what a download would change in the control, before it does."""
+
+    def __init__(self, workspace: Workspace, found: Comparison, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Download")
+        self.resize(900, 500)
+        text = QLabel(f"{counts(found, 'the control')} The control takes the file as a whole: what is absent in this file is "
+                      "left to the control's own default. What it holds now is kept beside the file first.\n\n"
+                      "The control must be in E-stop.")  # fmt: skip
+        text.setWordWrap(True)
+        self.list = DifferenceList(workspace, found, "the control", tick=False)
+        self.send, cancel = QPushButton("&Download"), QPushButton("Cancel")
+        self.send.setDefault(True)
+        self.send.clicked.connect(self.accept)
+        cancel.clicked.connect(self.reject)
+        buttons = QHBoxLayout()
+        buttons.addStretch()
+        buttons.addWidget(self.send)
+        buttons.addWidget(cancel)
+        layout = QVBoxLayout(self)
+        layout.addWidget(text)
+        layout.addWidget(self.list)
+        layout.addLayout(buttons)

@@ -1,291 +1,295 @@
-"""The file and project menus: new, open, save, save as, recover, copy, rename, delete, report, project."""
+"""The file menu: new, open, save, save as, compare, recover, facts, report."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QFileDialog, QInputDialog, QLabel, QMessageBox, QVBoxLayout, QWidget
+from PySide6.QtCore import QUrl
+from PySide6.QtGui import QAction, QDesktopServices, QKeySequence
+from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
 
-from amp_studio.files import Document, InUse, Project, Unsaved, backup_path, compare, open_file, recover_backup
+from amp_studio.files import Document, InUse, Unsaved, backup_path, open_file, recover_backup
+from amp_studio.files.lock import EditLock
+from amp_studio.schema import Address, DatabaseFault, read_rules
+from amp_studio.validate import RuleFault, Validator
 
-from .file_dialogs import NewFileDialog, ProjectDialog, ReportDialog, project_summary
-from .task import ProgressDialog
+from .questions import ask, tell
+from .task import Progress, ProgressDialog, in_background
 from .workspace import Workspace
 
 if TYPE_CHECKING:
+    import threading
+
     from .main_window import MainWindow
 
 FILTER = "Parameter files (*.amp);;All files (*)"
+OWN_RULES = "rules.yaml"
+_RECENT = 8
+
+Checked = tuple[Document, Validator, str]
+"""A document, its validator, which has run, and what is wrong with the rules beside it."""
 
 
 class FileActions:
-    """Everything that opens, saves or renames."""
+    """Everything that opens, saves, compares or prints the open file."""
 
     def __init__(self, window: MainWindow) -> None:
         self.window = window
-        self.project: Project | None = None
-        act, keys = window.action, QKeySequence.StandardKey
+        act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
+        new = act("&New…", self.new, keys.New, "", icons.SP_FileIcon, "New")
+        opened = act("&Open…", self.open, keys.Open, "", icons.SP_DialogOpenButton, "Open")
+        save = act("&Save", window.save_or_tell, keys.Save, "edit", icons.SP_DialogSaveButton)
+        save_as = act("Save &As…", self.save_as, "Ctrl+Shift+S")
+        close = act("&Close", self.close, keys.Close)
+        report = act("&Report…", self.report, keys.Print, "file", icons.SP_FileDialogDetailedView, "Report")
         menu = window.menuBar().addMenu("&File")
-        new = act("&New…", self.new, keys.New, needs_file=False)
-        opened = act("&Open…", self.open, keys.Open, needs_file=False)
-        save = act("&Save", window.save_or_tell, keys.Save)
-        self.report_action = act("&Report…", self.report, QKeySequence.StandardKey.Print)
-        menu.addActions([new, opened, save, act("Save &As…", self.save_as, keys.SaveAs)])
+        menu.addActions([new, opened])
+        self._recent_menu = QMenu("Open R&ecent", window)
+        self._recent_menu.aboutToShow.connect(self._fill_recent)
+        self._recent_menu.setEnabled(bool(self.recent()))
+        menu.addMenu(self._recent_menu)
+        menu.addActions([save, save_as, close])
         menu.addSeparator()
-        menu.addActions([act("Compare &With…", self.compare, None), act("Recover &Backup…", self.recover, None)])
+        menu.addActions([act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")])
         menu.addSeparator()
-        menu.addActions([self.report_action, act("Machine Facts…", self.facts, None)])
+        menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()
-        menu.addAction(act("E&xit", window.close, keys.Quit, needs_file=False))
-        project = window.menuBar().addMenu("&Project")
-        project.addActions([
-            act("New &Project…", self.new_project, None, needs_file=False),
-            act("&Open Project…", self.open_project, None, needs_file=False),
-            act("Project &Information…", self.change_project, None, needs_file=False),
-        ])  # fmt: skip
-        project.addSeparator()
-        project.addActions([
-            act("Open &File of the Project…", self.open_of_project, "Ctrl+Shift+O", needs_file=False),
-            act("&Copy File…", self.copy, None, needs_file=False),
-            act("Copy from &Another Project…", self.copy_from, None, needs_file=False),
-            act("&Rename File…", self.rename, None, needs_file=False),
-            act("&Delete File…", self.delete, None, needs_file=False),
-            act("Recover a Deleted or Older File…", self.recover_of_project, None, needs_file=False),
-        ])  # fmt: skip
-        self.toolbar: list[QAction] = [new, opened, save, self.report_action]
+        menu.addAction(act("E&xit", window.close, keys.Quit, ""))
+        self.toolbar: list[QAction] = [new, opened, save, report]
+        self.welcome: list[QAction] = [new, opened]
 
-    def show_welcome(self) -> None:
-        """Show what can be done without a file."""
-        label = QLabel(
-            "<h2>AMP Studio</h2><p>Open a parameter file (Ctrl+O) or make a new one (Ctrl+N).</p>"
-            "<p>Every command is one Ctrl+Shift+P away.</p>"
-        )
-        label.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        page = QWidget()
-        QVBoxLayout(page).addWidget(label)
-        self.window.setCentralWidget(page)
+    # -- recent files ----------------------------------------------------------
 
-    # -- files -----------------------------------------------------------------
+    def recent(self) -> list[Path]:
+        """Return the files that were open last and are still there."""
+        kept = self.window.settings.value("recent") or []
+        paths = [Path(str(p)) for p in (kept if isinstance(kept, list) else [kept])]
+        return [p for p in paths if p.is_file()]
+
+    def _remember(self, path: Path) -> None:
+        path = path.absolute()
+        paths = [path, *(p for p in self.recent() if p != path)][:_RECENT]
+        self.window.settings.setValue("recent", [str(p) for p in paths])
+        self._recent_menu.setEnabled(True)
+
+    def _fill_recent(self) -> None:
+        self._recent_menu.clear()
+        for n, path in enumerate(self.recent(), 1):
+            action = self._recent_menu.addAction(f"&{n} {path.name}  ({path.parent})")
+            action.triggered.connect(lambda *_, path=path: self.window.open_first(path))
+
+    # -- opening ---------------------------------------------------------------
 
     def new(self) -> None:
         """Make a new file from the family's defaults."""
+        from .file_dialogs import NewFileDialog
+
         if not self.window.may_leave():
             return
         dialog = NewFileDialog(self.window)
-        if dialog.exec():
-            file = dialog.make()
-            if self.project and self.project.info.family == file.schema.family.family:
-                path = self.project.path(file.header.name)
-            else:
-                path = self._ask_path("New parameter file", Path(file.header.name or "machine"))
-            if path:
-                self.show_document(Document.create(file, path))
+        if not dialog.exec():
+            return
+        file = dialog.make()
+        project = self.window.projects.project
+        if project and project.info.family == file.schema.family.family:
+            path: Path | None = project.path(file.header.name)
+            if path and path.exists():
+                raise FileExistsError(f"The project has a file '{path.stem}' already.")
+        else:
+            path = self.ask_path("New parameter file", Path(file.header.name or "machine"))
+        if path:
+            self._write_new(path, lambda: Document.create(file, path))
 
-    def _ask_path(self, title: str, near: Path) -> Path | None:
-        text, _ = QFileDialog.getSaveFileName(self.window, title, str(near.with_suffix(".amp")), FILTER)
-        return Path(text) if text else None
+    def ask_path(self, title: str, near: Path) -> Path | None:
+        """Ask where to save; a name without an ending gets ours, and replacing a file is asked for."""
+        here = self.window.workspace.path.parent if self.window.workspace else Path()
+        text, _ = QFileDialog.getSaveFileName(self.window, title, str(here / near.with_suffix(".amp")), FILTER,
+                                              options=QFileDialog.Option.DontConfirmOverwrite)  # fmt: skip
+        if not text:
+            return None
+        path = Path(text)
+        path = path if path.suffix else path.with_suffix(".amp")
+        question = f"{path.name} exists already. Replace it? What stands there becomes its backup."
+        if path.exists() and ask(self.window, title, question, "&Replace", "Cancel", default=1) != "&Replace":
+            return None
+        return path
+
+    def _write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
+        """Show the document that ``write`` makes; a file that stands there becomes its own backup first."""
+
+        def work() -> Checked:
+            if not path.exists():
+                document = write()
+            else:
+                with EditLock(path):  # raises InUse while a program edits it
+                    os.replace(path, backup_path(path))
+                try:
+                    document = write()
+                except BaseException:
+                    if not path.exists():
+                        os.replace(backup_path(path), path)
+                    raise
+            return document, *checked(document)
+
+        self._show(in_background(self.window, "Saving", work), here)
 
     def open(self) -> None:
         """Ask for a file and open it."""
-        folder = str(self.project.folder) if self.project else ""
-        text, _ = QFileDialog.getOpenFileName(self.window, "Open", folder, FILTER)
+        project, workspace = self.window.projects.project, self.window.workspace
+        folder = workspace.path.parent if workspace else project.folder if project else ""
+        text, _ = QFileDialog.getOpenFileName(self.window, "Open", str(folder), FILTER)
         if text:
             self.open_path(Path(text))
 
-    def open_path(self, path: Path, ask: bool = True) -> None:
+    def open_path(self, path: Path, ask_first: bool = True) -> None:
         """Open a file; offers unsaved work, and to look at it when another program edits it. Raises FileFault."""
-        if ask and not self.window.may_leave():
+        if ask_first and not self.window.may_leave():
             return
-        if self.window.workspace and self.window.workspace.path.resolve() == path.resolve():
-            self.window.workspace.close()
+        workspace, here = self.window.workspace, None
+        if workspace is not None and workspace.path.resolve() == path.resolve():
+            here = self.window.selected()
+            in_background(self.window, "Opening", lambda: open_file(path))  # what cannot be read replaces nothing
+            self.window.show_nothing()
         try:
-            document = Document.open(path)
+            opened = in_background(self.window, "Opening", lambda: _opened(Document.open, path))
         except InUse as error:
-            answer = QMessageBox.question(self.window, "File in use", f"{error}.\n\nOpen it to look at it only?")
-            if answer != QMessageBox.StandardButton.Yes:
+            question = f"{error}.\n\nOpen it to look at it only?"
+            if ask(self.window, "File in use", question, "&Look at it", "Cancel") != "&Look at it":
                 return
-            document = Document.view(path)
-        self.show_document(document)
+            opened = in_background(self.window, "Opening", lambda: _opened(Document.view, path))
+        self._show(opened, here)
+
+    def _show(self, opened: Checked, here: Address | None = None) -> None:
+        document, validator, said = opened
+        self.window.show_workspace(Workspace(document, validator))
+        self._remember(document.path)
+        self.window.projects.notice(document.path.parent)
+        if here:
+            self.window.go_to(here)
+        if said:
+            tell(self.window, "Own rules", said)
         if document.is_locked:
             self._offer_unsaved(document)
-
-    def show_document(self, document: Document) -> None:
-        """Show a document in the window."""
-        self.window.show_workspace(Workspace(document))
-        self.window.settings.setValue("last-file", str(document.path))
-        folder = document.path.parent
-        if (folder / "project.yaml").exists() and (self.project is None or self.project.folder != folder):
-            self.project = Project.open(folder)
 
     def _offer_unsaved(self, document: Document) -> None:
         left = document.find_unsaved()
         if left is None or not left.changes:
             return
         note = "" if left.fits else "\n\nThe file has been changed since; check what you take."
-        answer = QMessageBox.question(
-            self.window, "Unsaved work found",
-            f"The program ended before {len(left.changes)} changes of {left.when[:16].replace('T', ' ')} "
-            f"({left.who}) were saved.{note}\n\nTake them back? (You can undo it.)",
-        )  # fmt: skip
-        if answer == QMessageBox.StandardButton.Yes:
+        count = "one change" if len(left.changes) == 1 else f"{len(left.changes)} changes"
+        text = (f"The program ended before {count} of {left.when[:16].replace('T', ' ')} ({left.who}) could be saved."
+                f"{note}\n\nTake the work back? It can be undone.")  # fmt: skip
+        answer = ask(self.window, "Unsaved work found", text, "&Take it back", "&Throw it away", "Decide &later")
+        if answer == "&Take it back":
             self._take(left)
-        else:
+        elif answer == "&Throw it away":
             document.discard_unsaved()
+        else:
+            self.window.show_nothing()  # the first edit would write over it
 
     def _take(self, left: Unsaved) -> None:
         assert self.window.workspace is not None
         wanted = {c.address: c.new for c in left.changes}
         self.window.workspace.edit("Unsaved work", wanted, force="by the program that ended before it saved")
 
-    def save_as(self) -> None:
-        """Save under a new name; the original stays as it is on disk."""
+    # -- the open file ---------------------------------------------------------
+
+    def _workspace(self) -> Workspace:
         workspace = self.window.workspace
         assert workspace is not None
-        path = self._ask_path("Save as", workspace.path)
-        if path and path.resolve() == workspace.path.resolve():
+        return workspace
+
+    def close(self) -> None:
+        """Close the file and show the welcome page."""
+        if self.window.may_leave():
+            self.window.show_nothing()
+
+    def save_as(self) -> None:
+        """Save under a new name; the original stays as it is on disk."""
+        workspace, here = self._workspace(), self.window.selected()
+        path = self.ask_path("Save as", workspace.path)
+        if path is None:
+            return
+        if path.resolve() == workspace.path.resolve():
             self.window.save_or_tell()
-        elif path:
-            if path.exists():  # the dialog has asked already
-                path.replace(backup_path(path))
-            self.show_document(workspace.document.save_as(path))
+            return
+        self._write_new(path, lambda: workspace.document.save_as(path), here)
 
     def compare(self) -> None:
         """List the differences to another file."""
-        workspace = self.window.workspace
-        assert workspace is not None
+        workspace = self._workspace()
         text, _ = QFileDialog.getOpenFileName(self.window, "Compare with", str(workspace.path.parent), FILTER)
         if text:
             from .compare_dialog import CompareDialog
 
-            other = open_file(Path(text)).file
+            other = in_background(self.window, "Opening", lambda: open_file(Path(text)).file)
             if other.schema is not workspace.file.schema:
                 raise ValueError(f"{Path(text).name} is for {other.schema.family.name}")
-            found = compare(workspace.file.schema, workspace.file.values, other.values)
-            CompareDialog(workspace, found, Path(text).name, self.window.go_to, self.window).show()
+            CompareDialog(workspace, other.values, Path(text).name, self.window.go_to, self.window).show()
 
     def recover(self) -> None:
         """Put the backup of the open file in its place."""
-        workspace = self.window.workspace
-        assert workspace is not None
+        workspace = self._workspace()
         path = workspace.path
-        question = f"Replace {path.name} by its backup? What stands there now becomes the backup."
-        if QMessageBox.question(self.window, "Recover backup", question) == QMessageBox.StandardButton.Yes:
-            recover_backup(path, workspace.document.digest)
-            self.open_path(path, ask=False)
+        if not backup_path(path).is_file():
+            raise FileNotFoundError(f"{path.name} has no backup yet: the first save makes one.")
+        lost = " Your unsaved changes are lost." if workspace.is_dirty else ""
+        question = f"Replace {path.name} by its backup? What stands there now becomes the backup.{lost}"
+        if ask(self.window, "Recover backup", question, "&Replace", "Cancel", default=1) == "&Replace":
+            in_background(self.window, "Recovering", lambda: recover_backup(path, workspace.document.digest))
+            self.open_path(path, ask_first=False)
 
     def facts(self) -> None:
-        """Edit the notes, revision and application of the open file."""
-        workspace = self.window.workspace
-        assert workspace is not None
+        """Edit the name, revision, application and notes of the open file."""
         from .file_dialogs import FactsDialog
 
-        if FactsDialog(workspace.file.header, self.window).exec():
-            workspace.save()
+        workspace = self._workspace()
+        dialog = FactsDialog(workspace.file.header, self.window)
+        if dialog.exec():
+            workspace.do("Machine facts", lambda: vars(workspace.file.header).update(dialog.texts()))
 
     def report(self) -> None:
         """Print the file as PDF, HTML, CSV or text."""
-        workspace = self.window.workspace
-        assert workspace is not None
+        from .file_dialogs import ReportDialog
+
+        workspace = self._workspace()
         dialog = ReportDialog(workspace.path, self.window)
         if not dialog.exec():
             return
-        path, sort, changed_only = dialog.chosen()
+        path, sort, changed_only, show = dialog.chosen()
         file = workspace.file.copy()
 
-        def work(progress: object, cancel: object) -> Path:
+        def work(_: Progress, __: threading.Event) -> None:
             from amp_studio.report import write_report
 
             write_report(file, path, sort=sort, changed_only=changed_only, source=workspace.path)
-            return path
 
-        ProgressDialog("Report", work, self.window, f"Writing {path.name} …").run()
-        self.window.statusBar().showMessage(f"{path} written", 8000)
+        ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()
+        self.window.say(f"{path} written")
+        if show:
+            QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
 
-    # -- projects --------------------------------------------------------------
 
-    def _the_project(self) -> Project:
-        if self.project is None:
-            raise ValueError("Open a project first (Project > Open Project)")
-        return self.project
 
-    def new_project(self) -> None:
-        """Make a project folder."""
-        dialog = ProjectDialog(None, self.window)
-        if dialog.exec():
-            folder = QFileDialog.getExistingDirectory(self.window, "Folder of the new project")
-            if folder:
-                self.project = Project.create(Path(folder), dialog.info())
-                self.window.statusBar().showMessage(project_summary(self.project), 8000)
+def _opened(how: Callable[[Path], Document], path: Path) -> Checked:
+    document = how(path)
+    return document, *checked(document)
 
-    def open_project(self) -> None:
-        """Open a project folder and choose one of its files."""
-        folder = QFileDialog.getExistingDirectory(self.window, "Open project")
-        if folder:
-            self.project = Project.open(Path(folder))
-            if self.project.files():
-                self.open_of_project()
 
-    def change_project(self) -> None:
-        """Change the project information."""
-        project = self._the_project()
-        dialog = ProjectDialog(project.info, self.window)
-        if dialog.exec():
-            info = dialog.info()
-            project.change(**{k: getattr(info, k) for k in ("name", "application", "machine", "control", "control_name",
-                                                            "revision", "notes")})  # fmt: skip
+def checked(document: Document) -> tuple[Validator, str]:
+    """Return the validator of a document, which has run, and what is wrong with the rules beside the file, if anything.
 
-    def _choose(self, title: str, paths: list[Path]) -> Path | None:
-        if not paths:
-            raise ValueError("the project has no such files")
-        names = [p.stem for p in paths]
-        name, accepted = QInputDialog.getItem(self.window, title, "File", names, 0, False)
-        return paths[names.index(name)] if accepted else None
-
-    def _ask_name(self, title: str, name: str = "") -> str | None:
-        text, accepted = QInputDialog.getText(self.window, title, "New name", text=name)
-        return text.strip() if accepted and text.strip() else None
-
-    def open_of_project(self) -> None:
-        """Open a file of the project."""
-        path = self._choose("Open", self._the_project().files())
-        if path:
-            self.open_path(path)
-
-    def copy(self) -> None:
-        """Copy a file of the project under a new name and open the copy."""
-        self._copy(self._choose("Copy", self._the_project().files()))
-
-    def copy_from(self) -> None:
-        """Copy a file of another project into this one."""
-        self._the_project()
-        text, _ = QFileDialog.getOpenFileName(self.window, "Copy from another project", "", FILTER)
-        self._copy(Path(text) if text else None)
-
-    def _copy(self, source: Path | None) -> None:
-        name = source and self._ask_name("Copy", source.stem)
-        if source and name:
-            self.open_path(self._the_project().copy(source, name))
-
-    def rename(self) -> None:
-        """Rename a file of the project that is not open."""
-        path = self._choose("Rename", self._the_project().files())
-        name = path and self._ask_name("Rename", path.stem)
-        if path and name:
-            self._the_project().rename(path, name)
-
-    def delete(self) -> None:
-        """Delete a file of the project; it can be recovered."""
-        path = self._choose("Delete", self._the_project().files())
-        if path and QMessageBox.question(self.window, "Delete", f"Delete {path.name}? Its content stays as its backup."
-                                         ) == QMessageBox.StandardButton.Yes:  # fmt: skip
-            self._the_project().delete(path)
-
-    def recover_of_project(self) -> None:
-        """Bring a deleted or older file back."""
-        path = self._choose("Recover", self._the_project().backups())
-        if path:
-            self._the_project().recover(path)
-            self.open_path(path)
+    A machine builder's own rules stand in a ``rules.yaml`` beside his files.
+    """
+    own, said = document.path.parent / OWN_RULES, ""
+    try:
+        validator = Validator(document.file, read_rules(own) if own.is_file() else ())
+        validator.run()
+    except (DatabaseFault, RuleFault) as error:
+        said = f"{error}\n\nThe file is checked without the rules of {own.name}."
+        validator = Validator(document.file)
+        validator.run()
+    return validator, said

@@ -15,15 +15,17 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
+    QLabel,
     QLineEdit,
-    QMessageBox,
     QPlainTextEdit,
     QPushButton,
     QWidget,
 )
 
-from amp_studio.files import Header, ParameterFile, Project, ProjectInfo, new_file
+from amp_studio.files import Header, ParameterFile, ProjectInfo, new_file
 from amp_studio.schema import family_ids, load_schema
+
+from .questions import tell
 
 Sort = Literal["axis", "number", "group"]
 
@@ -34,8 +36,13 @@ class _Form(QDialog):
     def __init__(self, title: str, parent: QWidget | None) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
-        self.setMinimumWidth(440)
+        self.setMinimumWidth(480)
         self.form = QFormLayout(self)
+
+    def done(self, result: int) -> None:
+        """Leave the form; what was typed can be read until the next event."""
+        super().done(result)
+        self.deleteLater()
 
     def add_buttons(self) -> None:
         """Close the form with its buttons."""
@@ -62,7 +69,7 @@ class NewFileDialog(_Form):
         self.name = QLineEdit("MACHINE_1")
         self.axes = QLineEdit()
         self.axes.setPlaceholderText("X, Y, Z, B, S — empty keeps the default axes")
-        for label, field in (("Control", self.family), ("Machine type", self.machine), ("Name", self.name), ("Axes", self.axes)):
+        for label, field in (("&Control", self.family), ("&Machine type", self.machine), ("&Name", self.name), ("&Axes", self.axes)):
             self.form.addRow(label, field)
         self.family.currentIndexChanged.connect(lambda _: self._machines())
         self._machines()
@@ -85,7 +92,7 @@ class NewFileDialog(_Form):
         try:
             self.make()
         except ValueError as error:
-            QMessageBox.warning(self, "New parameter file", str(error))
+            tell(self, "New parameter file", str(error))
             return
         super().accept()
 
@@ -95,19 +102,22 @@ class FactsDialog(_Form):
 
     def __init__(self, header: Header, parent: QWidget | None = None) -> None:
         super().__init__("Machine facts", parent)
-        self._header = header
         self.name, self.application = QLineEdit(header.name), QLineEdit(header.application)
         self.revision, self.notes = QLineEdit(header.revision), QPlainTextEdit(header.notes)
-        for label, field in (("Name", self.name), ("Application", self.application),
-                             ("Control software revision", self.revision), ("Notes", self.notes)):  # fmt: skip
+        self.notes.setTabChangesFocus(True)
+        for label, field in (("&Name", self.name), ("&Application", self.application),
+                             ("Control software &revision", self.revision), ("N&otes", self.notes)):  # fmt: skip
             self.form.addRow(label, field)
         self.add_buttons()
 
-    def accept(self) -> None:
-        """Take the texts into the header."""
-        self._header.name, self._header.application = self.name.text(), self.application.text()
-        self._header.revision, self._header.notes = self.revision.text(), self.notes.toPlainText()
-        super().accept()
+    def texts(self) -> dict[str, str]:
+        """Return the header entries as typed."""
+        return {
+            "name": self.name.text().strip(),
+            "application": self.application.text().strip(),
+            "revision": self.revision.text().strip(),
+            "notes": self.notes.toPlainText(),
+        }
 
 
 class ReportDialog(_Form):
@@ -115,30 +125,40 @@ class ReportDialog(_Form):
 
     def __init__(self, path: Path, parent: QWidget | None = None) -> None:
         super().__init__("Report", parent)
+        self.setMinimumWidth(560)
         self.sort = QComboBox()
         for key, name in (("axis", "Axis and non-axis parameters"), ("number", "By parameter number"), ("group", "By group")):
             self.sort.addItem(name, key)
         self.sort.setCurrentIndex(2)
-        self.changed = QCheckBox("Only values that differ from the default")
-        self.path = QLineEdit(str(path.with_suffix(".pdf")))
-        browse = QPushButton("…")
+        self.changed = QCheckBox("Only values that &differ from the default")
+        self.show_it = QCheckBox("O&pen it when it is written")
+        self.path = QLineEdit(str(path.with_suffix(".pdf").absolute()))
+        self.path.setToolTip("The ending says the format: .pdf, .html, .csv or .txt")
+        browse = QPushButton("&Browse…")
+        browse.setAutoDefault(False)
         browse.clicked.connect(self._browse)
         row = QHBoxLayout()
         row.addWidget(self.path)
         row.addWidget(browse)
-        self.form.addRow("Order", self.sort)
+        label = QLabel("&File (.pdf .html .csv .txt)")
+        label.setBuddy(self.path)
+        self.form.addRow("&Order", self.sort)
         self.form.addRow("", self.changed)
-        self.form.addRow("File (.pdf .html .csv .txt)", row)
+        self.form.addRow(label, row)
+        self.form.addRow("", self.show_it)
         self.add_buttons()
 
     def _browse(self) -> None:
-        text, _ = QFileDialog.getSaveFileName(self, "Report", self.path.text(), "PDF (*.pdf);;HTML (*.html);;CSV (*.csv);;Text (*.txt)")
+        endings = "PDF (*.pdf);;HTML (*.html);;CSV (*.csv);;Text (*.txt)"
+        text, chosen = QFileDialog.getSaveFileName(self, "Report", self.path.text(), endings)
         if text:
-            self.path.setText(text)
+            path = Path(text)
+            self.path.setText(text if path.suffix else str(path.with_suffix(chosen[chosen.index("*") + 1 : -1])))
 
-    def chosen(self) -> tuple[Path, Sort, bool]:
-        """Return path, order and whether only changed values are printed."""
-        return Path(self.path.text()), cast(Sort, self.sort.currentData()), self.changed.isChecked()
+    def chosen(self) -> tuple[Path, Sort, bool, bool]:
+        """Return path, order, whether only changed values are printed, and whether to open the report."""
+        sort = cast(Sort, self.sort.currentData())
+        return Path(self.path.text().strip()), sort, self.changed.isChecked(), self.show_it.isChecked()
 
 
 class ProjectDialog(_Form):
@@ -152,13 +172,15 @@ class ProjectDialog(_Form):
         self.name = QLineEdit(info.name if info else "")
         self.name.setValidator(QRegularExpressionValidator(QRegularExpression(r".{1,64}")))
         self.control = QLineEdit(info.control if info else "")
-        self.control.setPlaceholderText("tcp://host:port or serial:/dev/ttyUSB0?baud=115200 (COM3 on Windows)")
+        self.control.setPlaceholderText("tcp://host:port or serial:/dev/ttyUSB0?baud=115200")
+        self.control.setToolTip("On Windows a serial port is written serial:COM3?baud=115200")
         self.control_name = QLineEdit(info.control_name if info else "CNC_1")
         self.revision = QLineEdit(info.revision if info else "")
         self.notes = QPlainTextEdit(info.notes if info else "")
-        for label, field in (("Name", self.name), ("Control family", self.family), ("Machine type", self.machine),
-                             ("Control address", self.control), ("Control name", self.control_name),
-                             ("Software revision", self.revision), ("Notes", self.notes)):  # fmt: skip
+        self.notes.setTabChangesFocus(True)
+        for label, field in (("&Name", self.name), ("Control &family", self.family), ("&Machine type", self.machine),
+                             ("Control &address", self.control), ("&Control name", self.control_name),
+                             ("Software &revision", self.revision), ("N&otes", self.notes)):  # fmt: skip
             self.form.addRow(label, field)
         self.family.currentIndexChanged.connect(lambda _: self._machines())
         if info:
@@ -185,7 +207,10 @@ class ProjectDialog(_Form):
             extra=self._info.extra if self._info else {},
         )  # fmt: skip
 
-
-def project_summary(project: Project) -> str:
-    """Return a line for the status bar."""
-    return f"Project {project.info.name}: {len(project.files())} files in {project.folder}"
+    def accept(self) -> None:
+        """Close only with a name."""
+        if self.name.text().strip():
+            super().accept()
+        else:
+            tell(self, "Project information", "A project needs a name.")
+            self.name.setFocus()

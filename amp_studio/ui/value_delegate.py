@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QAbstractItemModel, QEvent, QModelIndex, QObject, QPersistentModelIndex, Qt
-from PySide6.QtWidgets import QComboBox, QLineEdit, QStyledItemDelegate, QStyleOptionViewItem, QWidget
+from PySide6.QtCore import QAbstractItemModel, QEvent, QModelIndex, QObject, QPersistentModelIndex, QPoint, Qt, QTimer
+from PySide6.QtWidgets import QComboBox, QLineEdit, QStyledItemDelegate, QStyleOptionViewItem, QToolTip, QWidget
 
-from amp_studio.schema import Address
+from amp_studio.schema import Address, Limits, limits, shown
 
 from .parameter_table import AddressRole
 from .workspace import Workspace
@@ -25,41 +25,90 @@ def choice_box(workspace: Workspace, address: Address, parent: QWidget | None = 
         if choice.note:
             box.setItemData(box.count() - 1, choice.note, Qt.ItemDataRole.ToolTipRole)
     value = workspace.file.get(address)
-    key = None if value is None else ("yes" if value.value is True else "no" if value.value is False else value.value)
+    key = "" if value is None else {True: "yes", False: "no"}.get(value.value, value.value)
     keys = [c.key for c in parameter.choices or ()]
     box.setCurrentIndex(keys.index(str(key)) if key in keys else -1)
+    if value is not None and key not in keys:
+        box.setPlaceholderText(str(key))
     return box
+
+
+def limits_of(workspace: Workspace, address: Address) -> Limits | None:
+    """Return the bounds of an address in the unit in which it is typed."""
+    return limits(workspace.file.situation, address, workspace.typed_unit(address))
+
+
+def allowed_text(workspace: Workspace, address: Address) -> str:
+    """Return what may be typed for an address: ``0 to 214.1 mm``, or the unit alone; empty for a choice."""
+    if workspace.file.schema.parameters[address[0]].choices:
+        return ""
+    found = limits_of(workspace, address)
+    return found.text() if found else shown(workspace.typed_unit(address))
 
 
 class ValueDelegate(QStyledItemDelegate):
     """Edits a cell by handing the text to ``commit(address, text)``; the model itself is never written."""
 
-    def __init__(self, workspace: Workspace, commit: Callable[[Address, str], None], parent: QObject) -> None:
+    def __init__(self, workspace: Workspace, commit: Callable[[Address, str], bool], parent: QObject) -> None:
         super().__init__(parent)
         self._workspace, self._commit = workspace, commit
+        self._asking = False
 
     def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: Index) -> QWidget:
         address: Address = index.data(AddressRole)
         if self._workspace.file.schema.parameters[address[0]].choices:
             box = choice_box(self._workspace, address, parent)
-            box.activated.connect(lambda _: (self.commitData.emit(box), self.closeEditor.emit(box)))
+            box.activated.connect(self._choose)
+            QTimer.singleShot(0, box, box.showPopup)
             return box
-        return QLineEdit(parent)
+        field = QLineEdit(parent)
+        field.setFrame(False)
+        allowed = allowed_text(self._workspace, address)
+        field.setPlaceholderText(allowed)
+        if allowed:
+            field.setToolTip(f"Allowed here: {allowed}")
+            QTimer.singleShot(0, field, lambda: _tell_below(field))
+        return field
+
+    def _choose(self) -> None:
+        box = self.sender()
+        assert isinstance(box, QComboBox)
+        self.commitData.emit(box)
+        self.closeEditor.emit(box)
 
     def setEditorData(self, editor: QWidget, index: Index) -> None:
         if isinstance(editor, QLineEdit):
             editor.setText(str(index.data(Qt.ItemDataRole.EditRole) or ""))
             editor.selectAll()
 
+    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
+        """Give a list the width its longest choice needs, a field that of its text."""
+        rectangle = option.rect  # type: ignore[attr-defined]  # PySide's stub leaves it out
+        wanted = editor.sizeHint().width() if isinstance(editor, QComboBox) else 130
+        rectangle.setWidth(max(rectangle.width(), wanted))
+        editor.setGeometry(rectangle)
+
     def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: Index) -> None:
+        """Commit once: a question that the commit asks takes the focus from the editor, which would commit again."""
         address: Address = index.data(AddressRole)
-        if isinstance(editor, QComboBox):
-            if editor.currentIndex() >= 0:
-                self._commit(address, str(editor.currentData()))
-        elif isinstance(editor, QLineEdit) and editor.text() != str(index.data(Qt.ItemDataRole.EditRole) or ""):
-            self._commit(address, editor.text())
+        if self._asking or address is None:
+            return
+        self._asking = True
+        try:
+            if isinstance(editor, QComboBox):
+                if editor.currentIndex() >= 0:
+                    self._commit(address, str(editor.currentData()))
+            elif isinstance(editor, QLineEdit) and editor.text() != str(index.data(Qt.ItemDataRole.EditRole) or ""):
+                self._commit(address, editor.text())
+        finally:
+            self._asking = False
 
     def eventFilter(self, editor: QObject, event: QEvent) -> bool:
         if isinstance(editor, QComboBox) and event.type() == QEvent.Type.FocusOut and editor.view().isVisible():
             return False  # the open list takes the focus; the editor must stay
         return super().eventFilter(editor, event)
+
+
+def _tell_below(field: QLineEdit) -> None:
+    if field.isVisible():
+        QToolTip.showText(field.mapToGlobal(QPoint(0, field.height() - 12)), field.toolTip(), field)

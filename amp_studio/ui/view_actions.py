@@ -1,12 +1,13 @@
-"""The options menu: units of display and entry, control type, which axes are shown; and the step plot."""
+"""The options menu: units of display and entry, control type, what is shown, the panels; and the step plot."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QActionGroup
-from PySide6.QtWidgets import QMenu
+from PySide6.QtWidgets import QMenu, QStyle
 
 from amp_studio.schema import Value
 
@@ -21,81 +22,100 @@ class ViewActions:
 
     def __init__(self, window: MainWindow) -> None:
         self.window = window
+        act, icons = window.action, QStyle.StandardPixmap
         menu = window.menuBar().addMenu("&Options")
-        self.units_menu = QMenu("&Units", window)
-        self.machine_menu = QMenu("Control &Type", window)
-        self.all_axes = window.action("Show &Unfitted Axes", self._show_columns, "Ctrl+U")
-        self.all_axes.setCheckable(True)
-        self.hidden_too = window.action("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
-        self.hidden_too.setCheckable(True)
-        self.as_entered = window.action("Show Values &As Entered", self._show_units, None)
-        self.as_entered.setCheckable(True)
-        self.switch = window.action("Switch mm / inch", self._switch, "Ctrl+M")
-        self.step_action = window.action("&Step Response…", self._step, "F9")
+        self.units_menu, self.machine_menu = QMenu("&Units", window), QMenu("Control &Type", window)
+        self._groups: list[QActionGroup] = []
+        self.switch = act("S&witch mm / inch", self._switch, "Ctrl+M", "file", icons.SP_BrowserReload, "mm / inch")
+        self.as_entered = self._option("Show Values &As Entered", self._show_as_entered, "Ctrl+E")
+        self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")
+        self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
+        self.step_action = act("&Step Response…", self._step, "F9", "file", icons.SP_MediaPlay, "Step Response")
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
         menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too])
         menu.addSeparator()
+        panels = menu.addMenu("&Go To")
+        for n, (title, panel) in enumerate((("&Groups", "Groups"), ("&Parameter Help", "Parameter"), ("&Findings", "Findings")), 2):
+            panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
+        panels.insertAction(panels.actions()[0], act("&Table", self._to_table, "Ctrl+1"))
+        menu.addSeparator()
         menu.addAction(self.step_action)
         self.toolbar: list[QAction] = [self.switch, self.step_action]
-        self._groups: list[QActionGroup] = []
+
+    def _option(self, text: str, act: Callable[[], None], shortcut: str) -> QAction:
+        action = self.window.action(text, act, shortcut)
+        action.setCheckable(True)
+        return action
 
     def follow(self, workspace: Workspace) -> None:
-        """Fill the menus for a newly opened file."""
-        self._groups = []
-        file = workspace.file
-        self._fill(self.units_menu, [(u, u.capitalize()) for u in file.schema.family.units], file.header.units, self._set_units)
-        machines = [(m.key, m.name) for m in file.schema.family.machines]
-        self._fill(self.machine_menu, machines, file.machine, self._set_machine)
-        workspace.changed.connect(lambda _: self._check(self.machine_menu, file.machine))
-        self._show_units()
+        """Fill the menus for a newly opened file, and show it as the options say."""
+        for group in self._groups:
+            group.deleteLater()  # with its actions
+        family, file = workspace.file.schema.family, workspace.file
+        units = [(u, f"&{u.capitalize()}") for u in family.units]
+        machines = [(m.key, f"&{m.name}") for m in family.machines]
+        self._groups = [
+            self._fill(self.units_menu, units, file.header.units, self._set_units),
+            self._fill(self.machine_menu, machines, file.machine, self._set_machine),
+        ]
+        self.machine_menu.setEnabled(workspace.may_edit)
+        self._groups[1].setEnabled(workspace.may_edit)
+        workspace.changed.connect(self._check)
+        if self.as_entered.isChecked():
+            workspace.show_in(None)
+        self._show_columns()
 
-    def _fill(self, menu: QMenu, entries: list[tuple[str, str]], present: str, act: object) -> None:
-        menu.clear()
+    def _fill(self, menu: QMenu, entries: list[tuple[str, str]], present: str, choose: Callable[[str], None]) -> QActionGroup:
         group = QActionGroup(menu)
-        self._groups.append(group)
         for key, name in entries:
-            action = self.window.action(name, partial(act, key), None)  # type: ignore[arg-type]  # a bound method
+            action = QAction(name, group)
             action.setCheckable(True)
             action.setData(key)
             action.setChecked(key == present)
-            group.addAction(action)
+            action.triggered.connect(lambda *_, key=key: self.window.guarded(partial(choose, key), menu.title().replace("&", "")))
             menu.addAction(action)
+        return group
 
-    def _check(self, menu: QMenu, key: str) -> None:
-        for action in menu.actions():
-            action.setChecked(action.data() == key)
+    def _check(self, *_: object) -> None:
+        """Mark what holds now; an undo may have changed it."""
+        workspace = self.window.workspace
+        if workspace is None:
+            return
+        for group, present in zip(self._groups, (workspace.file.header.units, workspace.file.machine), strict=True):
+            for action in group.actions():
+                action.setChecked(action.data() == present)
+        self.as_entered.setChecked(workspace.as_entered)
+
+    def _workspace(self) -> Workspace:
+        workspace = self.window.workspace
+        assert workspace is not None
+        return workspace
+
+    # -- units and control type ------------------------------------------------
 
     def _set_units(self, system: str) -> None:
-        workspace = self.window.workspace
-        assert workspace is not None
-        workspace.file.header.units = system
-        self._check(self.units_menu, system)
-        self._show_units()
+        self._workspace().show_in(system)
 
     def _switch(self) -> None:
-        workspace = self.window.workspace
-        assert workspace is not None
-        systems = list(workspace.file.schema.family.units)
-        self._set_units(systems[(systems.index(workspace.file.header.units) + 1) % len(systems)])
+        file = self._workspace().file
+        systems = list(file.schema.family.units)
+        self._set_units(systems[(systems.index(file.header.units) + 1) % len(systems)])
+
+    def _show_as_entered(self) -> None:
+        workspace = self._workspace()
+        workspace.show_in(None if self.as_entered.isChecked() else workspace.file.header.units)
 
     def _set_machine(self, machine: str) -> None:
-        workspace = self.window.workspace
-        assert workspace is not None
+        workspace = self._workspace()
         parameter = workspace.file.schema.family.machine_parameter
         if parameter:
             workspace.edit("Control type", {(parameter, ""): Value(machine)})
         else:
-            workspace.file.header.machine = machine
-            workspace.file.situation.forget()
-            workspace.revalidate()
+            workspace.do("Control type", partial(_describe_machine, workspace, machine))
+        self._check()
 
-    def _show_units(self) -> None:
-        workspace, table = self.window.workspace, self.window.table
-        if workspace is None or table is None:
-            return
-        table.shown_units = None if self.as_entered.isChecked() else workspace.file.header.units
-        workspace.revalidate()
+    # -- what is shown ---------------------------------------------------------
 
     def _show_columns(self) -> None:
         table = self.window.table
@@ -103,9 +123,16 @@ class ViewActions:
             table.all_axes, table.hidden_too = self.all_axes.isChecked(), self.hidden_too.isChecked()
             table.show_again()
 
+    def _to_table(self) -> None:
+        if self.window.table_view is not None:
+            self.window.table_view.setFocus()
+
     def _step(self) -> None:
         from .step_view import StepView
 
-        workspace = self.window.workspace
-        assert workspace is not None
-        StepView(workspace, self.window.selected(), self.window.go_to, self.window).show()
+        StepView(self._workspace(), self.window.selected(), self.window.go_to, self.window).show()
+
+
+def _describe_machine(workspace: Workspace, machine: str) -> None:
+    workspace.file.header.machine = machine
+    workspace.file.situation.forget()

@@ -12,7 +12,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from amp_studio.files import Change, Comparison, Document, ParameterFile, compare
+from amp_studio.files import Change, Comparison, Document, ParameterFile, compare, digest_of
 from amp_studio.schema import Address, Value, read_value
 from amp_studio.validate import Finding, Validator
 
@@ -175,6 +175,14 @@ class Workspace(QObject):
             self.is_saving = False
         self._saved = (_Marks.of(self.file), self.file.header.units)
         self.saved.emit()
+
+    def disk_state(self) -> str | None:
+        """Return None while the file on disk is the one that was opened, ``removed``, or the digest it has now."""
+        try:
+            digest = digest_of(self.path)
+        except OSError:
+            return None  # a network drive that is away for a moment
+        return None if digest == self.document.digest else digest or "removed"
 
     def _keep_unsaved(self) -> None:
         if self.may_edit:

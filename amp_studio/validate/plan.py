@@ -9,29 +9,45 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any
+from itertools import count
 
-from amp_studio.schema import Address, Reading, Rule, Schema, Situation, UnknownParameter, program
+from amp_studio.schema import Address, Reading, Rule, Schema, Situation, UnknownParameter, read_address
+from amp_studio.schema.model import BoundRef
 
-CheckKey = tuple[str, str]
-"""Rule id and instance; a range check is ``("", id@instance)``."""
+from .expressions import Expressions, RuleFault, expressions_of
+from .formulas import rule_functions
+
+
+@dataclass(frozen=True, slots=True)
+class Single:
+    """A single value that a check reads."""
+
+    name: str
+    address: Address
+    optional: bool
+    any_state: bool
 
 
 @dataclass(frozen=True, slots=True)
 class RuleCheck:
     """One rule for one instance, its names resolved."""
 
+    place: int
+    """Position among all checks of the plan."""
     rule: Rule
     instance: str
-    readings: Mapping[str, Reading]
-    when: Any
-    check: Any
-    values: tuple[tuple[str, Any], ...]
+    expressions: Expressions
+    singles: tuple[Single, ...]
+    lists: tuple[tuple[str, tuple[Address, ...]], ...]
 
     @property
-    def key(self) -> CheckKey:
-        """What the findings of this check are filed under."""
-        return self.rule.id, self.instance
+    def addresses(self) -> tuple[Address, ...]:
+        """Every address the rule reads here, single values first."""
+        return (*(s.address for s in self.singles), *(a for _, addresses in self.lists for a in addresses))
+
+    def address_of(self, name: str) -> Address:
+        """Return what a name of a single value stands for."""
+        return next(s.address for s in self.singles if s.name == name)
 
 
 @dataclass(frozen=True)
@@ -39,18 +55,12 @@ class Plan:
     """All checks for one schema, machine type and set of rules."""
 
     addresses: tuple[Address, ...]
+    order: Mapping[Address, int] = field(repr=False)
+    """Address -> its place in the manual's order."""
     checks: tuple[RuleCheck, ...]
     range_readers: Mapping[Address, frozenset[Address]] = field(repr=False)
     """Address -> addresses whose range check must run again when it changes."""
     rule_readers: Mapping[Address, tuple[RuleCheck, ...]] = field(repr=False)
-
-
-class RuleFault(ValueError):
-    """A rule that cannot be used: its id and what is wrong with it."""
-
-    def __init__(self, rule: str, what: str) -> None:
-        self.rule = rule
-        super().__init__(f"rule {rule}: {what}")
 
 
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:
@@ -67,28 +77,30 @@ def _make(schema: Schema, machine: str, extra: tuple[Rule, ...]) -> Plan:
     situation = Situation(schema, lambda _: None, lambda: machine)
     addresses = schema.addresses(machine)
     states = {address: frozenset(situation.state_reads(address)) for address in addresses}
+    bounds = {address: _bounds(situation, address) for address in addresses}
     range_readers: dict[Address, set[Address]] = {}
     for address in addresses:
-        for read in {address, *states[address], *_bounds(situation, address)}:
+        for read in {address} | states[address] | bounds[address]:
             range_readers.setdefault(read, set()).add(address)
-    checks = [check for rule in schema.rules + extra for check in _checks(situation, rule)]
+    checks = checks_of(situation, schema.rules + extra)
     rule_readers: dict[Address, list[RuleCheck]] = {}
     for check in checks:
-        read_by_check: set[Address] = set()
-        for reading in check.readings.values():
-            for address in reading.addresses:
-                read_by_check |= {address} | states[address]
+        read_by_check = {seen for address in check.addresses for seen in {address} | states[address]}
+        for fix in check.rule.fix:  # a repair is offered only while its bounds allow it
+            read_by_check |= bounds[check.address_of(fix.set)]
         for address in read_by_check:
             rule_readers.setdefault(address, []).append(check)
     return Plan(
         addresses,
-        tuple(checks),
+        {address: n for n, address in enumerate(addresses)},
+        checks,
         {a: frozenset(r) for a, r in range_readers.items()},
         {a: tuple(c) for a, c in rule_readers.items()},
     )
 
 
-def _bounds(situation: Situation, address: Address) -> set[Address]:
+def _bounds(situation: Situation, address: Address) -> frozenset[Address]:
+    """Return what the bounds of an address depend on, where other parameters set them."""
     parameter = situation.schema.parameters[address[0]]
     ranges = [*(parameter.ranges or {}).values()]
     for variant in parameter.range_variants:
@@ -96,39 +108,80 @@ def _bounds(situation: Situation, address: Address) -> set[Address]:
     found: set[Address] = set()
     for pair in ranges:
         for bound in pair:
-            if bound is not None and not isinstance(bound, float):
-                source = situation.reading(bound.param, address[1]).addresses[0]
+            if isinstance(bound, BoundRef):
+                source = situation.reading(bound.param, address[1], situation.scope(address)).addresses[0]
                 found |= {source} | situation.state_reads(source)
+    return frozenset(found)
+
+
+def checks_of(situation: Situation, rules: tuple[Rule, ...]) -> tuple[RuleCheck, ...]:
+    """Return the checks of rules on one machine type; raises RuleFault."""
+    functions = rule_functions(situation.schema.family.family)
+    seen: set[str] = set()
+    checks: list[RuleCheck] = []
+    places = count()
+    for rule in rules:
+        if rule.id in seen:
+            raise RuleFault(rule.id, "there are two rules of this name")
+        seen.add(rule.id)
+        expressions = expressions_of(rule, functions)
+        for instance, readings in _resolved(situation, rule):
+            singles = tuple(
+                Single(name, reading.addresses[0], name in rule.optional, name in rule.any_state)
+                for name, reading in readings.items()
+                if not reading.is_list
+            )
+            lists = tuple((name, reading.addresses) for name, reading in readings.items() if reading.is_list)
+            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists))
+    return tuple(checks)
+
+
+def _resolved(situation: Situation, rule: Rule) -> list[tuple[str, dict[str, Reading]]]:
+    """Return the instances a rule runs for, each with what it reads there; none where that does not exist."""
+    for text in rule.reads.values():
+        _check_read(situation.schema, rule, text)
+    scope, instances = _runs_for(situation, rule)
+    found = []
+    for instance in instances:
+        try:
+            readings = {name: situation.reading(text, instance, scope) for name, text in rule.reads.items()}
+        except UnknownParameter:
+            continue
+        found.append((instance, readings))
     return found
 
 
-def _checks(situation: Situation, rule: Rule) -> list[RuleCheck]:
-    try:
-        when, check = program(rule.when), program(rule.check)
-        values = tuple((name, program(text)) for name, text in rule.values.items())
-        for fix in rule.fix:
-            program(fix.value)
-    except ValueError as error:
-        raise RuleFault(rule.id, str(error).splitlines()[0]) from None
-    checks = []
-    for instance in _instances(situation, rule):
-        try:
-            readings = {name: situation.reading(text, instance) for name, text in rule.reads.items()}
-        except UnknownParameter:
-            continue
-        checks.append(RuleCheck(rule, instance, readings, when, check, values))
-    return checks
+def _check_read(schema: Schema, rule: Rule, text: str) -> None:
+    parameter_id, which = read_address(text)
+    parameter = schema.parameters.get(parameter_id)
+    if parameter is None:
+        raise RuleFault(rule.id, f"reads '{parameter_id}', which the family does not have")
+    offered = {i for machine in schema.family.machines for i in schema.instances(parameter, machine.key)}
+    if which not in ("", "*", "<", ">") and which not in offered:
+        raise RuleFault(rule.id, f"reads '{text}', but {parameter.name} has no instance '{which}'")
 
 
-def _instances(situation: Situation, rule: Rule) -> tuple[str, ...]:
-    """Return the instances a rule runs for: those of the scoped parameters it reads by themselves."""
-    found: list[str] = []
+def _runs_for(situation: Situation, rule: Rule) -> tuple[str | None, tuple[str, ...]]:
+    """Return the scope a rule runs over and its instances there.
+
+    It runs for each instance of what it reads of "its own" (``id``, ``id@<``,
+    ``id@>``). Where that is of several scopes, it is the first for which all the
+    rest can be read: a rule over axes takes of a parameter of processes the
+    entry of a control with a single process. Raises RuleFault if there is none.
+    """
+    own: dict[str, bool] = {}
     for text in rule.reads.values():
-        parameter_id, _, which = text.partition("@")
-        parameter = situation.schema.parameters.get(parameter_id)
-        if parameter is None:
-            raise RuleFault(rule.id, f"reads '{parameter_id}', which the family does not have")
-        own = situation.schema.instances(parameter, situation.machine)
+        parameter_id, which = read_address(text)
         if which in ("", "<", ">"):
-            found += [i for i in own if i and i not in found]
-    return tuple(found) or ("",)
+            own[parameter_id] = own.get(parameter_id, False) or which == ""
+    instances = {p: situation.schema.instances(situation.schema.parameters[p], situation.machine) for p in own}
+    scopes = {p: situation.scope((p, "")) for p in own}
+    if not all(instances.values()):
+        return None, ()
+    several = [p for p in own if instances[p] != ("",)]
+    for scope in dict.fromkeys(scopes[p] for p in several):
+        if all(scopes[p] == scope or "" in instances[p] or not alone for p, alone in own.items()):
+            return scope, tuple(dict.fromkeys(i for p in several if scopes[p] == scope for i in instances[p]))
+    if several:
+        raise RuleFault(rule.id, f"reads {' and '.join(several)}, whose instances do not go together")
+    return None, ("",)

@@ -169,7 +169,9 @@ def family(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable
         load_schema.cache_clear()
 
     def write(head: str, parameters: str) -> None:
-        name = next(line.split(":")[1].strip() for line in dedent(head).splitlines() if line.startswith("family:"))
+        name = next(
+            line.split(":")[1].strip() for line in dedent(head).splitlines() if line.startswith("family:")
+        )
         (database / name / "groups").mkdir(parents=True, exist_ok=True)
         (database / name / "family.yaml").write_text(dedent(head), encoding="utf-8")
         group = f'key: all\nname: All\nchapter: "1"\nparameters:\n{dedent(parameters)}'

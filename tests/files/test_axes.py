@@ -36,20 +36,22 @@ def axis_values(file: ParameterFile, axis: str) -> dict[str, Value]:
 def test_axes_are_named_in_order_and_the_rest_is_unfitted(mill: ParameterFile) -> None:
     before = dict(mill.values)
     changes = name_axes(mill, ["Z", "A", "S"])
-    assert [("z", "linear"), ("a", "rotary"), ("s", "spindle")] == [
-        (mill.get(("axis.name", axis)).value, axis_type(mill, axis)) for axis in "123"
+    assert [(mill.get(("axis.name", axis)).value, axis_type(mill, axis)) for axis in "123"] == [
+        ("z", "linear"),
+        ("a", "rotary"),
+        ("s", "spindle"),
     ]
-    assert ("1", "2", "3") == fitted_axes(mill)
+    assert fitted_axes(mill) == ("1", "2", "3")
     assert before == taken_back(mill, changes)
     name_axes(mill, ["X"])
-    assert ("1",) == fitted_axes(mill)
+    assert fitted_axes(mill) == ("1",)
 
 
 def test_an_axis_is_titled_by_number_name_and_type(mill: ParameterFile) -> None:
-    assert "2 Y linear" == axis_title(mill, "2")
-    assert "5 – unfitted" == axis_title(mill, "5")
+    assert axis_title(mill, "2") == "2 Y linear"
+    assert axis_title(mill, "5") == "5 – unfitted"
     mill.set(("axis.name", "1"), Value("raw:99"))
-    assert "1 ? linear" == axis_title(mill, "1")
+    assert axis_title(mill, "1") == "1 ? linear"
 
 
 @pytest.mark.parametrize("axis", ["1", "3"])
@@ -60,10 +62,14 @@ def test_lengths_become_angles_with_the_same_figures_and_back(mill: ParameterFil
     changes = retype_axis(mill, axis, "rotary")
     assert Value(0.5, "deg") == mill.get(("home.calibration", axis))
     assert Value(30.0, "deg/s") == mill.get(("feedrate.rapid", axis))
-    assert "linear" == axis_type(mill, "2"), "the other axes stay as they are"
+    assert axis_type(mill, "2") == "linear", "the other axes stay as they are"
     assert Value(0.0, "mm") == mill.get(("home.calibration", "2"))
     lengths = [v.unit for v in axis_values(mill, axis).values() if v.unit.startswith(("mm", "in"))]
-    fixed = [v.unit for p, v in axis_values(mill, axis).items() if mill.schema.parameter(p).unit == v.unit and v.unit]
+    fixed = [
+        v.unit
+        for p, v in axis_values(mill, axis).items()
+        if mill.schema.parameter(p).unit == v.unit and v.unit
+    ]
     assert set(lengths) <= set(fixed), "only a unit that a parameter fixes for itself stays a length"
     assert before == taken_back(mill, changes)
 
@@ -76,7 +82,11 @@ def test_a_type_or_an_axis_that_does_not_exist_is_refused(mill: ParameterFile) -
     before = dict(mill.values)
     with pytest.raises(AxisFault, match="there is no axis type 'square': linear, rotary, spindle, unfitted"):
         retype_axis(mill, "1", "square")
-    for operation in (lambda: retype_axis(mill, "9", "linear"), lambda: delete_axis(mill, "9"), lambda: copy_axis(mill, "1", "9")):
+    for operation in (
+        lambda: retype_axis(mill, "9", "linear"),
+        lambda: delete_axis(mill, "9"),
+        lambda: copy_axis(mill, "1", "9"),
+    ):
         with pytest.raises(AxisFault, match="there is no axis 9"):
             operation()
     assert before == mill.values
@@ -98,7 +108,10 @@ def test_a_copied_axis_is_the_same_in_all_but_its_name(mill: ParameterFile) -> N
 
 @pytest.mark.parametrize(
     ("source", "target", "said"),
-    [("1", "4", "axis 1 is linear and axis 4 is unfitted: only axes of the same type"), ("1", "1", "copied to itself")],
+    [
+        ("1", "4", "axis 1 is linear and axis 4 is unfitted: only axes of the same type"),
+        ("1", "1", "copied to itself"),
+    ],
 )
 def test_only_axes_of_one_type_are_copied(mill: ParameterFile, source: str, target: str, said: str) -> None:
     before = dict(mill.values)
@@ -113,7 +126,7 @@ def test_a_deleted_axis_is_unfitted_and_back_at_its_defaults(mill: ParameterFile
     mill.set(("axis.rollover", "3"), Value(360, "deg"))
     before = dict(mill.values)
     changes = delete_axis(mill, "3")
-    assert "unfitted" == axis_type(mill, "3")
+    assert axis_type(mill, "3") == "unfitted"
     assert Value("z") == mill.get(("axis.name", "3")), "the name is kept"
     assert Value(0.0, "mm") == mill.get(("home.calibration", "3"))
     assert mill.get(("axis.rollover", "3")) is None, "a value without a printed default is unset"
@@ -145,6 +158,6 @@ def test_a_family_without_axes_says_so(family) -> None:
         """,
     )
     file = new_file("plain")
-    assert ((), ()) == (axis_instances(file), fitted_axes(file))
+    assert (axis_instances(file), fitted_axes(file)) == ((), ())
     with pytest.raises(AxisFault, match="Plain control has no axes to configure"):
         name_axes(file, ["X"])

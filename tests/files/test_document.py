@@ -68,14 +68,14 @@ def hidden(folder: Path) -> set[str]:
 
 def test_a_saved_change_is_on_disk_and_the_document_is_clean(on_disk: Path) -> None:
     with Document.open(on_disk) as document:
-        assert (False, []) == (document.is_dirty, document.unsaved_changes())
+        assert (document.is_dirty, document.unsaved_changes()) == (False, [])
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         assert (True, [Change(CALIBRATION, Value(0.0, "mm"), Value(2.0, "mm"))]) == (
             document.is_dirty,
             document.unsaved_changes(),
         )
         document.save()
-        assert (False, False) == (document.is_dirty, document.changed_on_disk())
+        assert (document.is_dirty, document.changed_on_disk()) == (False, False)
     assert Value(2.0, "mm") == open_file(on_disk).file.get(CALIBRATION)
     assert set() == hidden(on_disk.parent)
 
@@ -118,7 +118,9 @@ def test_save_as_makes_a_second_document_and_leaves_the_first(on_disk: Path) -> 
     assert before == on_disk.read_bytes()
 
 
-def test_what_another_program_saved_is_noticed_and_not_overwritten(on_disk: Path, mill: ParameterFile) -> None:
+def test_what_another_program_saved_is_noticed_and_not_overwritten(
+    on_disk: Path, mill: ParameterFile
+) -> None:
     with Document.open(on_disk) as document:
         mill.set(POSITION, Value(4.0, "mm"))
         save_file(mill, on_disk, document.digest)
@@ -150,8 +152,10 @@ def test_a_file_that_cannot_be_used_is_not_left_locked(on_disk: Path) -> None:
 
 def test_a_second_program_is_told_who_has_the_file(on_disk: Path, other) -> None:
     program = other(OPEN, on_disk)
-    assert "open" == program.says()
-    with pytest.raises(InUse, match=r"bench\.amp is open in another program \(.*process \d+, since 20") as refused:
+    assert program.says() == "open"
+    with pytest.raises(
+        InUse, match=r"bench\.amp is open in another program \(.*process \d+, since 20"
+    ) as refused:
         Document.open(on_disk)
     assert f"{getpass.getuser()} on " in str(refused.value)
     assert f"process {program.process.pid}," in str(refused.value)
@@ -161,21 +165,21 @@ def test_a_second_program_is_told_who_has_the_file(on_disk: Path, other) -> None
         with pytest.raises(InUse):
             looking.save()
     program.go_on()
-    assert "closed" == program.says()
+    assert program.says() == "closed"
     with Document.open(on_disk) as document:
         assert document.is_locked
 
 
 def test_the_lock_of_a_killed_program_ends_with_it(on_disk: Path, other) -> None:
     program = other(OPEN, on_disk)
-    assert "open" == program.says()
+    assert program.says() == "open"
     program.kill()
     assert {".bench.amp.lock", ".bench.amp.holder"} == hidden(on_disk.parent), "it had no chance to tidy up"
     with Document.open(on_disk) as document:
         assert document.is_locked
         program = other(OPEN, on_disk)
-        assert "" == program.says()
-        assert 1 == program.end(), "and the new holder is told to the next"
+        assert program.says() == ""
+        assert program.end() == 1, "and the new holder is told to the next"
     assert set() == hidden(on_disk.parent)
 
 
@@ -209,7 +213,9 @@ def test_a_holder_that_left_no_details_still_holds(on_disk: Path) -> None:
             Document.open(on_disk)
 
 
-def test_the_file_is_read_again_when_it_changed_before_the_lock_was_given(on_disk: Path, mill: ParameterFile, monkeypatch) -> None:
+def test_the_file_is_read_again_when_it_changed_before_the_lock_was_given(
+    on_disk: Path, mill: ParameterFile, monkeypatch
+) -> None:
     take = locking.EditLock.take
 
     def somebody_was_faster(self: locking.EditLock) -> None:
@@ -233,7 +239,7 @@ def test_a_system_that_has_no_name_for_the_user_is_no_reason_to_stop(on_disk: Pa
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         document.keep_unsaved()
         document.save()
-        assert ["unknown"] == [entry.who for entry in document.history()]
+        assert [entry.who for entry in document.history()] == ["unknown"]
 
 
 # -- unsaved work ------------------------------------------------------------------------------------------------
@@ -243,7 +249,7 @@ def test_a_system_that_has_no_name_for_the_user_is_no_reason_to_stop(on_disk: Pa
 def left(on_disk: Path, other) -> Path:
     """Return the path of a file whose program was killed with three changes unsaved."""
     program = other(WORK, on_disk)
-    assert "kept" == program.says()
+    assert program.says() == "kept"
     program.kill()
     return on_disk
 
@@ -287,7 +293,7 @@ def test_work_that_nobody_answered_for_waits_for_the_next_time(left: Path) -> No
 
 
 def test_a_change_from_the_command_line_leaves_the_offer_and_says_it_may_not_fit(left: Path, capsys) -> None:
-    assert 0 == cli.run(["set", str(left), "1330=-5"])
+    assert cli.run(["set", str(left), "1330=-5"]) == 0
     capsys.readouterr()
     with Document.open(left) as document:
         found = document.find_unsaved()
@@ -322,12 +328,20 @@ def test_a_journal_that_cannot_be_read_is_no_reason_not_to_open(on_disk: Path, c
 
 
 def test_what_this_schema_cannot_read_of_a_journal_is_left_out(on_disk: Path) -> None:
-    changes = [["home.calibration@1", "3 mm"], ["home.position@1", "3 kg"], ["future.thing@1", "3 mm"], ["axis.type@1", "square"]]
+    changes = [
+        ["home.calibration@1", "3 mm"],
+        ["home.position@1", "3 kg"],
+        ["future.thing@1", "3 mm"],
+        ["axis.type@1", "square"],
+    ]
     journal = {"when": "2020-01-01T00:00:00+00:00", "who": "me", "digest": "", "changes": changes}
     on_disk.with_name(".bench.amp.unsaved").write_text(json.dumps(journal), encoding="utf-8")
     with Document.open(on_disk) as document:
         found = document.find_unsaved()
-        assert ((Change(CALIBRATION, Value(0.0, "mm"), Value(3.0, "mm")),), False) == (found.changes, found.fits)
+        assert ((Change(CALIBRATION, Value(0.0, "mm"), Value(3.0, "mm")),), False) == (
+            found.changes,
+            found.fits,
+        )
 
 
 def test_a_full_disk_does_not_cost_the_journal_that_was_there(on_disk: Path, disk) -> None:
@@ -349,7 +363,7 @@ def test_a_full_disk_does_not_cost_the_journal_that_was_there(on_disk: Path, dis
 
 def test_every_value_a_save_replaced_is_in_the_history_newest_first(on_disk: Path) -> None:
     with Document.open(on_disk) as document:
-        assert [] == document.history()
+        assert document.history() == []
         for number in (1.0, 2.0):
             document.file.set(CALIBRATION, Value(number, "mm"))
             document.save("a test")
@@ -357,20 +371,22 @@ def test_every_value_a_save_replaced_is_in_the_history_newest_first(on_disk: Pat
         document.file.set(POSITION, Value(1.0, "in"))
         document.save("another")
         document.save("nothing changed")
-        assert [
+        expected = {
             ("another", "home.calibration@1", "2 mm", ""),
             ("another", "home.position@1", "0 mm", "1 in"),
             ("a test", "home.calibration@1", "1 mm", "2 mm"),
             ("a test", "home.calibration@1", "0 mm", "1 mm"),
-        ] == [(e.how, e.param, e.old, e.new) for e in sorted(document.history(), key=lambda e: (e.how != "another", e.param, e.new == "1 mm"))]  # fmt: skip
-        assert ["", "2 mm", "1 mm"] == [entry.new for entry in document.history(CALIBRATION)]
+        }
+        assert expected == {(entry.how, entry.param, entry.old, entry.new) for entry in document.history()}
+        assert [entry.how for entry in document.history()] == ["another", "another", "a test", "a test"]
+        assert [entry.new for entry in document.history(CALIBRATION)] == ["", "2 mm", "1 mm"]
         assert {getpass.getuser()} == {entry.who for entry in document.history()}
-    assert ["", "2 mm", "1 mm"] == [entry.new for entry in Document.view(on_disk).history(CALIBRATION)]
+    assert [entry.new for entry in Document.view(on_disk).history(CALIBRATION)] == ["", "2 mm", "1 mm"]
 
 
 def test_a_new_file_begins_without_a_history(tmp_path: Path, mill: ParameterFile) -> None:
     with Document.create(mill, tmp_path / "new.amp") as document:
-        assert [] == document.history()
+        assert document.history() == []
     assert {"new.amp"} == {path.name for path in tmp_path.iterdir()}
 
 
@@ -380,12 +396,14 @@ def test_a_damaged_line_of_the_history_costs_that_line_only(on_disk: Path) -> No
         document.save()
         with document.history_path.open("a", encoding="utf-8") as stream:
             stream.write('["2020-01-01", "me", "edit"\n')
-            stream.write('["too", "short"]\n{"no": "list"}\n5\nnull\n["2020-01-01T00", "me", "edit", "half a li')
+            stream.write(
+                '["too", "short"]\n{"no": "list"}\n5\nnull\n["2020-01-01T00", "me", "edit", "half a li'
+            )
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         document.save()
-        assert ["2 mm", "1 mm"] == [entry.new for entry in document.history()]
+        assert [entry.new for entry in document.history()] == ["2 mm", "1 mm"]
         document.history_path.write_bytes(b"\xff\xfe\n" + document.history_path.read_bytes())
-        assert ["2 mm", "1 mm"] == [entry.new for entry in document.history()]
+        assert [entry.new for entry in document.history()] == ["2 mm", "1 mm"]
 
 
 def test_a_history_that_cannot_be_written_does_not_undo_the_save(on_disk: Path) -> None:
@@ -393,6 +411,6 @@ def test_a_history_that_cannot_be_written_does_not_undo_the_save(on_disk: Path) 
         document.history_path.mkdir()
         document.file.set(CALIBRATION, Value(1.0, "mm"))
         document.save()
-        assert ([], False) == (document.history(), document.is_dirty)
+        assert (document.history(), document.is_dirty) == ([], False)
     assert Value(1.0, "mm") == open_file(on_disk).file.get(CALIBRATION)
     assert backup_path(on_disk).exists()

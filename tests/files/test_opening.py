@@ -36,7 +36,11 @@ def refused(path: Path) -> FileFault:
 def test_a_file_is_read_as_it_was_saved(on_disk: Path, mill: ParameterFile) -> None:
     opened = open_file(on_disk)
     assert mill.values == opened.file.values
-    assert (mill.header, mill.forced, mill.unknown) == (opened.file.header, opened.file.forced, opened.file.unknown)
+    assert (mill.header, mill.forced, mill.unknown) == (
+        opened.file.header,
+        opened.file.forced,
+        opened.file.unknown,
+    )
 
 
 def test_a_file_a_person_wrote_is_read(small: Path) -> None:
@@ -65,7 +69,9 @@ def test_a_file_a_person_wrote_is_read(small: Path) -> None:
         ("servo.loop_type@1: 'raw:77'", ("servo.loop_type", "1"), Value("raw:77")),
     ],
 )
-def test_a_value_may_be_written_in_every_form_that_is_clear(small: Path, written: str, name, expected: Value) -> None:
+def test_a_value_may_be_written_in_every_form_that_is_clear(
+    small: Path, written: str, name, expected: Value
+) -> None:
     edited(small, "...", f"  {written}\n...")
     assert expected == open_file(small).file.values[name]
 
@@ -137,7 +143,9 @@ def test_a_saved_file_cut_off_at_a_line_end_says_so(on_disk: Path) -> None:
         ("control.type: Mill", "control.type: Grinder", 4, "control.type: 'Grinder' is not a choice of Control Type"),
     ],
 )  # fmt: skip
-def test_what_is_not_understood_is_refused_with_its_line(small: Path, old: str, new: str, line: int | None, said: str) -> None:
+def test_what_is_not_understood_is_refused_with_its_line(
+    small: Path, old: str, new: str, line: int | None, said: str
+) -> None:
     if old == "values:":
         small.write_text("amp_studio: 1\nfamily: 9pc\n# a list\nvalues:\n  - 5\n...\n", encoding="utf-8")
     else:
@@ -171,7 +179,7 @@ def test_what_is_no_parameter_file_is_refused(tmp_path: Path, content: bytes, sa
 
 def test_the_line_of_a_byte_that_is_no_text_is_told(small: Path) -> None:
     small.write_bytes(small.read_bytes().replace(b"linear", b"lin\xe9aire"))
-    assert (5, "is not UTF-8 text") == (refused(small).line, refused(small).what)
+    assert (refused(small).line, refused(small).what) == (5, "is not UTF-8 text")
 
 
 def test_what_cannot_be_read_at_all_is_refused(tmp_path: Path) -> None:
@@ -195,7 +203,7 @@ def test_a_damaged_file_is_refused_or_read_and_never_breaks(at: int, noise: byte
     except FileFault as fault:
         assert str(fault).startswith("small.amp")
     else:
-        assert "9pc" == file.schema.family.family
+        assert file.schema.family.family == "9pc"
 
 
 # -- kept -----------------------------------------------------------------------------------------------
@@ -216,7 +224,7 @@ def test_an_instance_this_machine_does_not_have_is_kept_too(small: Path) -> None
     edited(small, "...", "  home.calibration@9: 7 mm\n  forgotten: why\n...")
     opened = open_file(small)
     save_file(opened.file, small, opened.digest)
-    assert {"home.calibration@9": "7 mm", "forgotten": "why"} == open_file(small).file.unknown
+    assert open_file(small).file.unknown == {"home.calibration@9": "7 mm", "forgotten": "why"}
 
 
 LATHE_ONLY = """
@@ -251,7 +259,9 @@ SCOPED = """
 def test_values_of_the_other_machine_type_wait_until_it_comes_back(family, tmp_path: Path) -> None:
     family(LATHE_ONLY, SCOPED)
     path = tmp_path / "two.amp"
-    path.write_text("amp_studio: 1\nfamily: two\nvalues:\n  control.type: Mill\n  plane.radius@1: 5\n  plane.radius: 7\n...\n")
+    path.write_text(
+        "amp_studio: 1\nfamily: two\nvalues:\n  control.type: Mill\n  plane.radius@1: 5\n  plane.radius: 7\n...\n"
+    )
     opened = open_file(path)
     assert ({"plane.radius@1": "5"}, Value(7)) == (opened.file.unknown, opened.file.get(("plane.radius", "")))
     opened.file.set(("control.type", ""), Value("lathe"))
@@ -297,7 +307,7 @@ def test_saving_unchanged_keeps_every_byte_a_person_wrote(tmp_path: Path) -> Non
     path = tmp_path / "small.amp"
     path.write_text(COMMENTED, encoding="utf-8")
     file = read_content(path, COMMENTED.encode())
-    assert COMMENTED == content_of(file, COMMENTED.encode()).decode()
+    assert content_of(file, COMMENTED.encode()).decode() == COMMENTED
 
 
 def test_comments_and_unknown_keys_survive_changes(tmp_path: Path) -> None:
@@ -347,23 +357,27 @@ def test_a_comment_does_not_go_with_the_value_above_it(gone) -> None:
 
 
 def test_comments_below_a_section_that_goes_stay() -> None:
-    text = COMMENTED.replace("values:", "forced:\n  axis.name@1: why   # a mark\n  # before the values\nvalues:")
+    text = COMMENTED.replace(
+        "values:", "forced:\n  axis.name@1: why   # a mark\n  # before the values\nvalues:"
+    )
     file = read_content(HERE, text.encode())
-    assert {("axis.name", "1"): "why"} == file.forced
+    assert file.forced == {("axis.name", "1"): "why"}
     file.forced.clear()
     saved = content_of(file, text.encode()).decode()
     assert ("forced" in saved, "# before the values" in saved) == (False, True)
     file.values.clear()
     emptied = content_of(file, text.encode()).decode()
     assert ("values:" in emptied, "# end of the file" in emptied) == (False, True)
-    assert {} == read_content(HERE, emptied.encode()).values
+    assert read_content(HERE, emptied.encode()).values == {}
 
 
 def test_marks_of_force_are_kept_through_a_save(small: Path) -> None:
     opened = open_file(small)
-    opened.file.set_many({("home.calibration", "1"): Value(1e6, "mm")}, force="on a day by a test: 'quoted' # sign")
+    opened.file.set_many(
+        {("home.calibration", "1"): Value(1e6, "mm")}, force="on a day by a test: 'quoted' # sign"
+    )
     save_file(opened.file, small, opened.digest)
-    assert {("home.calibration", "1"): "on a day by a test: 'quoted' # sign"} == open_file(small).file.forced
+    assert open_file(small).file.forced == {("home.calibration", "1"): "on a day by a test: 'quoted' # sign"}
 
 
 texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=40)

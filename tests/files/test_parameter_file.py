@@ -27,7 +27,9 @@ CALIBRATION = ("home.calibration", "1")
 
 def test_a_new_file_holds_every_printed_default_and_nothing_else() -> None:
     file = new_file("9pc", "mill", ["X", "Y"])
-    assert all(file.is_default(a) for a in file.addresses() if a[0] not in ("axis.name", "axis.type", "control.type"))
+    assert all(
+        file.is_default(a) for a in file.addresses() if a[0] not in ("axis.name", "axis.type", "control.type")
+    )
     unset = {a[0] for a in file.addresses() if file.get(a) is None}
     assert unset == {a[0] for a in file.addresses() if file.default(a) is None and file.get(a) is None}
     assert Value(0.0, "mm") == file.get(CALIBRATION)
@@ -36,17 +38,21 @@ def test_a_new_file_holds_every_printed_default_and_nothing_else() -> None:
 
 def test_a_new_file_is_of_the_machine_and_the_axes_that_were_asked_for() -> None:
     file = new_file("9pc", "mill", ["x", "Y", "C", "S"], name="bench")
-    assert ("mill", "bench", "Mill/Lathe") == (file.machine, file.header.name, file.header.application)
-    assert ("1", "2", "3", "4") == fitted_axes(file)
+    assert (file.machine, file.header.name, file.header.application) == ("mill", "bench", "Mill/Lathe")
+    assert fitted_axes(file) == ("1", "2", "3", "4")
     types = [file.get(("axis.type", axis)).value for axis in "12345678"]
     assert ["linear", "linear", "rotary", "spindle", *["unfitted"] * 4] == types
-    assert [Value("x"), Value("y"), Value("c"), Value("s")] == [file.get(("axis.name", axis)) for axis in "1234"]
-    assert Value(0.0, "deg") == file.get(("home.calibration", "3")), "the lengths of an axis that turns are angles"
+    assert [Value("x"), Value("y"), Value("c"), Value("s")] == [
+        file.get(("axis.name", axis)) for axis in "1234"
+    ]
+    assert Value(0.0, "deg") == file.get(("home.calibration", "3")), (
+        "the lengths of an axis that turns are angles"
+    )
 
 
 def test_without_axes_the_printed_ones_stay() -> None:
     file = new_file("9pc")
-    assert ("lathe", ("1", "2", "3")) == (file.machine, fitted_axes(file))
+    assert (file.machine, fitted_axes(file)) == ("lathe", ("1", "2", "3"))
 
 
 @pytest.mark.parametrize(
@@ -69,7 +75,7 @@ def test_filling_in_defaults_touches_nothing_that_is_set(mill: ParameterFile) ->
     mill.set(POSITIVE, None)
     assert [Change(POSITIVE, None, Value(0.0, "mm"))] == fill_defaults(mill, ["1"])
     assert Value(3.0, "mm") == mill.get(CALIBRATION)
-    assert [] == fill_defaults(mill)
+    assert fill_defaults(mill) == []
 
 
 # -- read and set ----------------------------------------------------------------------------------------
@@ -106,12 +112,12 @@ def test_setting_what_is_set_changes_nothing_and_calls_nobody(mill: ParameterFil
     assert (Value(0.0, "mm"), 2) == (mill.get(CALIBRATION), len(heard))
     end()
     mill.set(CALIBRATION, Value(5.0, "mm"))
-    assert 2 == len(heard)
+    assert len(heard) == 2
 
 
 def test_an_instance_is_called_by_its_number_or_by_name_and_axis(mill: ParameterFile) -> None:
-    assert "1300 Home Calibration" == describe(mill, CALIBRATION)
-    assert "Velocity Loop Feedback Port Axis 1" == describe(mill, ("servo.velocity_port", "1"))
+    assert describe(mill, CALIBRATION) == "1300 Home Calibration"
+    assert describe(mill, ("servo.velocity_port", "1")) == "Velocity Loop Feedback Port Axis 1"
     with pytest.raises(UnknownParameter):
         mill.find("home.nothing@1")
 
@@ -122,7 +128,7 @@ def test_an_instance_is_called_by_its_number_or_by_name_and_axis(mill: Parameter
 def test_a_pair_that_bounds_each_other_moves_together(mill: ParameterFile) -> None:
     mill.set_many({POSITIVE: Value(10.0, "mm"), NEGATIVE: Value(-10.0, "mm")})
     changes = mill.set_many({POSITIVE: Value(100.0, "mm"), NEGATIVE: Value(50.0, "mm")})
-    assert [POSITIVE, NEGATIVE] == [change.address for change in changes]
+    assert [change.address for change in changes] == [POSITIVE, NEGATIVE]
     changes = mill.set_many({POSITIVE: Value(-50.0, "mm"), NEGATIVE: Value(-100.0, "mm")})
     assert (Value(-50.0, "mm"), Value(-100.0, "mm")) == (mill.get(POSITIVE), mill.get(NEGATIVE))
 
@@ -139,7 +145,9 @@ def test_a_pair_that_crosses_is_refused_with_both_reasons(mill: ParameterFile) -
 def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> None:
     before, heard = dict(mill.values), []
     mill.listen(heard.append)
-    with pytest.raises(RangeFault, match=r"Home Calibration 1e\+06 mm is outside|Home Calibration 1000000 mm is outside"):
+    with pytest.raises(
+        RangeFault, match=r"Home Calibration 1e\+06 mm is outside|Home Calibration 1000000 mm is outside"
+    ):
         mill.set_many({
             ("control.type", ""): Value("lathe"),
             ("axis.type", "2"): Value("rotary"),
@@ -147,8 +155,8 @@ def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> Non
             CALIBRATION: Value(1e6, "mm"),
         })  # fmt: skip
     assert before == mill.values
-    assert "mill" == mill.machine
-    assert "mm" == mill.situation.unit(("home.calibration", "2"), "metric")
+    assert mill.machine == "mill"
+    assert mill.situation.unit(("home.calibration", "2"), "metric") == "mm"
     replayed = dict(before)
     for change in heard:
         assert replayed.get(change.address) == change.old
@@ -181,24 +189,24 @@ def test_an_axis_that_changes_its_type_takes_its_values_along(mill: ParameterFil
 def test_a_forced_value_is_taken_and_marked(mill: ParameterFile) -> None:
     mill.set_many({CALIBRATION: Value(1e6, "mm"), POSITIVE: Value(5.0, "mm")}, force="by a test")
     assert Value(1e6, "mm") == mill.get(CALIBRATION)
-    assert {CALIBRATION: "by a test"} == mill.forced, "what is in range needs no mark"
+    assert mill.forced == {CALIBRATION: "by a test"}, "what is in range needs no mark"
 
 
 def test_the_mark_goes_when_the_value_is_changed_or_fits_again(mill: ParameterFile) -> None:
     mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
     mill.set_many({CALIBRATION: Value(1.0, "mm")})
-    assert {} == mill.forced
+    assert mill.forced == {}
     mill.set_many({NEGATIVE: Value(5.0, "mm")}, force="by a test")
-    assert {NEGATIVE: "by a test"} == mill.forced
+    assert mill.forced == {NEGATIVE: "by a test"}
     mill.set_many({POSITIVE: Value(10.0, "mm"), NEGATIVE: Value(5.0, "mm")})
-    assert {} == mill.forced, "the other bound has moved: the same value is in range now"
+    assert mill.forced == {}, "the other bound has moved: the same value is in range now"
 
 
 def test_a_refused_step_leaves_the_marks_as_they_were(mill: ParameterFile) -> None:
     mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
     with pytest.raises(RangeFault):
         mill.set_many({CALIBRATION: Value(1.0, "mm"), POSITIVE: Value(-1e9, "mm")})
-    assert {CALIBRATION: "by a test"} == mill.forced
+    assert mill.forced == {CALIBRATION: "by a test"}
     assert Value(1e6, "mm") == mill.get(CALIBRATION)
 
 
@@ -228,7 +236,12 @@ def test_a_copy_shares_nothing(mill: ParameterFile) -> None:
     twin.unknown.clear()
     twin.forced[CALIBRATION] = "x"
     assert Value(0.0, "mm") == mill.get(CALIBRATION)
-    assert ("me", "", {"future.thing": "5"}, {}) == (mill.header.extra["builder"], mill.header.notes, mill.unknown, mill.forced)
+    assert (mill.header.extra["builder"], mill.header.notes, mill.unknown, mill.forced) == (
+        "me",
+        "",
+        {"future.thing": "5"},
+        {},
+    )
 
 
 @given(st.dictionaries(st.sampled_from([CALIBRATION, POSITIVE, NEGATIVE]), st.floats(-3e6, 3e6), min_size=1))

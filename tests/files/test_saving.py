@@ -48,9 +48,9 @@ def names(folder: Path) -> set[str]:
 
 def test_the_previous_file_becomes_the_backup(old: Path) -> None:
     assert digest_of(old) != write_atomic(old, NEW, digest_of(old)) == digest_of(old)
-    assert (NEW, OLD) == (old.read_bytes(), backup_path(old).read_bytes())
+    assert (old.read_bytes(), backup_path(old).read_bytes()) == (NEW, OLD)
     write_atomic(old, b"third", digest_of(old))
-    assert (b"third", NEW) == (old.read_bytes(), backup_path(old).read_bytes())
+    assert (old.read_bytes(), backup_path(old).read_bytes()) == (b"third", NEW)
     assert {"machine.amp", "machine.amp.bak"} == names(old.parent)
 
 
@@ -78,7 +78,7 @@ def test_a_link_stays_a_link_to_the_file_that_is_saved(old: Path) -> None:
     link = old.with_name("link.amp")
     link.symlink_to(old)
     write_atomic(link, NEW, digest_of(link))
-    assert (True, NEW, OLD) == (link.is_symlink(), old.read_bytes(), backup_path(old).read_bytes())
+    assert (link.is_symlink(), old.read_bytes(), backup_path(old).read_bytes()) == (True, NEW, OLD)
 
 
 # -- somebody else's changes ---------------------------------------------------------------------------------
@@ -101,7 +101,7 @@ def test_a_file_that_is_gone_or_has_come_counts_as_changed(old: Path) -> None:
     old.write_bytes(b"theirs")
     with pytest.raises(ChangedOnDisk):
         write_atomic(old, NEW, None)
-    assert b"theirs" == old.read_bytes()
+    assert old.read_bytes() == b"theirs"
 
 
 def test_a_change_while_the_file_is_being_saved_is_seen(old: Path, monkeypatch) -> None:
@@ -138,7 +138,9 @@ def failures(disk, act: Callable[[], object], for_ever: bool) -> list[Exception 
 
 
 @pytest.mark.parametrize("for_ever", [False, True])
-def test_a_save_that_fails_at_any_call_leaves_the_old_file_and_one_that_passes_the_new(old: Path, disk, for_ever: bool) -> None:
+def test_a_save_that_fails_at_any_call_leaves_the_old_file_and_one_that_passes_the_new(
+    old: Path, disk, for_ever: bool
+) -> None:
     seen = []
 
     def save() -> None:
@@ -148,9 +150,9 @@ def test_a_save_that_fails_at_any_call_leaves_the_old_file_and_one_that_passes_t
             write_atomic(old, NEW, before)
         except SaveFault as fault:
             seen.append(str(fault))
-            assert OLD == old.read_bytes()
+            assert old.read_bytes() == OLD
             raise
-        assert NEW == old.read_bytes()
+        assert old.read_bytes() == NEW
 
     ends = failures(disk, save, for_ever)
     assert None is ends[-1]
@@ -175,7 +177,7 @@ def test_a_first_save_that_fails_leaves_no_file_at_all(tmp_path: Path, disk, for
         assert (NEW, {"new.amp"}) == (path.read_bytes(), names(tmp_path))
 
     ends = failures(disk, save, for_ever)
-    assert 3 < sum(isinstance(end, SaveFault) for end in ends)
+    assert sum(isinstance(end, SaveFault) for end in ends) > 3
     assert None is ends[-1]
 
 
@@ -190,7 +192,7 @@ def test_a_save_that_only_fails_to_sync_the_folder_has_been_made(old: Path, monk
 
     monkeypatch.setattr(os, "fsync", folders_fail)
     assert write_atomic(old, NEW, digest_of(old)) == digest_of(old)
-    assert (NEW, OLD) == (old.read_bytes(), backup_path(old).read_bytes())
+    assert (old.read_bytes(), backup_path(old).read_bytes()) == (NEW, OLD)
 
 
 def test_a_file_that_grows_too_large_for_the_disk_is_not_saved(old: Path) -> None:
@@ -221,7 +223,9 @@ def test_a_folder_is_not_replaced_by_a_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("for_ever", [False, True])
-def test_a_document_whose_save_fails_is_still_open_with_its_changes(on_disk: Path, disk, for_ever: bool) -> None:
+def test_a_document_whose_save_fails_is_still_open_with_its_changes(
+    on_disk: Path, disk, for_ever: bool
+) -> None:
     before = open_file(on_disk).file.values
     with Document.open(on_disk) as document:
         number = 0.0
@@ -296,7 +300,7 @@ def test_a_program_killed_at_any_call_of_a_save_leaves_a_whole_file(on_disk: Pat
     program, runs = other(KILLED, on_disk), []
     while not runs or runs[-1][1] == "killed":
         runs.append(program.says().split())
-    assert 8 < len(runs)
+    assert len(runs) > 8
     assert [str(n) for n in range(1, len(runs) + 1)] == [at for at, _ in runs]
     found = [open_file(on_disk.with_name(f"run{at}.amp")).file.values for at, _ in runs]
     assert all(values in (before, after) for values in found)
@@ -308,7 +312,9 @@ def test_a_program_killed_at_any_call_of_a_save_leaves_a_whole_file(on_disk: Pat
 # -- backup and recovery --------------------------------------------------------------------------------------------
 
 
-def test_a_backup_is_put_back_and_what_stood_there_becomes_the_backup(on_disk: Path, mill: ParameterFile) -> None:
+def test_a_backup_is_put_back_and_what_stood_there_becomes_the_backup(
+    on_disk: Path, mill: ParameterFile
+) -> None:
     first = on_disk.read_bytes()
     mill.set(CALIBRATION, Value(8.0, "mm"))
     save_file(mill, on_disk, digest_of(on_disk))
@@ -355,7 +361,9 @@ def test_recovery_does_not_overwrite_what_another_program_saved(on_disk: Path, m
 # -- save_file ---------------------------------------------------------------------------------------------------------
 
 
-def test_every_saved_file_carries_the_signature_of_the_schema_it_was_saved_with(on_disk: Path, mill: ParameterFile) -> None:
+def test_every_saved_file_carries_the_signature_of_the_schema_it_was_saved_with(
+    on_disk: Path, mill: ParameterFile
+) -> None:
     assert mill.schema.signature == open_file(on_disk).file.header.signature
     mill.header.signature = "of an older program"
     save_file(mill, on_disk, digest_of(on_disk))

@@ -47,7 +47,9 @@ class Facts:
 
     def group(self, parameters: str, key: str = "all") -> Path:
         """Write the file of a group; ``parameters`` is the YAML list of its parameters."""
-        return self.write(f"groups/{key}.yaml", f'key: {key}\nname: All\nchapter: "1"\nparameters:\n{dedent(parameters)}')
+        return self.write(
+            f"groups/{key}.yaml", f'key: {key}\nname: All\nchapter: "1"\nparameters:\n{dedent(parameters)}'
+        )
 
     def schema(self, parameters: str, head: str = HEAD) -> Schema:
         """Return the schema of a family with these parameters."""
@@ -59,7 +61,7 @@ class Facts:
 class Machine:
     """One machine of a family: its values, and the situation they make."""
 
-    def __init__(self, schema: Schema, values: Mapping[str, Value] = {}, machine: str = "") -> None:  # noqa: B006
+    def __init__(self, schema: Schema, values: Mapping[str, Value] = {}, machine: str = "") -> None:
         self.schema = schema
         self.values: dict[Address, Value] = {read_address(name): value for name, value in values.items()}
         self.machine = machine or schema.family.default_machine

@@ -27,9 +27,15 @@ from amp_studio.schema.units import UNITS
 
 SHARED_NUMBERS = {
     "9pc": {
-        frozenset({"servo.velocity_gear_teeth", "servo.spindle_motor_teeth"}): "1013 by axis type, pages 7-52 and 7-82",
-        frozenset({"servo.velocity_screw_teeth", "servo.spindle_shaft_teeth"}): "1018 by axis type, pages 7-53 and 7-83",
-        frozenset({"zone.overtravel_used", "servo.velocity_port"}): "1020 is misprinted on page 7-46 (erratum e-1020-number)",
+        frozenset(
+            {"servo.velocity_gear_teeth", "servo.spindle_motor_teeth"}
+        ): "1013 by axis type, pages 7-52 and 7-82",
+        frozenset(
+            {"servo.velocity_screw_teeth", "servo.spindle_shaft_teeth"}
+        ): "1018 by axis type, pages 7-53 and 7-83",
+        frozenset(
+            {"zone.overtravel_used", "servo.velocity_port"}
+        ): "1020 is misprinted on page 7-46 (erratum e-1020-number)",
     },
 }
 """Parameters that share a number, with the reason; all other numbers are unique on a machine."""
@@ -57,34 +63,46 @@ def machines_of(schema: Schema) -> list[str]:
 
 
 def test_every_parameter_has_help_and_a_page(schema: Schema) -> None:
-    assert [] == [p.id for p in schema.parameters.values() if not p.help.what.strip() or not p.page or not p.name.strip()]
+    assert [
+        p.id
+        for p in schema.parameters.values()
+        if not p.help.what.strip() or not p.page or not p.name.strip()
+    ] == []
 
 
 def test_every_group_is_in_the_order_of_the_family_and_not_empty(schema: Schema) -> None:
     assert list(schema.family.groups) == [group.key for group in schema.groups]
-    assert [] == [group.key for group in schema.groups if not group.parameters]
+    assert [group.key for group in schema.groups if not group.parameters] == []
 
 
 def test_every_related_parameter_exists_and_is_another(schema: Schema) -> None:
     pairs = [(p.id, related) for p in schema.parameters.values() for related in p.help.related]
-    assert [] == [(name, related) for name, related in pairs if related not in schema.parameters or related == name]
+    assert [
+        (name, related) for name, related in pairs if related not in schema.parameters or related == name
+    ] == []
 
 
 def test_every_erratum_that_is_cited_exists_and_every_erratum_is_cited(schema: Schema) -> None:
     cited = {(p.id, erratum) for p in schema.parameters.values() for erratum in p.errata}
-    assert [] == [(name, erratum) for name, erratum in sorted(cited) if erratum not in schema.errata]
+    assert [(name, erratum) for name, erratum in sorted(cited) if erratum not in schema.errata] == []
     assert set() == set(schema.errata) - {erratum for _, erratum in cited}
-    assert [] == [e.id for e in schema.errata.values() if [name for name in e.params if name not in schema.parameters]]
+    assert [
+        e.id for e in schema.errata.values() if [name for name in e.params if name not in schema.parameters]
+    ] == []
 
 
 def test_an_erratum_gives_at_least_two_readings_and_the_choice(schema: Schema) -> None:
-    assert [] == [e.id for e in schema.errata.values() if not e.readings or not e.taken.strip() or not e.why.strip()]
+    assert [
+        e.id for e in schema.errata.values() if not e.readings or not e.taken.strip() or not e.why.strip()
+    ] == []
 
 
 def test_every_condition_that_is_used_exists(schema: Schema) -> None:
     used = {(p.id, rule.when or rule.unless) for p in schema.parameters.values() for rule in p.states}
     used |= {(p.id, variant.when) for p in schema.parameters.values() for variant in p.range_variants}
-    assert [] == [(name, condition) for name, condition in sorted(used) if condition not in schema.family.conditions]
+    assert [
+        (name, condition) for name, condition in sorted(used) if condition not in schema.family.conditions
+    ] == []
 
 
 def test_every_condition_reads_what_exists_and_uses_what_it_reads(schema: Schema) -> None:
@@ -123,7 +141,9 @@ def test_every_range_runs_from_low_to_high_in_a_unit_of_its_quantity(schema: Sch
         units = {dimension(unit) for unit in schema.units_of(parameter)}
         for unit, (low, high) in ranges_of(parameter):
             assert unit in UNITS, parameter.id
-            assert dimension(unit) in units, f"{parameter.id}: {unit} does not measure what {schema.units_of(parameter)} does"
+            assert dimension(unit) in units, (
+                f"{parameter.id}: {unit} does not measure what {schema.units_of(parameter)} does"
+            )
             if isinstance(low, float) and isinstance(high, float):
                 assert low <= high, parameter.id
 
@@ -137,7 +157,9 @@ def test_inch_and_metric_ranges_say_the_same_to_the_last_printed_digit(schema: S
             for inch, other in zip(pair, (parameter.ranges or {})[metric], strict=True):
                 assert isinstance(inch, BoundRef) == isinstance(other, BoundRef), parameter.id
                 if isinstance(inch, float) and isinstance(other, float):
-                    digit = canonical(10.0 ** -(parameter.decimals or 4), unit) + 1e-7 * abs(canonical(inch, unit))
+                    digit = canonical(10.0 ** -(parameter.decimals or 4), unit) + 1e-7 * abs(
+                        canonical(inch, unit)
+                    )
                     assert abs(canonical(inch, unit) - canonical(other, metric)) <= digit, parameter.id
 
 
@@ -148,24 +170,32 @@ def test_every_bound_by_another_parameter_exists_for_the_same_axis(schema: Schem
                 for bound in pair:
                     if isinstance(bound, BoundRef):
                         source = schema.parameter(bound.param)
-                        assert schema.instances(parameter, machine) == schema.instances(source, machine), parameter.id
+                        assert schema.instances(parameter, machine) == schema.instances(source, machine), (
+                            parameter.id
+                        )
 
 
 def test_every_number_parameter_has_a_printed_range(schema: Schema) -> None:
-    assert [] == [p.id for p in schema.parameters.values() if p.type in ("real", "integer") and not p.ranges]
+    assert [p.id for p in schema.parameters.values() if p.type in ("real", "integer") and not p.ranges] == []
 
 
 def test_every_printed_default_is_in_its_printed_range(schema: Schema) -> None:
     known = DEFAULTS_OUT_OF_RANGE.get(schema.family.family, {})
     for file in filled(schema):
-        faults = {a[0]: said for a in file.addresses() if (d := file.default(a)) and (said := fault(file.situation, a, d))}
+        faults = {
+            a[0]: said
+            for a in file.addresses()
+            if (d := file.default(a)) and (said := fault(file.situation, a, d))
+        }
         assert set(known) == set(faults), faults
 
 
 def test_every_default_is_in_a_unit_of_its_quantity(schema: Schema) -> None:
     for parameter in schema.parameters.values():
         if parameter.default and not parameter.choices and parameter.type in ("real", "integer"):
-            assert dimension(parameter.default.unit) in {dimension(u) for u in schema.units_of(parameter)}, parameter.id
+            assert dimension(parameter.default.unit) in {dimension(u) for u in schema.units_of(parameter)}, (
+                parameter.id
+            )
 
 
 def test_no_two_choices_of_a_parameter_are_stored_as_the_same_code(schema: Schema) -> None:
@@ -202,7 +232,9 @@ def test_every_number_is_unique_on_its_machine_except_the_known_ones(schema: Sch
 
 def test_every_rule_reads_what_exists_and_mends_what_it_reads(schema: Schema) -> None:
     for rule in schema.rules:
-        assert [] == [text for text in rule.reads.values() if read_address(text)[0] not in schema.parameters], rule.id
+        assert [
+            text for text in rule.reads.values() if read_address(text)[0] not in schema.parameters
+        ] == [], rule.id
         assert set() == {fix.set for fix in rule.fix} - set(rule.reads), rule.id
         assert set() == {*rule.optional, *rule.any_state} - set(rule.reads), rule.id
         program(rule.when), program(rule.check)
@@ -213,6 +245,6 @@ def test_the_axis_operations_act_on_parameters_that_exist(schema: Schema) -> Non
     profile = schema.family.axes
     if profile is not None:
         names = [profile.name, profile.type, *filter(None, [profile.hardware, profile.loop])]
-        assert [] == [name for name in names if name not in schema.parameters]
+        assert [name for name in names if name not in schema.parameters] == []
         types = {choice.key for choice in schema.parameter(profile.type).choices or ()}
         assert set() == {profile.unfitted, profile.usual_type, *profile.types.values()} - types

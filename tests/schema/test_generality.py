@@ -64,29 +64,32 @@ def test_one_number_of_two_parameters_is_told_apart_by_the_axis_type(facts, head
         facts.schema(SHARED, head + SPINDLE_AXIS),
         {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
     )
-    assert ("servo.motor_teeth", "1") == here.situation.find("1013")
-    assert ("spindle.motor_teeth", "2") == here.situation.find("2013")
+    assert here.situation.find("1013") == ("servo.motor_teeth", "1")
+    assert here.situation.find("2013") == ("spindle.motor_teeth", "2")
     assert "outside 1 to 99" in str(fault(here.situation, here.situation.find("2013"), Value(100)))
     assert fault(here.situation, here.situation.find("1013"), Value(100)) is None
 
 
 def test_the_number_follows_when_the_axis_becomes_a_spindle(facts, head, machine) -> None:
     here = machine(facts.schema(SHARED, head + SPINDLE_AXIS), {"axis.type@1": Value("linear")})
-    assert ("servo.motor_teeth", "1") == here.situation.find("1013")
+    assert here.situation.find("1013") == ("servo.motor_teeth", "1")
     here.set("axis.type@1", Value("spindle"))
-    assert ("spindle.motor_teeth", "1") == here.situation.find("1013")
+    assert here.situation.find("1013") == ("spindle.motor_teeth", "1")
 
 
 def test_a_shared_number_is_found_even_where_something_else_hides_both(facts, head, machine) -> None:
     both = "states: [{state: hidden, when: no_servo}, "
     text = SHARED.replace("states: [", both)
-    conditions = SPINDLE_AXIS + "  no_servo: {reads: {axis: axis.type}, when: axis != null, why: no servo is chosen}\n"
-    here = machine(
-        facts.schema(text, head + conditions), {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")}
+    conditions = (
+        SPINDLE_AXIS + "  no_servo: {reads: {axis: axis.type}, when: axis != null, why: no servo is chosen}\n"
     )
-    assert "hidden" == here.situation.state(("servo.motor_teeth", "1")).state
-    assert ("servo.motor_teeth", "1") == here.situation.find("1013")
-    assert ("spindle.motor_teeth", "2") == here.situation.find("2013")
+    here = machine(
+        facts.schema(text, head + conditions),
+        {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
+    )
+    assert here.situation.state(("servo.motor_teeth", "1")).state == "hidden"
+    assert here.situation.find("1013") == ("servo.motor_teeth", "1")
+    assert here.situation.find("2013") == ("spindle.motor_teeth", "2")
 
 
 def test_a_number_that_nothing_tells_apart_is_refused_with_both_ids(facts, machine) -> None:
@@ -116,10 +119,10 @@ def test_a_number_printed_for_two_parameters_belongs_to_the_undisputed_one(facts
         page: "7-46"
     """)
     here = machine(schema)
-    assert ("zone.overtravel_used", "3") == here.situation.find("3020")
-    assert "3020" == schema.short(("zone.overtravel_used", "3"), "mill")
-    assert "servo.velocity_port@3" == schema.short(("servo.velocity_port", "3"), "mill")
-    assert "Velocity Loop Feedback Port Axis 3" == schema.label(("servo.velocity_port", "3"), "mill")
+    assert here.situation.find("3020") == ("zone.overtravel_used", "3")
+    assert schema.short(("zone.overtravel_used", "3"), "mill") == "3020"
+    assert schema.short(("servo.velocity_port", "3"), "mill") == "servo.velocity_port@3"
+    assert schema.label(("servo.velocity_port", "3"), "mill") == "Velocity Loop Feedback Port Axis 3"
 
 
 # -- what depends on mill or lathe ----------------------------------------------------------------
@@ -143,9 +146,9 @@ def test_the_numbers_of_a_parameter_may_differ_between_mill_and_lathe(facts, mac
         help: {what: The life of a tool on a mill.}
         page: "20-4"
     """)
-    assert ("tool.wear", "") == machine(schema, machine="mill").situation.find("97")
-    assert ("tool.life", "") == machine(schema, machine="mill").situation.find("98")
-    assert ("tool.wear", "") == machine(schema, machine="lathe").situation.find("98")
+    assert machine(schema, machine="mill").situation.find("97") == ("tool.wear", "")
+    assert machine(schema, machine="mill").situation.find("98") == ("tool.life", "")
+    assert machine(schema, machine="lathe").situation.find("98") == ("tool.wear", "")
     with pytest.raises(UnknownParameter, match="'97' is no parameter"):
         machine(schema, machine="lathe").situation.find("97")
     with pytest.raises(UnknownParameter, match="does not exist on this machine type"):
@@ -165,11 +168,11 @@ def test_the_scope_of_a_parameter_may_differ_between_mill_and_lathe(facts, machi
         help: {what: One value on a mill and one for each axis of a lathe.}
         page: "4-9"
     """)
-    assert (("plane.radius", ""),) == schema.addresses("mill")
-    assert (("plane.radius", "1"), ("plane.radius", "2"), ("plane.radius", "3")) == schema.addresses("lathe")
+    assert schema.addresses("mill") == (("plane.radius", ""),)
+    assert schema.addresses("lathe") == (("plane.radius", "1"), ("plane.radius", "2"), ("plane.radius", "3"))
     mill, lathe = machine(schema, machine="mill"), machine(schema, machine="lathe")
-    assert ("plane.radius", "") == mill.situation.find("100")
-    assert ("plane.radius", "2") == lathe.situation.find("2100")
+    assert mill.situation.find("100") == ("plane.radius", "")
+    assert lathe.situation.find("2100") == ("plane.radius", "2")
     for here, address in ((mill, ("plane.radius", "")), (lathe, ("plane.radius", "2"))):
         assert fault(here.situation, address, Value(10.0, "mm")) is None
         assert "outside 0 to 10 mm" in str(fault(here.situation, address, Value(10.1, "mm")))
@@ -205,11 +208,11 @@ def test_axis_1_is_not_taken_for_process_1(facts, head, machine) -> None:
         + "conditions:\n  no_groups: {reads: {groups: zone.groups}, when: groups == 0.0, why: no groups}\n",
     )
     here = machine(schema, {"zone.groups": Value(1), "zone.groups@1": Value(0), "zone.groups@2": Value(1)})
-    assert "in-force" == here.situation.state(("zone.limit", "1")).state
-    assert "ignored" == here.situation.state(("zone.speed", "1")).state
-    assert "in-force" == here.situation.state(("zone.speed", "2")).state
+    assert here.situation.state(("zone.limit", "1")).state == "in-force"
+    assert here.situation.state(("zone.speed", "1")).state == "ignored"
+    assert here.situation.state(("zone.speed", "2")).state == "in-force"
     here.set("zone.groups", Value(0))
-    assert "ignored" == here.situation.state(("zone.limit", "1")).state
+    assert here.situation.state(("zone.limit", "1")).state == "ignored"
     assert {("zone.groups", "")} == here.situation.state_reads(("zone.limit", "1"))
 
 
@@ -239,14 +242,18 @@ def test_a_bound_may_be_another_parameter_of_the_same_axis(facts, machine) -> No
     assert fault(here.situation, ("zone.max", "1"), Value(25.4, "mm")) is None
     assert fault(here.situation, ("zone.max", "1"), Value(1.0, "in")) is None
     said = fault(here.situation, ("zone.max", "1"), Value(0.9, "in"))
-    assert "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum)" == said
+    assert said == "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum)"
     assert fault(here.situation, ("zone.max", "2"), Value(49.0, "mm")) is not None
-    assert fault(here.situation, ("zone.max", "3"), Value(-1e9, "mm")) is None, "an unset bound bounds nothing"
+    assert fault(here.situation, ("zone.max", "3"), Value(-1e9, "mm")) is None, (
+        "an unset bound bounds nothing"
+    )
 
 
 def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
     """9/PC Excess Error: 214.1 mm on a slide, 1440 degrees on a spindle (page 7-20)."""
-    text = SHARED + """
+    text = (
+        SHARED
+        + """
   - id: servo.excess_error
     name: Excess Error
     scope: axis
@@ -257,12 +264,13 @@ def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
     help: {what: The error at which the axis stops.}
     page: "7-20"
 """
+    )
     here = machine(
         facts.schema(text, head + SPINDLE_AXIS + "angular_when: spindle_axis\n"),
         {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
     )
     slide, spindle = ("servo.excess_error", "1"), ("servo.excess_error", "2")
-    assert ("mm", "deg") == (here.situation.unit(slide, "metric"), here.situation.unit(spindle, "inch"))
+    assert (here.situation.unit(slide, "metric"), here.situation.unit(spindle, "inch")) == ("mm", "deg")
     assert fault(here.situation, spindle, Value(1440.0, "deg")) is None
     assert "outside 0 to 1440 °" in str(fault(here.situation, spindle, Value(1440.1, "deg")))
     assert "outside 0 to 214.1 mm" in str(fault(here.situation, slide, Value(1440.0, "mm")))
@@ -283,8 +291,8 @@ def test_a_value_is_entered_in_one_unit_and_stored_in_another(facts, machine) ->
     """)
     here, rapid = machine(schema), ("feedrate.rapid", "1")
     parameter = schema.parameter("feedrate.rapid")
-    assert ("mm/min", "in/min") == (here.situation.unit(rapid, "metric"), here.situation.unit(rapid, "inch"))
-    assert "mm/s" == parameter.storage.unit
+    assert (here.situation.unit(rapid, "metric"), here.situation.unit(rapid, "inch")) == ("mm/min", "in/min")
+    assert parameter.storage.unit == "mm/s"
     assert Value(100.0, "mm/s") == read_value(parameter, "100 mm/s", "mm/min")
     assert fault(here.situation, rapid, Value(169.333334, "mm/s")) is None
     assert fault(here.situation, rapid, Value(169.33334, "mm/s")) is not None, "10160.0004 mm/min"
@@ -324,8 +332,12 @@ def test_what_is_no_number_format_is_refused(word_format, text: str) -> None:
         read_value(word_format.parameter("word.format"), text, "")
 
 
-@pytest.mark.parametrize(("form", "allowed"), [("6.4", True), ("0.0", True), ("7.0", False), ("0.5", False), ("3.10", False)])
-def test_each_part_of_a_number_format_has_its_own_bound(word_format, machine, form: str, allowed: bool) -> None:
+@pytest.mark.parametrize(
+    ("form", "allowed"), [("6.4", True), ("0.0", True), ("7.0", False), ("0.5", False), ("3.10", False)]
+)
+def test_each_part_of_a_number_format_has_its_own_bound(
+    word_format, machine, form: str, allowed: bool
+) -> None:
     said = fault(machine(word_format).situation, ("word.format", ""), Value(form))
     assert (None if allowed else f"X Word Format {form} is outside 0.0 to 6.4") == said
 
@@ -372,10 +384,10 @@ def test_a_parameter_may_be_an_array_of_words(facts, machine) -> None:
         NUM,
     )
     here = machine(schema)
-    assert 32 == len(schema.addresses("mill"))
+    assert len(schema.addresses("mill")) == 32
     assert ("servo.gain", "3") == here.situation.find("P21N3") == here.situation.find("p21n3")
-    assert ("servo.gain", "31") == here.situation.find("P21N31")
-    assert "P21N3 Servo-System Loop Gain" == schema.label(("servo.gain", "3"), "mill")
+    assert here.situation.find("P21N31") == ("servo.gain", "31")
+    assert schema.label(("servo.gain", "3"), "mill") == "P21N3 Servo-System Loop Gain"
     assert fault(here.situation, ("servo.gain", "31"), Value(-32768)) is None
     assert fault(here.situation, ("servo.gain", "31"), Value(32768)) is not None
     with pytest.raises(UnknownParameter, match="'P21N32' is no parameter"):
@@ -408,10 +420,12 @@ def test_a_mask_has_a_bit_an_axis_and_is_written_in_hexadecimal(mask, machine) -
     here, parameter = machine(mask), mask.parameter("axes.displayed")
     value = read_value(parameter, "0x8000001f", "")
     assert Value(0x8000001F) == value
-    assert Value(0x8000001F) == read_value(parameter, "$8000001F", "") == read_value(parameter, "2147483679", "")
-    assert "0x8000001F" == write_value(parameter, value)
-    assert "0x00000007" == write_value(parameter, Value(7))
-    assert (1, 1, 0) == tuple(field_value(field_at(parameter, n), 0x8000001F) for n in (31, 0, 5))
+    assert (
+        Value(0x8000001F) == read_value(parameter, "$8000001F", "") == read_value(parameter, "2147483679", "")
+    )
+    assert write_value(parameter, value) == "0x8000001F"
+    assert write_value(parameter, Value(7)) == "0x00000007"
+    assert tuple(field_value(field_at(parameter, n), 0x8000001F) for n in (31, 0, 5)) == (1, 1, 0)
     assert fault(here.situation, ("axes.displayed", "0"), Value(0xFFFFFFFF)) is None
     assert "does not fit its 32 bits" in str(fault(here.situation, ("axes.displayed", "0"), Value(2**32)))
     assert "does not fit its 32 bits" in str(fault(here.situation, ("axes.displayed", "0"), Value(-1)))
@@ -419,11 +433,11 @@ def test_a_mask_has_a_bit_an_axis_and_is_written_in_hexadecimal(mask, machine) -
 
 def test_a_bit_of_a_mask_is_addressed_and_changed_by_itself(mask, machine) -> None:
     here, parameter = machine(mask), mask.parameter("axes.displayed")
-    assert (("axes.displayed", "0"), 5) == here.situation.find_bit("P3N0.5")
-    assert (("axes.displayed", "0"), 5) == here.situation.find_bit("axes.displayed@0.5")
-    assert (("axes.displayed", "0"), None) == here.situation.find_bit("P3N0")
-    assert 0b100011 == with_field(field_at(parameter, 5), 0b000011, "yes")
-    assert 0b000010 == with_field(field_at(parameter, 0), 0b000011, "0")
+    assert here.situation.find_bit("P3N0.5") == (("axes.displayed", "0"), 5)
+    assert here.situation.find_bit("axes.displayed@0.5") == (("axes.displayed", "0"), 5)
+    assert here.situation.find_bit("P3N0") == (("axes.displayed", "0"), None)
+    assert with_field(field_at(parameter, 5), 0b000011, "yes") == 0b100011
+    assert with_field(field_at(parameter, 0), 0b000011, "0") == 0b000010
     with pytest.raises(ValueFault, match="bits 0 to 31, not 32"):
         field_at(parameter, 32)
     with pytest.raises(ValueFault, match="Axis 3, which takes 0 to 1"):
@@ -460,8 +474,8 @@ def test_pairs_of_words_belong_to_one_axis(facts, machine) -> None:
         NUM,
     )
     find = machine(schema).situation.find
-    assert [("measure.multi", "3"), ("measure.divi", "3")] == [find("P11N6"), find("P11N7")]
-    assert [("measure.multi", "0"), ("measure.divi", "0")] == [find("P11N0"), find("P11N1")]
+    assert [find("P11N6"), find("P11N7")] == [("measure.multi", "3"), ("measure.divi", "3")]
+    assert [find("P11N0"), find("P11N1")] == [("measure.multi", "0"), ("measure.divi", "0")]
 
 
 def test_a_word_may_hold_a_code_in_each_nibble(facts, machine) -> None:
@@ -487,10 +501,13 @@ def test_a_word_may_hold_a_code_in_each_nibble(facts, machine) -> None:
     )
     parameter, address = schema.parameter("sensor.kind"), ("sensor.kind", "0")
     here = machine(schema)
-    assert [1, 8, 0, 15] == [field_value(field_at(parameter, n), 0xF081) for n in (0, 4, 8, 12)]
+    assert [field_value(field_at(parameter, n), 0xF081) for n in (0, 4, 8, 12)] == [1, 8, 0, 15]
     assert fault(here.situation, address, Value(0xF081)) is None
-    assert "2 is no code of Axis 1 in Sensors of Axes 0 to 3" == fault(here.situation, address, Value(0xF021))
-    assert 0xF811 == with_field(field_at(parameter, 8), with_field(field_at(parameter, 4), 0xF081, "Sine  Wave"), "ssi")
+    assert fault(here.situation, address, Value(0xF021)) == "2 is no code of Axis 1 in Sensors of Axes 0 to 3"
+    assert (
+        with_field(field_at(parameter, 8), with_field(field_at(parameter, 4), 0xF081, "Sine  Wave"), "ssi")
+        == 0xF811
+    )
 
 
 def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, machine) -> None:
@@ -516,9 +533,9 @@ def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, mac
     )
     parameter, here = schema.parameter("sensor.registers"), machine(schema)
     word = 0xABC5_FFD9
-    assert [25, 0, 0x3FF, 5] == [field_value(field_at(parameter, n), word) for n in (0, 5, 6, 16)]
+    assert [field_value(field_at(parameter, n), word) for n in (0, 5, 6, 16)] == [25, 0, 0x3FF, 5]
     changed = with_field(field_at(parameter, 0), word, "13")
-    assert 0xABC5_FFCD == changed, "every other bit stays, known or not"
+    assert changed == 0xABC5_FFCD, "every other bit stays, known or not"
     assert fault(here.situation, ("sensor.registers", "1"), Value(changed)) is None
     assert field_at(parameter, 20).unknown, "a bit that the database does not name can still be read"
     with pytest.raises(ValueFault, match="Length of the frame, which takes 0 to 31"):
@@ -577,17 +594,21 @@ def test_registers_are_read_on_a_command_and_the_second_axis_lies_2048_higher(fa
         """,
     )
     find = machine(schema).situation.find
-    assert [("gain.proportional", "X"), ("gain.proportional", "Y")] == [find("R3"), find("R2051")]
-    assert [("limit.positive", "X"), ("limit.positive", "Y")] == [find("r11"), find("r2059")]
+    assert [find("R3"), find("R2051")] == [("gain.proportional", "X"), ("gain.proportional", "Y")]
+    assert [find("r11"), find("r2059")] == [("limit.positive", "X"), ("limit.positive", "Y")]
     effect = schema.parameter("gain.proportional").effect
-    assert ("command", "change default setups") == (effect.level, effect.command)
+    assert (effect.level, effect.command) == ("command", "change default setups")
     orders = [schema.parameter(name).storage.word_order for name in ("limit.positive", "homing.low_speed")]
-    assert ["high-first", "low-first"] == orders
-    assert 2 == schema.parameter("limit.positive").storage.words
-    assert Value(2**31 - 1, "counts") == read_value(schema.parameter("limit.positive"), "2147483647", "counts")
+    assert orders == ["high-first", "low-first"]
+    assert schema.parameter("limit.positive").storage.words == 2
+    assert Value(2**31 - 1, "counts") == read_value(
+        schema.parameter("limit.positive"), "2147483647", "counts"
+    )
     assert fault(machine(schema).situation, find("R2059"), Value(2**31, "counts")) is not None
-    assert ("counts/s",) == schema.units_of(schema.parameter("homing.low_speed"))
-    assert Value(2000.0, "counts/s") == read_value(schema.parameter("homing.low_speed"), "2000 counts/sec", "counts/s")
+    assert schema.units_of(schema.parameter("homing.low_speed")) == ("counts/s",)
+    assert Value(2000.0, "counts/s") == read_value(
+        schema.parameter("homing.low_speed"), "2000 counts/sec", "counts/s"
+    )
 
 
 # -- Syntec and AcroMill ------------------------------------------------------------------------------
@@ -617,8 +638,10 @@ def test_odd_and_even_numbers_may_be_a_pair_that_takes_effect_on_reset(facts, ma
     find = machine(schema).situation.find
     expected = [("gear.screw", "1"), ("gear.motor", "1"), ("gear.screw", "2"), ("gear.motor", "3")]
     assert expected == [find(number) for number in ("Pr121", "Pr122", "Pr123", "pr126")]
-    levels = [(schema.parameter(name).effect or schema.family.effect).level for name in ("gear.screw", "gear.motor")]
-    assert ["reset", "restart"] == levels, "what is not said of a parameter is said of the family"
+    levels = [
+        (schema.parameter(name).effect or schema.family.effect).level for name in ("gear.screw", "gear.motor")
+    ]
+    assert levels == ["reset", "restart"], "what is not said of a parameter is said of the family"
 
 
 def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
@@ -651,11 +674,11 @@ def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
         """,
     )
     find = machine(schema).situation.find
-    assert ("axes.pulses_per_unit", "Y") == find("axes.pulses_per_unit@Y")
-    assert ("system.units", "") == find("system.units")
+    assert find("axes.pulses_per_unit@Y") == ("axes.pulses_per_unit", "Y")
+    assert find("system.units") == ("system.units", "")
     assert schema.number(("axes.pulses_per_unit", "X"), "mill") is None
-    assert "axes.pulses_per_unit@Z" == schema.short(("axes.pulses_per_unit", "Z"), "mill")
-    assert "Pulses/Unit Axis Z" == schema.label(("axes.pulses_per_unit", "Z"), "mill")
+    assert schema.short(("axes.pulses_per_unit", "Z"), "mill") == "axes.pulses_per_unit@Z"
+    assert schema.label(("axes.pulses_per_unit", "Z"), "mill") == "Pulses/Unit Axis Z"
     for text, said in (
         ("axes.pulses_per_unit", "has @X to @Z"),
         ("axes.pulses_per_unit@A", "has @X to @Z"),
@@ -669,8 +692,12 @@ def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
 # -- clip, where several of these meet ------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("value", "expected"), [(Value(0), Value(1)), (Value(99), Value(3)), (Value(2), Value(2))])
-def test_a_whole_number_is_mended_to_a_whole_number_inside(facts, machine, value: Value, expected: Value) -> None:
+@pytest.mark.parametrize(
+    ("value", "expected"), [(Value(0), Value(1)), (Value(99), Value(3)), (Value(2), Value(2))]
+)
+def test_a_whole_number_is_mended_to_a_whole_number_inside(
+    facts, machine, value: Value, expected: Value
+) -> None:
     schema = facts.schema("""
       - id: a.whole
         name: Whole
@@ -682,4 +709,7 @@ def test_a_whole_number_is_mended_to_a_whole_number_inside(facts, machine, value
     here = machine(schema)
     assert expected == clip(here.situation, ("a.whole", ""), value)
     assert fault(here.situation, ("a.whole", ""), clip(here.situation, ("a.whole", ""), value)) is None
-    assert (0.5, 3.5) == (limits(here.situation, ("a.whole", ""), "").low, limits(here.situation, ("a.whole", ""), "").high)
+    assert (
+        limits(here.situation, ("a.whole", ""), "").low,
+        limits(here.situation, ("a.whole", ""), "").high,
+    ) == (0.5, 3.5)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 
 import pytest
@@ -38,7 +37,9 @@ GOOD = """
   help: {what: Which kind.}
   page: "1"
 """
-SLOW = 'conditions:\n  slow:\n    reads: {speed: a.speed}\n    when: speed < 1.0\n    why: too slow\n'
+SLOW = "conditions:\n  slow:\n    reads: {speed: a.speed}\n    when: speed < 1.0\n    why: too slow\n"
+
+
 def line_with(path: Path, text: str) -> int:
     """Return the last line of a file that holds a text."""
     return max(n for n, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if text in line)
@@ -46,8 +47,8 @@ def line_with(path: Path, text: str) -> int:
 
 def test_good_facts_load(facts, head) -> None:
     schema = facts.schema(GOOD, head + SLOW)
-    assert ["a.speed", "a.kind"] == list(schema.parameters)
-    assert "All" == schema.group_of["a.kind"].name
+    assert list(schema.parameters) == ["a.speed", "a.kind"]
+    assert schema.group_of["a.kind"].name == "All"
 
 
 @pytest.mark.parametrize(
@@ -94,16 +95,31 @@ def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, mar
         ("length: mm", "length: mn", "length: mn", "'mn' is no unit"),
         ("speed < 1.0", "speed <", "    when: speed <", "condition slow:"),
         ("speed < 1.0", "loop < 1.0", "    when: loop", "condition slow:"),
-        ("{speed: a.speed}", "{speed: a.sped}", "    reads:", "condition slow reads 'a.sped', which does not exist"),
-        ("groups: [all]", "groups: [all]\nangular_when: turns", "angular_when", "there is no condition 'turns'"),
-        ("groups: [all]", "groups: [all]\nmachine_parameter: a.b", "machine_parameter", "there is no parameter 'a.b'"),
+        (
+            "{speed: a.speed}",
+            "{speed: a.sped}",
+            "    reads:",
+            "condition slow reads 'a.sped', which does not exist",
+        ),
+        (
+            "groups: [all]",
+            "groups: [all]\nangular_when: turns",
+            "angular_when",
+            "there is no condition 'turns'",
+        ),
+        (
+            "groups: [all]",
+            "groups: [all]\nmachine_parameter: a.b",
+            "machine_parameter",
+            "there is no parameter 'a.b'",
+        ),
     ],
 )
 def test_a_fault_in_the_family_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
     text = (head + SLOW).replace(old, new, 1)
     with pytest.raises(DatabaseFault) as refused:
         facts.schema(GOOD, text)
-    assert ("family.yaml", True) == (refused.value.path.name, said in refused.value.what)
+    assert (refused.value.path.name, said in refused.value.what) == ("family.yaml", True)
     assert line_with(refused.value.path, marked) == refused.value.line
 
 
@@ -189,7 +205,7 @@ def test_what_comes_from_the_cache_is_what_was_compiled_and_costs_no_parsing(dat
     second = load()
     assert first == second
     assert schema_of(first).signature == schema_of(second).signature
-    assert [] == parsed
+    assert parsed == []
 
 
 def test_the_real_families_come_from_the_cache_as_they_were_compiled(monkeypatch, tmp_path) -> None:
@@ -201,7 +217,7 @@ def test_the_real_families_come_from_the_cache_as_they_were_compiled(monkeypatch
 
 @pytest.mark.parametrize(
     "content",
-    [b"", b"{", b"null", b"[]", b"{}", b"\xff\xfe", b'{"family": {}}', b'{"family": "9pc"', os.urandom(64)],
+    [b"", b"{", b"null", b"[]", b"{}", b"\xff\xfe", b'{"family": {}}', b'{"family": "9pc"', bytes(range(64))],
 )
 def test_a_cache_file_that_cannot_be_read_is_made_again(database, tmp_path, content: bytes) -> None:
     expected = load()
@@ -236,7 +252,7 @@ def test_a_cache_that_cannot_be_written_costs_nothing_but_time(database, tmp_pat
 
     monkeypatch.setattr(loading.os, "replace", full)
     assert expected == load()
-    assert [] == cached(tmp_path)
+    assert cached(tmp_path) == []
 
 
 def test_a_changed_fact_is_seen_at_once_and_the_old_cache_goes(database, tmp_path) -> None:
@@ -246,7 +262,10 @@ def test_a_changed_fact_is_seen_at_once_and_the_old_cache_goes(database, tmp_pat
     path.write_text(path.read_text().replace("How fast.", "How very fast."))
     second = load()
     (new,) = cached(tmp_path)
-    assert ("How fast.", "How very fast.") == (first.groups[0].parameters[0].help.what, second.groups[0].parameters[0].help.what)
+    assert (first.groups[0].parameters[0].help.what, second.groups[0].parameters[0].help.what) == (
+        "How fast.",
+        "How very fast.",
+    )
     assert old != new
 
 
@@ -264,7 +283,7 @@ def test_every_fact_file_counts_for_the_key_of_the_cache(database, tmp_path) -> 
             (database / "small" / name).write_text(text)
         load()
         keys.append(cached(tmp_path)[0].name)
-    assert 5 == len(set(keys))
+    assert len(set(keys)) == 5
 
 
 def test_the_cache_of_another_family_stays(database, tmp_path, facts) -> None:
@@ -275,4 +294,4 @@ def test_the_cache_of_another_family_stays(database, tmp_path, facts) -> None:
     path.write_text(path.read_text() + "# changed\n")
     load()
     assert other in cached(tmp_path)
-    assert 2 == len(cached(tmp_path))
+    assert len(cached(tmp_path)) == 2

@@ -27,7 +27,9 @@ from amp_studio.schema.model import Parameter
     ],
 )
 @pytest.mark.parametrize("loop", [None, "digital", "analog", "sercos"])
-def test_a_number_means_what_the_axis_is(ninepc, machine, number: str, kind: str, expected: str, loop: str | None) -> None:
+def test_a_number_means_what_the_axis_is(
+    ninepc, machine, number: str, kind: str, expected: str, loop: str | None
+) -> None:
     """Pages 7-52, 7-53 against 7-82, 7-83; 1020 is printed on 6-10 and again on 7-46, where another is meant."""
     axis = expected[-1]
     values = {f"axis.type@{axis}": Value(kind)}
@@ -39,13 +41,15 @@ def test_a_number_means_what_the_axis_is(ninepc, machine, number: str, kind: str
 
 def test_the_parameter_whose_number_is_disputed_is_reached_by_its_id(ninepc, machine) -> None:
     here = machine(ninepc, {"axis.type@1": Value("linear")})
-    assert ("servo.velocity_port", "1") == here.situation.find("servo.velocity_port@1")
-    assert "servo.velocity_port@1" == ninepc.short(("servo.velocity_port", "1"), "mill")
-    assert "servo.velocity_gear_teeth@1" == ninepc.short(("servo.velocity_gear_teeth", "1"), "mill")
-    assert "1300" == ninepc.short(("home.calibration", "1"), "mill")
+    assert here.situation.find("servo.velocity_port@1") == ("servo.velocity_port", "1")
+    assert ninepc.short(("servo.velocity_port", "1"), "mill") == "servo.velocity_port@1"
+    assert ninepc.short(("servo.velocity_gear_teeth", "1"), "mill") == "servo.velocity_gear_teeth@1"
+    assert ninepc.short(("home.calibration", "1"), "mill") == "1300"
 
 
-@pytest.mark.parametrize("text", ["9999", "0", "", "home.calibration@9", "home.calibration", "home.calibratio@1", "P3N0"])
+@pytest.mark.parametrize(
+    "text", ["9999", "0", "", "home.calibration@9", "home.calibration", "home.calibratio@1", "P3N0"]
+)
 def test_what_the_family_does_not_have_is_refused_in_one_sentence(ninepc, machine, text: str) -> None:
     with pytest.raises(UnknownParameter) as refused:
         machine(ninepc).situation.find(text)
@@ -73,21 +77,26 @@ def changed(change: Callable[[Parameter], Parameter], name: str) -> Schema:
     """Return the 9/PC with one parameter changed."""
     compiled: Compiled = load_compiled("9pc")
     groups = tuple(
-        group.model_copy(update={"parameters": tuple(change(p) if p.id == name else p for p in group.parameters)})
+        group.model_copy(
+            update={"parameters": tuple(change(p) if p.id == name else p for p in group.parameters)}
+        )
         for group in compiled.groups
     )
     return schema_of(compiled.model_copy(update={"groups": groups}))
 
 
 def test_the_signature_is_the_same_in_every_process_and_for_every_order_of_asking(ninepc) -> None:
-    assert 64 == len(ninepc.signature)
+    assert len(ninepc.signature) == 64
     assert ninepc.signature == schema_of(load_compiled("9pc")).signature
 
 
 @pytest.mark.parametrize(
     "change",
     [
-        pytest.param(lambda p: p.model_copy(update={"help": p.help.model_copy(update={"what": "Other words."})}), id="help"),
+        pytest.param(
+            lambda p: p.model_copy(update={"help": p.help.model_copy(update={"what": "Other words."})}),
+            id="help",
+        ),
         pytest.param(lambda p: p.model_copy(update={"page": "1-1"}), id="page"),
         pytest.param(lambda p: p.model_copy(update={"errata": ()}), id="errata"),
         pytest.param(lambda p: p.model_copy(update={"ranges": None}), id="ranges"),
@@ -102,7 +111,9 @@ def test_the_signature_does_not_mind_words_ranges_and_states(ninepc, change, nam
 
 def other_choice(**update: object) -> Callable[[Parameter], Parameter]:
     """Return what changes the first choice of a parameter."""
-    return lambda p: p.model_copy(update={"choices": (p.choices[0].model_copy(update=update), *p.choices[1:])})
+    return lambda p: p.model_copy(
+        update={"choices": (p.choices[0].model_copy(update=update), *p.choices[1:])}
+    )
 
 
 @pytest.mark.parametrize(
@@ -144,8 +155,11 @@ def test_without_numbers_the_instances_still_count_for_the_signature(facts) -> N
         help: {{what: The gain.}}
         page: "1"
     """
-    signatures = {facts.schema(text.format(instances=i)).signature for i in ('["1", "2"]', '["2", "1"]', '["1", "2", "3"]')}
-    assert 3 == len(signatures)
+    signatures = {
+        facts.schema(text.format(instances=i)).signature
+        for i in ('["1", "2"]', '["2", "1"]', '["1", "2", "3"]')
+    }
+    assert len(signatures) == 3
 
 
 def test_the_bits_of_a_word_count_for_the_signature(facts) -> None:
@@ -158,4 +172,4 @@ def test_the_bits_of_a_word_count_for_the_signature(facts) -> None:
         page: "1"
     """
     fields = [(0, 1, "One"), (1, 1, "One"), (0, 2, "One"), (0, 1, "Two")]
-    assert 4 == len({facts.schema(text.format(bit=b, width=w, label=t)).signature for b, w, t in fields})
+    assert len({facts.schema(text.format(bit=b, width=w, label=t)).signature for b, w, t in fields}) == 4

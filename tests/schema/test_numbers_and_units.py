@@ -75,13 +75,33 @@ def test_a_comma_that_could_be_either_is_refused_with_both_ways(text: str) -> No
 def test_the_two_ways_of_an_ambiguous_number_are_those_a_person_can_write() -> None:
     with pytest.raises(ValueFault) as refused:
         read_number("1,234e2")
-    assert "'1,234e2' can be read two ways: write 1234e2 or 1.234e2" == str(refused.value)
+    assert str(refused.value) == "'1,234e2' can be read two ways: write 1234e2 or 1.234e2"
 
 
 @pytest.mark.parametrize(
     "text",
-    ["", "mm", "-", ".", ",", "1..5", "1,,5", "--5", "1.2.3", "12,34,567", "1,2.3,4", "1_0", "1'2", "12'34", "_5", "e5",
-     "nan", "inf", "1,23.4", "٣"],  # fmt: skip
+    [
+        "",
+        "mm",
+        "-",
+        ".",
+        ",",
+        "1..5",
+        "1,,5",
+        "--5",
+        "1.2.3",
+        "12,34,567",
+        "1,2.3,4",
+        "1_0",
+        "1'2",
+        "12'34",
+        "_5",
+        "e5",
+        "nan",
+        "inf",
+        "1,23.4",
+        "٣",
+    ],  # fmt: skip
 )
 def test_what_is_no_number_is_refused(text: str) -> None:
     with pytest.raises(ValueFault, match="is not a number"):
@@ -94,7 +114,7 @@ def test_a_number_that_no_double_holds_is_refused() -> None:
 
 
 def test_blanks_between_digits_are_no_number() -> None:
-    assert (1.0, "2") == read_number("1 2"), "what follows is told as an unknown unit, not read as 12"
+    assert read_number("1 2") == (1.0, "2"), "what follows is told as an unknown unit, not read as 12"
 
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
@@ -153,7 +173,7 @@ def test_every_unit_is_understood_as_written_as_shown_and_in_capitals(unit: str)
 @pytest.mark.parametrize("word", ["kg", "mm/h", "", "m m m", "1"])
 def test_a_word_that_is_no_unit_is_refused(word: str) -> None:
     if word == "":
-        assert "" == unit_named(word)
+        assert unit_named(word) == ""
     else:
         with pytest.raises(UnitError, match="is not a unit"):
             unit_named(word)
@@ -184,11 +204,13 @@ def test_a_conversion_is_exact(value: float, unit: str, to: str, expected: float
 
 def test_the_canonical_figure_is_rounded_once() -> None:
     """0.3 * 25.4 is 7.619999999999999 in doubles; the length is 7.62 mm all the same."""
-    assert 7.62 == canonical(0.3, "in")
+    assert canonical(0.3, "in") == 7.62
     assert same_value(Value(0.3, "in"), Value(7.62, "mm"))
 
 
-decimals = st.decimals(min_value=-10**6, max_value=10**6, places=5, allow_nan=False, allow_infinity=False).map(float)
+decimals = st.decimals(
+    min_value=-(10**6), max_value=10**6, places=5, allow_nan=False, allow_infinity=False
+).map(float)
 same_dimension = st.sampled_from([(a, b) for a in UNITS for b in UNITS if dimension(a) == dimension(b)])
 
 
@@ -205,7 +227,9 @@ def test_millimetres_come_back_from_inches_to_the_last_digit_of_a_double(value: 
 
 
 @given(st.floats(min_value=-1e30, max_value=1e30), same_dimension)
-def test_every_conversion_is_the_nearest_double_of_the_true_figure(value: float, units: tuple[str, str]) -> None:
+def test_every_conversion_is_the_nearest_double_of_the_true_figure(
+    value: float, units: tuple[str, str]
+) -> None:
     unit, to = units
     true = Fraction(Decimal(repr(value))) * UNITS[unit][1] / UNITS[to][1]
     expected = value if unit == to else float(true)
@@ -215,7 +239,7 @@ def test_every_conversion_is_the_nearest_double_of_the_true_figure(value: float,
 
 def test_a_figure_too_large_for_the_other_unit_is_infinite_and_breaks_nothing() -> None:
     assert (math.inf, -math.inf) == (canonical(1e308, "in"), convert(-1e308, "in", "mm"))
-    assert "inf" == write_number(math.inf)
+    assert write_number(math.inf) == "inf"
 
 
 def test_a_length_is_not_given_in_seconds() -> None:
@@ -229,7 +253,7 @@ def test_a_length_is_not_given_in_seconds() -> None:
 @pytest.mark.parametrize("unit", list(UNITS))
 def test_the_canonical_unit_measures_the_same_by_factor_one(unit: str) -> None:
     assert dimension(unit) == dimension(canonical_unit(unit))
-    assert 3.5 == canonical(3.5, canonical_unit(unit))
+    assert canonical(3.5, canonical_unit(unit)) == 3.5
 
 
 @pytest.mark.parametrize(
@@ -268,11 +292,15 @@ def test_the_letter_of_a_choice_counts_unless_it_is_another_choice_s_label(ninep
 def test_a_letter_of_axis_name_that_is_a_name_is_that_name(ninepc) -> None:
     """Axis Name (page 4-2): letter d stands before U; u is U, and c is C although letter c stands before it."""
     name = ninepc.parameter("axis.name")
-    assert [Value("u"), Value("u"), Value("c"), Value("dollar-b")] == [read_value(name, t, "") for t in ("d", "U", "c", "$b")]
+    assert [Value("u"), Value("u"), Value("c"), Value("dollar-b")] == [
+        read_value(name, t, "") for t in ("d", "U", "c", "$b")
+    ]
 
 
 @given(number=finite, index=st.integers(min_value=0))
-def test_every_number_of_the_real_family_is_read_back_from_what_is_written(ninepc, number: float, index: int) -> None:
+def test_every_number_of_the_real_family_is_read_back_from_what_is_written(
+    ninepc, number: float, index: int
+) -> None:
     numeric = [p for p in ninepc.parameters.values() if p.type in ("real", "integer") and not p.choices]
     parameter = numeric[index % len(numeric)]
     for unit in ninepc.units_of(parameter):
@@ -285,7 +313,7 @@ def test_every_number_of_the_real_family_is_read_back_from_what_is_written(ninep
 def test_a_code_nobody_knows_is_kept_as_it_is(ninepc) -> None:
     parameter = ninepc.parameter("axis.type")
     assert Value("raw:-7") == read_value(parameter, "raw:-7", "") == read_value(parameter, "RAW: -7", "")
-    assert "raw:-7" == write_value(parameter, Value("raw:-7"))
+    assert write_value(parameter, Value("raw:-7")) == "raw:-7"
     with pytest.raises(ValueFault, match="is not 'raw:' and a whole number"):
         read_value(parameter, "raw:x", "")
 
@@ -303,7 +331,10 @@ def test_no_is_said_in_many_ways(ninepc, word: str) -> None:
 def test_a_word_that_is_no_choice_is_refused_with_all_there_are(ninepc) -> None:
     with pytest.raises(ValueFault) as refused:
         read_value(ninepc.parameter("axis.type"), "turret", "")
-    assert "'turret' is not a choice of Axis Type: linear (a), rotary (b), spindle (c), unfitted (d)" == str(refused.value)
+    assert (
+        str(refused.value)
+        == "'turret' is not a choice of Axis Type: linear (a), rotary (b), spindle (c), unfitted (d)"
+    )
 
 
 @pytest.mark.parametrize(

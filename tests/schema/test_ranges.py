@@ -33,7 +33,10 @@ def allowed(here, name: str, value: Value) -> bool:
 )
 def test_the_printed_edge_is_inside_and_the_next_figure_outside(here, inside: Value, outside: Value) -> None:
     """Home Calibration: -999999.99 to 999999.99 mm, -39370.07835 to 39370.07835 in (page 5-10)."""
-    assert (True, False) == (allowed(here, "home.calibration@1", inside), allowed(here, "home.calibration@1", outside))
+    assert (allowed(here, "home.calibration@1", inside), allowed(here, "home.calibration@1", outside)) == (
+        True,
+        False,
+    )
 
 
 def test_inch_and_metric_edges_differ_in_the_last_digit_and_each_holds_in_its_own_unit(here) -> None:
@@ -41,22 +44,24 @@ def test_inch_and_metric_edges_differ_in_the_last_digit_and_each_holds_in_its_ow
     assert allowed(here, "accdec.velocity_step@1", Value(10160.00004, "mm/min"))
     assert not allowed(here, "accdec.velocity_step@1", Value(10160.00005, "mm/min"))
     assert allowed(here, "accdec.velocity_step@1", Value(400.0, "in/min"))
-    assert not allowed(here, "accdec.velocity_step@1", Value(400.000001, "in/min")), "10160.00003 mm/min would be inside"
+    assert not allowed(here, "accdec.velocity_step@1", Value(400.000001, "in/min")), (
+        "10160.00003 mm/min would be inside"
+    )
 
 
 def test_a_unit_without_a_printed_range_takes_the_one_of_its_own_system(here) -> None:
     found = limits(here.situation, ("accdec.velocity_step", "1"), "in/s")
-    assert (0.0, 400 / 60) == (found.low, found.high)
+    assert (found.low, found.high) == (0.0, 400 / 60)
     found = limits(here.situation, ("accdec.velocity_step", "1"), "mm/s")
-    assert (0.0, 10160.00004 / 60) == (found.low, pytest.approx(found.high, abs=1e-12))
+    assert (found.low, pytest.approx(found.high, abs=1e-12)) == (0.0, 10160.00004 / 60)
 
 
 def test_degrees_are_borrowed_from_the_metric_figures_where_none_are_printed(here) -> None:
     found = limits(here.situation, ("home.calibration", "2"), "deg")
-    assert (-999999.99, 999999.99, True) == (found.low, found.high, found.borrowed)
+    assert (found.low, found.high, found.borrowed) == (-999999.99, 999999.99, True)
     assert not allowed(here, "home.calibration@2", Value(1e6, "deg"))
     printed = limits(here.situation, ("accdec.linear_acceleration", "2"), "deg/s2")
-    assert (20000.0, False) == (printed.high, printed.borrowed)
+    assert (printed.high, printed.borrowed) == (20000.0, False)
 
 
 def test_borrowed_speeds_keep_their_time(here) -> None:
@@ -64,7 +69,9 @@ def test_borrowed_speeds_keep_their_time(here) -> None:
     assert (True, pytest.approx(10160.00004 / 60, abs=1e-12)) == (found.borrowed, found.high)
 
 
-@pytest.mark.parametrize(("axis", "unit", "high"), [("1", "mm", 214.1), ("2", "deg", 214.0), ("3", "deg", 1440.0)])
+@pytest.mark.parametrize(
+    ("axis", "unit", "high"), [("1", "mm", 214.1), ("2", "deg", 214.0), ("3", "deg", 1440.0)]
+)
 def test_excess_error_has_three_limits_by_axis_type(here, axis: str, unit: str, high: float) -> None:
     """Page 7-20: 214.1 mm linear, 214 degrees rotary, 1440 degrees on a spindle."""
     assert high == limits(here.situation, ("servo.excess_error", axis), unit).high
@@ -85,7 +92,7 @@ def test_an_edge_that_another_parameter_sets_moves_with_it(here) -> None:
 
 def test_an_unset_edge_bounds_nothing_and_is_not_blamed(here) -> None:
     said = fault(here.situation, ("zone.overtravel_positive", "1"), Value(3e6, "mm"))
-    assert "Positive Software Overtravel 3000000 mm is outside at most 2540000 mm" == said
+    assert said == "Positive Software Overtravel 3000000 mm is outside at most 2540000 mm"
 
 
 @given(st.floats(min_value=-1e5, max_value=1e5))
@@ -98,7 +105,9 @@ def test_a_value_equal_to_its_bound_is_inside_in_either_unit(ninepc, machine, bo
 
 
 @given(st.sampled_from(["mm", "in"]), st.floats(min_value=-1e9, max_value=1e9))
-def test_what_is_mended_is_inside_and_what_is_inside_is_not_touched(ninepc, machine, unit: str, number: float) -> None:
+def test_what_is_mended_is_inside_and_what_is_inside_is_not_touched(
+    ninepc, machine, unit: str, number: float
+) -> None:
     here, address = machine(ninepc, LINEAR), ("home.calibration", "1")
     value = Value(number, unit)
     mended = clip(here.situation, address, value)
@@ -111,7 +120,7 @@ def test_choices_and_texts_have_no_range_to_be_mended_into(here) -> None:
     for name, value in (("axis.type", Value("linear")), ("zone.overtravel_used", Value(True))):
         assert value == clip(here.situation, (name, "1"), value)
         assert fault(here.situation, (name, "1"), value) is None
-    assert "9 is no code of Axis Type" == fault(here.situation, ("axis.type", "1"), Value("raw:9"))
+    assert fault(here.situation, ("axis.type", "1"), Value("raw:9")) == "9 is no code of Axis Type"
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from amp_studio.schema import IN_FORCE, Situation, StateInfo, UnknownParameter, Value, load_schema, program, read_address
+from amp_studio.schema import (
+    IN_FORCE,
+    Situation,
+    StateInfo,
+    UnknownParameter,
+    Value,
+    load_schema,
+    program,
+    read_address,
+)
 
 FOUR = """
   - id: device.kind
@@ -47,23 +56,27 @@ conditions:
         ("motor", 10.5, IN_FORCE),
     ],
 )
-def test_a_parameter_is_in_one_of_four_states_and_says_why(facts, head, machine, kind, limit, expected) -> None:
+def test_a_parameter_is_in_one_of_four_states_and_says_why(
+    facts, head, machine, kind, limit, expected
+) -> None:
     schema = facts.schema(FOUR, head + CONDITIONS)
     here = machine(schema, {"device.kind": Value(kind), "device.limit": Value(limit)})
     assert expected == here.situation.state(("device.speed", ""))
 
 
 def test_the_first_rule_that_holds_decides(facts, head, machine) -> None:
-    here = machine(facts.schema(FOUR, head + CONDITIONS), {"device.kind": Value("scale"), "device.limit": Value(1.0)})
-    assert "unusable" == here.situation.state(("device.speed", "")).state
+    here = machine(
+        facts.schema(FOUR, head + CONDITIONS), {"device.kind": Value("scale"), "device.limit": Value(1.0)}
+    )
+    assert here.situation.state(("device.speed", "")).state == "unusable"
     here.set("device.kind", Value("motor"))
-    assert "ignored" == here.situation.state(("device.speed", "")).state
+    assert here.situation.state(("device.speed", "")).state == "ignored"
 
 
 def test_a_condition_over_an_unset_value_does_not_hold(facts, head, machine) -> None:
     here = machine(facts.schema(FOUR, head + CONDITIONS))
-    assert (False, False) == (here.situation.holds("nothing", ""), here.situation.holds("fast", ""))
-    assert "ignored" == here.situation.state(("device.speed", "")).state, "because 'fast' does not hold"
+    assert (here.situation.holds("nothing", ""), here.situation.holds("fast", "")) == (False, False)
+    assert here.situation.state(("device.speed", "")).state == "ignored", "because 'fast' does not hold"
 
 
 def test_a_state_knows_what_can_change_it(facts, head, machine) -> None:
@@ -89,11 +102,12 @@ def test_a_condition_may_read_what_this_machine_type_does_not_have(facts, head, 
           help: {what: Counts on a lathe of type A.}
           page: "2"
         """,
-        head + "conditions:\n  lathe_a: {reads: {kind: lathe.kind}, when: kind == 'a', why: only on a lathe A}\n",
+        head
+        + "conditions:\n  lathe_a: {reads: {kind: lathe.kind}, when: kind == 'a', why: only on a lathe A}\n",
     )
-    assert "ignored" == machine(schema, machine="mill").situation.state(("axis.name", "")).state
+    assert machine(schema, machine="mill").situation.state(("axis.name", "")).state == "ignored"
     lathe = machine(schema, {"lathe.kind": Value("a")}, machine="lathe")
-    assert IN_FORCE == lathe.situation.state(("axis.name", ""))
+    assert lathe.situation.state(("axis.name", "")) == IN_FORCE
 
 
 def test_readings_before_and_after_an_axis_are_told_apart(facts, head, machine) -> None:
@@ -117,8 +131,14 @@ conditions:
     why: behind a gap
 """,
     )
-    here = machine(schema, {f"axis.type@{n}": Value(t) for n, t in (("1", "linear"), ("2", "none"), ("3", "linear"))})
-    assert ["in-force", "in-force", "ignored"] == [here.situation.state(("axis.type", n)).state for n in "123"]
+    here = machine(
+        schema, {f"axis.type@{n}": Value(t) for n, t in (("1", "linear"), ("2", "none"), ("3", "linear"))}
+    )
+    assert [here.situation.state(("axis.type", n)).state for n in "123"] == [
+        "in-force",
+        "in-force",
+        "ignored",
+    ]
     readings = {which: here.situation.reading(f"axis.type@{which}", "2").addresses for which in "*<>3"}
     expected = {
         "*": tuple(("axis.type", n) for n in "123"),
@@ -130,7 +150,7 @@ conditions:
     with pytest.raises(UnknownParameter, match="axis.type has no instance '9'"):
         here.situation.reading("axis.type@9", "1")
     here.set("axis.type@2", Value("linear"))
-    assert "in-force" == here.situation.state(("axis.type", "3")).state
+    assert here.situation.state(("axis.type", "3")).state == "in-force"
 
 
 def test_an_expression_with_a_fault_is_refused() -> None:
@@ -159,7 +179,9 @@ def test_an_expression_with_a_fault_is_refused() -> None:
     ],
 )  # fmt: skip
 def test_a_9pc_parameter_is_out_of_force_for_a_reason(ninepc, machine, name, values, state) -> None:
-    here = machine(ninepc, {key: Value(value) for key, value in values.items()}, str(values.get("control.type", "")))
+    here = machine(
+        ninepc, {key: Value(value) for key, value in values.items()}, str(values.get("control.type", ""))
+    )
     found = here.situation.state(read_address(name))
     assert state == found.state
     assert (found.why == "") == (state == "in-force")
@@ -194,7 +216,10 @@ def edits(draw) -> list[tuple[tuple[str, str], Value | None]]:
 @given(edits())
 def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
     schema = load_schema("9pc")
-    values: dict[tuple[str, str], Value] = {("axis.type", "1"): Value("linear"), ("axis.type", "2"): Value("spindle")}
+    values: dict[tuple[str, str], Value] = {
+        ("axis.type", "1"): Value("linear"),
+        ("axis.type", "2"): Value("spindle"),
+    }
 
     def control() -> str:
         kind = values.get(("control.type", ""))

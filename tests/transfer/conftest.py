@@ -79,7 +79,7 @@ def rig(new_control: Callable[..., Control]) -> Callable[..., Rig]:
     """Give a function that connects a session and a control; small pieces, so that little images have many."""
 
     def make(
-        faults: Faults = Faults(),
+        faults: Faults | None = None,
         *,
         control: Control | None = None,
         bytes_per_second: float | None = None,
@@ -98,7 +98,7 @@ def rig(new_control: Callable[..., Control]) -> Callable[..., Rig]:
             window=window,
             chunk=chunk,
         )
-        return Rig(modem.control, clock, modem, FaultyLine(faults), options, lines)
+        return Rig(modem.control, clock, modem, FaultyLine(faults or Faults()), options, lines)
 
     return make
 

@@ -45,7 +45,7 @@ def test_the_forms_of_an_address(text: str, expected: Address) -> None:
     ],
 )
 def test_what_is_no_address_is_refused_in_one_sentence(text: str, said: str) -> None:
-    with pytest.raises(ValueError, match=".") as caught:
+    with pytest.raises(ValueError, match=r".") as caught:
         parse_address(text)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)

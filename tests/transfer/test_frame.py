@@ -17,7 +17,10 @@ from amp_studio.transfer.frame import (
 )
 
 frames = st.builds(
-    Frame, st.integers(0, 255), st.integers(0, 65_535), st.binary(max_size=600) | st.binary(max_size=3).map(lambda b: b * 200)
+    Frame,
+    st.integers(0, 255),
+    st.integers(0, 65_535),
+    st.binary(max_size=600) | st.binary(max_size=3).map(lambda b: b * 200),
 )
 
 TABLE = [

@@ -225,7 +225,9 @@ def test_faults_are_read_from_json() -> None:
     assert read_faults('{"corrupt_every": 7, "silent": true}') == Faults(corrupt_every=7, silent=True)
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"rain": 1}', '{"silent": 1}', '{"drops": true}', '{"drops": -1}', '{"drops": "2"}'])
+@pytest.mark.parametrize(
+    "text", ["", "[]", '{"rain": 1}', '{"silent": 1}', '{"drops": true}', '{"drops": -1}', '{"drops": "2"}']
+)
 def test_faults_that_do_not_exist_are_refused(text: str) -> None:
     with pytest.raises(ValueError, match="fault"):
         read_faults(text)

@@ -86,9 +86,12 @@ def test_fields_that_cannot_be_are_malformed(frame: Frame) -> None:
     assert caught.value.code == Code.MALFORMED
 
 
-@pytest.mark.parametrize("message", [Ack(-1), Ack(1 << 32), Hello(256, b"abcd", ""), Hello(1, b"abc", ""), Hello(1, b"abcd", "x" * 256)])
+@pytest.mark.parametrize(
+    "message",
+    [Ack(-1), Ack(1 << 32), Hello(256, b"abcd", ""), Hello(1, b"abc", ""), Hello(1, b"abcd", "x" * 256)],
+)
 def test_a_value_that_does_not_fit_its_field_is_not_sent(message: Message) -> None:
-    with pytest.raises(ValueError, match="."):
+    with pytest.raises(ValueError, match=r"."):
         pack(message, 1)
 
 

@@ -58,8 +58,16 @@ def test_after_a_timeout_everything_under_way_is_sent_again() -> None:
     assert fill(window, 9) == [5, 15, 25]
 
 
-@given(st.integers(0, 50), st.integers(0, 200), st.integers(1, 20), st.integers(1, 8), st.randoms(use_true_random=False))
-def test_every_piece_arrives_over_any_line(start: int, size: int, chunk: int, limit: int, chance: object) -> None:
+@given(
+    st.integers(0, 50),
+    st.integers(0, 200),
+    st.integers(1, 20),
+    st.integers(1, 8),
+    st.randoms(use_true_random=False),
+)
+def test_every_piece_arrives_over_any_line(
+    start: int, size: int, chunk: int, limit: int, chance: object
+) -> None:
     """Half of the sendings and a third of the answers are lost; the window still ends with every byte."""
     window = Window(start, size, chunk, limit)
     got, number, turns = set(range(start)), 0, 0

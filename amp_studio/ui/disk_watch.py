@@ -1,0 +1,68 @@
+"""Notices when another program changes the open file on disk."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
+from PySide6.QtWidgets import QApplication
+
+from .questions import ask, tell
+from .workspace import Workspace
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
+
+SETTLE_MS = 250
+"""A program may write a file in several goes."""
+
+
+class DiskWatch(QObject):
+    """Watches one file, and its folder, because a rename over a file ends the watch of the file itself."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._workspace: Workspace | None = None
+        self._refused: str | None = None
+        self._watcher = QFileSystemWatcher(self)
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.timeout.connect(self._look)
+        self._watcher.fileChanged.connect(self._wait)
+        self._watcher.directoryChanged.connect(self._wait)
+
+    def follow(self, workspace: Workspace | None) -> None:
+        """Watch the file of a workspace, or nothing."""
+        self._timer.stop()
+        watched = self._watcher.files() + self._watcher.directories()
+        if watched:
+            self._watcher.removePaths(watched)
+        self._workspace, self._refused = workspace, None
+        if workspace is not None:
+            self._watcher.addPaths([str(workspace.path), str(workspace.path.parent)])
+
+    def _wait(self, _: str) -> None:
+        self._timer.start(SETTLE_MS)
+
+    def _look(self) -> None:
+        workspace = self._workspace
+        if workspace is None:
+            return
+        if workspace.is_saving or QApplication.activeModalWidget() is not None:
+            self._timer.start(4 * SETTLE_MS)
+            return
+        if workspace.path.exists() and str(workspace.path) not in self._watcher.files():
+            self._watcher.addPath(str(workspace.path))
+        state = workspace.disk_state()
+        if state is None or state == self._refused:
+            return
+        self._refused = state  # asked once for each change
+        if state == "removed":
+            tell(self._window, "File removed", f"{workspace.path.name} has been removed or renamed by another program.\n\n"
+                 "Your work is still open: save it under a new name.")  # fmt: skip
+            return
+        lost = " Your unsaved changes would be lost." if workspace.is_dirty else ""
+        question = f"{workspace.path.name} has been changed by another program.\n\nLoad it again?{lost}"
+        if ask(self._window, "Changed on disk", question, "&Load again", "Keep what is open") == "&Load again":
+            self._window.guarded(lambda: self._window.files.open_path(workspace.path, ask_first=False), "Open")

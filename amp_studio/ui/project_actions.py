@@ -1,0 +1,177 @@
+"""The project menu: the folder of one machine, and its files."""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import QFileDialog, QInputDialog
+
+from amp_studio.files import FileFault, Project
+
+from .file_actions import FILTER
+from .questions import ask
+from .task import in_background
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
+
+
+class ProjectActions:
+    """New, open, information; open, copy, rename, delete and recover the files of a project."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self.window = window
+        self.project: Project | None = None
+        act = window.action
+        menu = window.menuBar().addMenu("&Project")
+        menu.addActions([
+            act("&New Project…", self.new, None, ""),
+            act("&Open Project…", self.open, None, ""),
+            act("Project &Information…", self.change, None, "project"),
+        ])  # fmt: skip
+        menu.addSeparator()
+        menu.addActions([
+            act("Open &File of the Project…", self.open_file, "Ctrl+Shift+O", "project"),
+            act("&Copy File…", self.copy, None, "project"),
+            act("Copy from &Another Project…", self.copy_from, None, "project"),
+            act("&Rename File…", self.rename, None, "project"),
+            act("&Delete File…", self.delete, None, "project"),
+            act("Reco&ver a Deleted or Older File…", self.recover, None, "project"),
+        ])  # fmt: skip
+
+    def notice(self, folder: Path) -> None:
+        """Take the project of a folder, if it is one, because one of its files was opened."""
+        if (folder / "project.yaml").exists() and (self.project is None or self.project.folder != folder):
+            with contextlib.suppress(FileFault):  # a broken project file keeps nobody from the parameters
+                self.project = Project.open(folder)
+                self.window.enable()
+
+    def name_of(self, path: Path) -> str:
+        """Return the name of the project a file belongs to."""
+        return self.project.info.name if self.project and self.project.folder == path.parent else ""
+
+    def _the_project(self) -> Project:
+        if self.project is None:
+            raise ValueError("Open a project first (Project > Open Project).")
+        return self.project
+
+    def _show(self, project: Project) -> None:
+        self.project = project
+        self.window.enable()
+        files = len(project.files())
+        self.window.say(f"Project {project.info.name}: {files or 'no'} file{'' if files == 1 else 's'} in {project.folder}")
+
+    # -- the project -----------------------------------------------------------
+
+    def new(self) -> None:
+        """Make a project folder."""
+        from .file_dialogs import ProjectDialog
+
+        dialog = ProjectDialog(None, self.window)
+        if dialog.exec():
+            info = dialog.info()
+            folder = QFileDialog.getExistingDirectory(self.window, "Folder of the new project")
+            if folder:
+                self._show(Project.create(Path(folder), info))
+
+    def open(self) -> None:
+        """Open a project folder and choose one of its files."""
+        folder = QFileDialog.getExistingDirectory(self.window, "Open project")
+        if folder:
+            self._show(Project.open(Path(folder)))
+            if self._the_project().files():
+                self.open_file()
+
+    def change(self) -> None:
+        """Change the project information."""
+        from .file_dialogs import ProjectDialog
+
+        project = self._the_project()
+        dialog = ProjectDialog(project.info, self.window)
+        if dialog.exec():
+            info = dialog.info()
+            keys = ("name", "application", "machine", "control", "control_name", "revision", "notes")
+            project.change(**{key: getattr(info, key) for key in keys})
+            self.window.enable()
+
+    # -- its files -------------------------------------------------------------
+
+    def _choose(self, title: str, paths: list[Path]) -> Path | None:
+        if not paths:
+            raise ValueError("The project has no such files.")
+        names, workspace = [p.stem for p in paths], self.window.workspace
+        here = names.index(workspace.path.stem) if workspace and workspace.path in paths else 0
+        name, accepted = QInputDialog.getItem(self.window, title, "File", names, here, False)
+        return paths[names.index(name)] if accepted else None
+
+    def _ask_name(self, title: str, name: str = "") -> str:
+        text, accepted = QInputDialog.getText(self.window, title, "New name", text=name)
+        return text.strip() if accepted else ""
+
+    def _let_go(self, path: Path) -> bool:
+        """Close a file if it is the open one, its unsaved work being asked for; tells whether it may be moved."""
+        workspace = self.window.workspace
+        if workspace is None or workspace.path.resolve() != path.resolve() or not workspace.may_edit:
+            return True
+        if not self.window.may_leave():
+            return False
+        self.window.show_nothing()
+        return True
+
+    def open_file(self) -> None:
+        """Open a file of the project."""
+        path = self._choose("Open", self._the_project().files())
+        if path:
+            self.window.files.open_path(path)
+
+    def copy(self) -> None:
+        """Copy a file of the project under a new name and open the copy."""
+        self._copy(self._choose("Copy", self._the_project().files()))
+
+    def copy_from(self) -> None:
+        """Copy a file of another project into this one."""
+        folder = str(self._the_project().folder.parent)
+        text, _ = QFileDialog.getOpenFileName(self.window, "Copy from another project", folder, FILTER)
+        self._copy(Path(text) if text else None)
+
+    def _copy(self, source: Path | None) -> None:
+        name = self._ask_name("Copy", source.stem) if source else ""
+        if source and name:
+            project = self._the_project()
+            path = in_background(self.window, "Copying", lambda: project.copy(source, name))
+            self.window.files.open_path(path)
+
+    def rename(self) -> None:
+        """Rename a file of the project; the open one stays open under its new name."""
+        project = self._the_project()
+        path = self._choose("Rename", project.files())
+        name = self._ask_name("Rename", path.stem) if path else ""
+        if path is None or not name:
+            return
+        was_open = self.window.workspace is not None and self.window.workspace.path == path
+        if self._let_go(path):
+            try:
+                path = project.rename(path, name)
+            finally:
+                if was_open:
+                    self.window.files.open_path(path)
+
+    def delete(self) -> None:
+        """Delete a file of the project; it can be recovered."""
+        project = self._the_project()
+        path = self._choose("Delete", project.files())
+        question = f"Delete {path.name}? Its content stays as its backup, so that it can be recovered." if path else ""
+        if path and ask(self.window, "Delete", question, "&Delete", "Cancel", default=1) == "&Delete":
+            if self._let_go(path):
+                project.delete(path)
+                self.window.say(f"{path.name} deleted")
+
+    def recover(self) -> None:
+        """Bring a deleted or older file back."""
+        project = self._the_project()
+        path = self._choose("Recover", project.backups())
+        if path and self._let_go(path):
+            project.recover(path)
+            self.window.files.open_path(path)

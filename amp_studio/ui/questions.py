@@ -1,0 +1,29 @@
+"""Messages and questions, each with the answers written on the buttons."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QAbstractButton, QMessageBox, QWidget
+
+Icon = QMessageBox.Icon
+
+
+def tell(parent: QWidget | None, title: str, text: str, icon: Icon = Icon.Warning) -> None:
+    """Say something and wait until it is read."""
+    QMessageBox(icon, title, text, QMessageBox.StandardButton.Ok, parent).exec()
+
+
+def ask(
+    parent: QWidget | None, title: str, text: str, *answers: str, default: int = 0, icon: Icon = Icon.Question
+) -> str:
+    """Return the answer that was clicked; Escape is the last one."""
+    box = QMessageBox(icon, title, text, parent=parent)
+    roles = QMessageBox.ButtonRole
+    buttons: list[QAbstractButton] = []
+    for n, answer in enumerate(answers):
+        role = roles.RejectRole if n == len(answers) - 1 else roles.ActionRole if n else roles.AcceptRole
+        buttons.append(box.addButton(answer, role))
+    box.setDefaultButton(buttons[default])  # type: ignore[arg-type]  # a message box makes push buttons
+    box.setEscapeButton(buttons[-1])
+    box.exec()
+    clicked = box.clickedButton()
+    return next((a for a, b in zip(answers, buttons, strict=True) if b is clicked), answers[-1])

@@ -1,0 +1,57 @@
+"""What the window shows while no file is open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QToolButton, QVBoxLayout, QWidget
+
+from .theme import program_icon
+
+
+class WelcomePage(QWidget):
+    """The first commands as buttons, and the files that were open last."""
+
+    def __init__(self, actions: Iterable[QAction], recent: list[Path], show: Callable[[Path], object]) -> None:
+        super().__init__()
+        icon, title = QLabel(), QLabel("<h1>AMP Studio</h1>")
+        icon.setPixmap(program_icon().pixmap(64, 64))
+        head, buttons = QHBoxLayout(), QHBoxLayout()
+        for widget in (icon, title):
+            head.addWidget(widget)
+        head.addStretch()
+        for action in actions:
+            button = QToolButton()
+            button.setDefaultAction(action)
+            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+            buttons.addWidget(button)
+        buttons.addStretch()
+        self.list = QListWidget()
+        for path in recent:
+            item = QListWidgetItem(f"{path.name}\n{path.parent}")
+            item.setData(Qt.ItemDataRole.UserRole, path)
+            self.list.addItem(item)
+        self.list.itemActivated.connect(lambda item: show(item.data(Qt.ItemDataRole.UserRole)))
+        self.list.setCurrentRow(0)
+        self.list.setAccessibleName("Recent files")
+        column = QVBoxLayout()
+        column.setSpacing(12)
+        column.addStretch(1)
+        column.addLayout(head)
+        column.addLayout(buttons)
+        if recent:
+            column.addWidget(QLabel("Recent files (Enter opens)"))
+            column.addWidget(self.list, 3)
+        column.addWidget(QLabel("Every command is found by its name with Ctrl+Shift+P."))
+        column.addStretch(1)
+        inner = QWidget()
+        inner.setMaximumWidth(560)
+        inner.setLayout(column)
+        outer = QHBoxLayout(self)
+        outer.addStretch(1)
+        outer.addWidget(inner, 4)
+        outer.addStretch(1)
+        self.setFocusProxy(self.list)

@@ -1,0 +1,132 @@
+"""One value against its range, its choices and its unit."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Parameter, Schema, Value, clip, dimension, fault, limits, show_value, shown
+from amp_studio.schema.model import BoundRef
+
+from .finding import Finding, Repair
+
+_FORMAT = re.compile(r"[0-9]+\.[0-9]+")
+
+
+@dataclass(frozen=True, slots=True)
+class _Facts:
+    """What decides, of one parameter on one machine type, without looking at the file."""
+
+    parameter: Parameter
+    keys: frozenset[str]
+    """Its choices."""
+    measures: frozenset[str]
+    """Dimension of its values; of more than one only where the unit systems differ in it."""
+    turning: frozenset[str] | None
+    """The same on an axis that turns; None where that makes no difference."""
+    own_range: bool
+    """Its range is the same for every instance and in every situation."""
+
+
+@lru_cache(maxsize=32)
+def _facts(schema: Schema, machine: str) -> dict[str, _Facts]:
+    found = {}
+    for parameter in schema.parameters.values():
+        layout = schema.layout(parameter, machine)
+        if layout is None:
+            continue
+        systems = tuple(schema.family.units) or ("",)
+        measures, turning = (
+            frozenset(dimension(schema.unit(parameter, system, turns)) for system in systems) for turns in (False, True)
+        )
+        bounds = [bound for pair in (parameter.ranges or {}).values() for bound in pair]
+        found[parameter.id] = _Facts(
+            parameter,
+            frozenset(choice.key for choice in parameter.choices or ()),
+            measures,
+            turning if layout.scope == "axis" and turning != measures else None,
+            not parameter.range_variants and not any(isinstance(bound, BoundRef) for bound in bounds),
+        )
+    return found
+
+
+class ValueChecks:
+    """The values of one file, each by itself and with the parameters that bound it."""
+
+    def __init__(self, file: ParameterFile, machine: str) -> None:
+        self._file = file
+        self._facts = _facts(file.schema, machine)
+        self._angular = file.schema.family.angular_when
+        self._spans: dict[tuple[str, str], tuple[float, float]] = {}
+        """Bounds that depend on nothing, by parameter and unit."""
+
+    def finding(self, address: Address, value: Value) -> Finding | None:
+        """Return what is wrong with a value, if anything is."""
+        facts = self._facts[address[0]]
+        said = _wrong_kind(facts, value)
+        if said is not None:
+            return self._finding(address, value, said, self._file.default(address))
+        if not self._within(facts, address, value):
+            said = fault(self._file.situation, address, value)
+            if said is not None:
+                known = facts.parameter.choices is not None
+                mended = self._file.default(address) if known else clip(self._file.situation, address, value)
+                return self._finding(address, value, said, mended)
+        if isinstance(value.value, (str, bool)):
+            return None
+        measures = facts.measures if facts.turning is None or not self._turns(address) else facts.turning
+        if dimension(value.unit) in measures:
+            return None
+        unit = self._file.situation.unit(address, self._file.header.units)
+        said = f"{facts.parameter.name} {show_value(facts.parameter, value)} should be in {shown(unit) or 'a bare number'} here"
+        return self._finding(address, value, said, Value(value.value, unit))
+
+    def _turns(self, address: Address) -> bool:
+        return self._angular is not None and self._file.situation.holds(self._angular, address[1], "axis")
+
+    def _within(self, facts: _Facts, address: Address, value: Value) -> bool:
+        """Tell quickly whether a value lies in a range that depends on nothing; False says that it has to be asked."""
+        found = value.value
+        if isinstance(found, (str, bool)):
+            return isinstance(found, bool) or found in facts.keys or facts.parameter.type == "text"
+        if not facts.own_range or facts.parameter.type == "bits":
+            return False
+        key = (address[0], value.unit)
+        span = self._spans.get(key)
+        if span is None:
+            allowed = limits(self._file.situation, address, value.unit)
+            low, high = (allowed.low, allowed.high) if allowed else (None, None)
+            span = self._spans[key] = (-math.inf if low is None else low, math.inf if high is None else high)
+        return span[0] <= found <= span[1]
+
+    def _finding(self, address: Address, value: Value, said: str, mended: Value | None) -> Finding:
+        parameter = self._facts[address[0]].parameter
+        allowed = mended is not None and mended != value and not fault(self._file.situation, address, mended)
+        repairs = (Repair(address, mended),) if mended is not None and allowed else ()
+        forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
+        kind = "schema.choice" if parameter.choices else "schema.range"
+        return Finding(kind, "error", (address,), said + "." + forced, repairs, parameter.page)
+
+
+def _wrong_kind(facts: _Facts, value: Value) -> str | None:
+    """Say so when a value is of a kind that its parameter never takes: no choice, no number, no whole number."""
+    found, parameter = value.value, facts.parameter
+    if facts.keys:
+        if isinstance(found, bool if parameter.type == "boolean" else str):
+            known = parameter.type == "boolean" or found in facts.keys or str(found).startswith("raw:")
+        else:
+            known = isinstance(found, str) and found.startswith("raw:")
+        return None if known else f"{found} is no choice of {parameter.name}"
+    if parameter.type == "text":
+        return None if isinstance(found, str) else f"{parameter.name} takes a text, not {found}"
+    if parameter.type == "format":
+        fits = isinstance(found, str) and _FORMAT.fullmatch(found)
+        return None if fits else f"{parameter.name} takes digits before and behind the point, as 3.4, not {found}"
+    if isinstance(found, (str, bool)) or not math.isfinite(found):
+        return f"{parameter.name} takes a number, not {found}"
+    if parameter.type != "real" and found != int(found):
+        return f"{parameter.name} takes whole numbers, not {found}"
+    return None

@@ -1,0 +1,171 @@
+"""One rule for one instance: whether it is broken, and what is said of it then."""
+
+from __future__ import annotations
+
+from operator import is_
+from typing import Any
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Value, canonical_unit, convert, fault, show_value, shown, write_number
+from amp_studio.schema.cel_engine import Context, Program
+from amp_studio.schema.situation import Canonical
+from amp_studio.schema.units import angular
+
+from .finding import Finding, Repair
+from .formulas import rule_functions
+from .plan import RuleCheck
+
+EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
+"""What CEL raises for a value of a kind that an expression does not speak of."""
+
+
+class RuleChecks:
+    """The rules of one plan over the values of one file.
+
+    Giving values to CEL costs ten times as much as an expression, so each check
+    keeps its own context and is given only values that are no longer the same.
+    """
+
+    def __init__(self, file: ParameterFile, machine: str) -> None:
+        self._file, self._machine = file, machine
+        self._functions = rule_functions(file.schema.family.family)
+        self._contexts: dict[int, tuple[Context, list[Any]]] = {}
+        """Place of a check -> its context, and the values it was given."""
+        self._seen: dict[Address, Canonical] = {}
+        self._lists: dict[tuple[Address, ...], list[Canonical]] = {}
+        self._lists_before: dict[tuple[Address, ...], list[Canonical]] = {}
+
+    def look_again(self) -> None:
+        """Forget the values, which may have changed; called before the checks of a round."""
+        self._seen.clear()
+        self._lists_before.update(self._lists)
+        self._lists.clear()
+
+    def finding(self, check: RuleCheck) -> Finding | None:
+        """Return what is wrong if the rule is broken; None too where what it needs is unset or out of force."""
+        context = self._context(check)
+        if context is None:
+            return None
+        try:
+            if check.expressions.broken.execute(context) is not True:
+                return None
+        except EVALUATION_FAULTS:
+            return None  # a value of a kind the rule does not speak of; its own range check says what is wrong
+        return self._finding(check, context)
+
+    # -- values ----------------------------------------------------------------
+
+    def _context(self, check: RuleCheck) -> Context | None:
+        """Return a context with the values the rule reads; None when one it needs is not there."""
+        values: list[Any] = []
+        seen = self._seen
+        for single in check.singles:
+            address = single.address
+            found = seen[address] if address in seen else self._see(address)
+            if found is None and single.any_state:
+                found = self._out_of_force(address)
+            if found is None and not single.optional:
+                return None
+            values.append(found)
+        for _, addresses in check.lists:
+            values.append(self._lists[addresses] if addresses in self._lists else self._list(addresses))
+        kept = self._contexts.get(check.place)
+        if kept is None:
+            kept = self._contexts[check.place] = self._new_context(check), values
+        elif len(values) == len(kept[1]) and all(map(is_, values, kept[1])):
+            return kept[0]
+        names = [*(s.name for s in check.singles), *(name for name, _ in check.lists)]
+        kept[0].update(dict(zip(names, values, strict=True)))
+        kept[1][:] = values
+        return kept[0]
+
+    def _new_context(self, check: RuleCheck) -> Context:
+        context = Context()
+        for name in check.expressions.functions:
+            context.add_function(name, self._functions[name])
+        always = {"machine": self._machine, "instance": check.instance}
+        context.update({name: always[name] for name in check.expressions.always})
+        return context
+
+    def _see(self, address: Address) -> Canonical:
+        situation = self._file.situation
+        counts = situation.state(address).state == "in-force"
+        found = self._seen[address] = situation.canonical(address) if counts else None
+        return found
+
+    def _out_of_force(self, address: Address) -> Canonical:
+        situation = self._file.situation
+        return situation.canonical(address) if situation.state(address).state != "hidden" else None
+
+    def _list(self, addresses: tuple[Address, ...]) -> list[Canonical]:
+        """Return the values of several instances: the same list as before while they are the same."""
+        found = [self._seen[a] if a in self._seen else self._see(a) for a in addresses]
+        before = self._lists_before.get(addresses)
+        if before is not None and all(map(is_, found, before)):
+            found = before
+        self._lists[addresses] = found
+        return found
+
+    # -- what is said ----------------------------------------------------------
+
+    def _finding(self, check: RuleCheck, context: Context) -> Finding:
+        rule, situation = check.rule, self._file.situation
+        texts = {"instance": check.instance, "machine": self._machine}
+        for single in check.singles:
+            texts[single.name] = self._shown(single.address)
+        for name, addresses in check.lists:
+            texts[name] = ", ".join(map(self._shown, addresses))
+        own = tuple(single.address for single in check.singles)
+        turns = any(situation.turns(address) for address in own)
+        for name, expression in check.expressions.values:
+            texts[name] = self._text(expression, context, rule.units.get(name, ""), turns)
+        about = own or tuple(
+            a for _, addresses in check.lists for a in addresses if situation.state(a).state == "in-force"
+        )
+        repairs = self._repairs(check, context)
+        safe = bool(repairs) and all(fix.safe for fix in rule.fix)
+        return Finding(rule.id, rule.severity, about, rule.message.format_map(texts), repairs, rule.page, safe)
+
+    def _shown(self, address: Address) -> str:
+        return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
+
+    def _text(self, expression: Program, context: Context, unit: str, turns: bool) -> str:
+        try:
+            found = expression.execute(context)
+        except EVALUATION_FAULTS:
+            return "?"
+        if isinstance(found, (bool, str)) or not isinstance(found, (int, float)):
+            return str(found)
+        if unit:
+            unit = angular(unit) if turns else unit
+            inch = unit.replace("mm", "in", 1)
+            if self._file.header.units == "inch" and inch != unit:
+                found, unit = convert(float(found), unit, inch), inch
+        return f"{write_number(float(f'{found:.7g}'))} {shown(unit)}".rstrip()
+
+    def _repairs(self, check: RuleCheck, context: Context) -> tuple[Repair, ...]:
+        """Return what the rule would change; nothing at all if a part of it cannot be had."""
+        repairs = []
+        for name, expression in check.expressions.fixes:
+            address = check.address_of(name)
+            value = self._mended(address, expression, context)
+            if value is None or fault(self._file.situation, address, value):
+                return ()
+            if value != self._file.values.get(address):
+                repairs.append(Repair(address, value))
+        return tuple(repairs)
+
+    def _mended(self, address: Address, expression: Program, context: Context) -> Value | None:
+        parameter = self._file.schema.parameters[address[0]]
+        try:
+            found = expression.execute(context)
+        except EVALUATION_FAULTS:
+            return None
+        if isinstance(found, (bool, str)):
+            return Value(found)
+        old = self._file.values.get(address)
+        unit = old.unit if old else self._file.situation.unit(address, self._file.header.units)
+        number = float(f"{convert(float(found), canonical_unit(unit), unit):.12g}")
+        if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
+            number = round(number, parameter.decimals)
+        return Value(int(number) if parameter.type == "integer" else number, unit)

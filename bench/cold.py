@@ -1,0 +1,61 @@
+"""What a user waits for when he starts a program: a fresh process each time."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from measure import Measure
+
+BENCH = Path(__file__).resolve().parent
+PROGRAM = (sys.executable, "-m", "amp_studio.cli")
+
+
+def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
+    """Yield the measures of cold processes; ``folder`` takes what they write."""
+    settings = _private(folder)
+    python = [_run((sys.executable, "-c", "pass"), settings) for _ in range(times + 1)]
+    yield Measure("  Python itself, cold process", tuple(python[1:]))
+
+    def program(*arguments: str | Path) -> tuple[float, ...]:
+        return tuple([_run((*PROGRAM, *map(str, arguments)), settings) for _ in range(times + 1)][1:])
+
+    yield Measure("validate, cold process", program("validate", full), 0.6)
+    yield Measure("report to PDF, cold process", program("report", full, "-o", folder / "full.pdf"), 3.0)
+    paint = [_until_painted(example, settings) for _ in range(times + 1)]
+    yield Measure("first paint of the desktop program, cold process", tuple(paint[1:]), 1.5)
+
+
+def _private(folder: Path) -> Mapping[str, str]:
+    """No display, and no settings of the person who measures."""
+    checkout = str(BENCH.parent)
+    path = os.pathsep.join(filter(None, (checkout, os.environ.get("PYTHONPATH", ""))))
+    return {**os.environ, "QT_QPA_PLATFORM": "offscreen", "XDG_CONFIG_HOME": str(folder), "PYTHONPATH": path}
+
+
+def _run(command: tuple[str, ...], settings: Mapping[str, str]) -> float:
+    begin = time.perf_counter()
+    done = subprocess.run(command, env=settings, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    elapsed = time.perf_counter() - begin
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)} ended with {done.returncode}: {done.stderr.decode()}")
+    return elapsed
+
+
+def _until_painted(example: Path, settings: Mapping[str, str]) -> float:
+    """Return the time from the start of the process until it says that it has painted the table of the example."""
+    command = (sys.executable, str(BENCH / "first_paint.py"), str(example))
+    begin = time.perf_counter()
+    with subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        line = process.stdout.readline()
+        elapsed = time.perf_counter() - begin
+        said = process.stderr.read()
+    if line.strip() != b"painted":
+        raise RuntimeError(f"the desktop program was not painted: {said.decode()}")
+    return elapsed

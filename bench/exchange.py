@@ -1,0 +1,51 @@
+"""The example on its way to an emulated control and back, over a socket and over a serial line."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from measure import Measure, timed
+
+from amp_studio.files import open_file
+from amp_studio.transfer.parameters import download_file, fetch_file
+
+LINES = {"TCP loopback": "tcp://127.0.0.1:0", **({"pty": "pty:"} if os.name == "posix" else {})}
+
+
+def measures(folder: Path, example: Path, times: int) -> Iterator[Measure]:
+    """Yield upload and download over every line there is."""
+    file = open_file(example).file
+    for name, listen in LINES.items():
+        kept = folder / f"kept-{name.replace(' ', '-')}"
+        kept.mkdir()
+        with _control(listen, kept / "control") as address:
+            down = timed(lambda a=address, k=kept: download_file(file, a, k, "bench"), times, warm=0)
+            yield Measure(f"download, {name} (keep, send, restart 0.5 s, compare)", down)
+            yield Measure(f"upload, {name}", timed(lambda a=address: fetch_file(a), times))
+
+
+@contextmanager
+def _control(listen: str, state: Path) -> Iterator[str]:
+    """Run an emulated control in its own process, and give its address."""
+    command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", listen, "--machine", "mill"]
+    with subprocess.Popen(
+        [*command, "--state", str(state)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    ) as process:  # fmt: skip
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            line = next(said for said in process.stdout if said.startswith("listening on "))
+            yield line.removeprefix("listening on ").strip()
+        finally:
+            process.stdin.write("quit\n")
+            process.stdin.close()
+            try:
+                process.wait(timeout=10)
+            except subprocess.TimeoutExpired:
+                process.kill()

@@ -1,0 +1,79 @@
+"""How something is timed, and the one table of all results.
+
+A measure is a list of seconds. Targets are medians on the machine it runs on;
+the table says "over" and nothing fails, because a time is not a test.
+"""
+
+from __future__ import annotations
+
+import gc
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+
+@dataclass(frozen=True)
+class Measure:
+    """One line of the table."""
+
+    name: str
+    seconds: tuple[float, ...]
+    target: float | None = None
+    """Seconds the median should stay below; None for what is only reported, and for peers."""
+
+    @property
+    def verdict(self) -> str:
+        """``pass`` or ``over``; nothing where there is no target."""
+        if self.target is None:
+            return ""
+        return "pass" if median(self.seconds) < self.target else "over"
+
+
+def timed(
+    call: Callable[[], object], times: int, before: Callable[[], object] | None = None, warm: int = 1
+) -> tuple[float, ...]:
+    """Return the seconds of each of ``times`` calls; ``before`` runs ahead of each and does not count.
+
+    ``warm`` calls come first and are thrown away. The collector of cycles runs between calls, not in them.
+    """
+    seconds = []
+    for n in range(-warm, times):
+        if before is not None:
+            before()
+        gc.collect()
+        gc.disable()
+        begin = time.perf_counter()
+        call()
+        elapsed = time.perf_counter() - begin
+        gc.enable()
+        if n >= 0:
+            seconds.append(elapsed)
+    return tuple(seconds)
+
+
+def table(measures: Sequence[Measure]) -> str:
+    """Return all measures as one table."""
+    head = ("", "median", "min", "max", "target", "")
+    rows = [head] + [
+        (m.name, said(median(m.seconds)), said(min(m.seconds)), said(max(m.seconds)),
+         f"< {said(m.target)}" if m.target is not None else "", m.verdict)
+        for m in measures
+    ]  # fmt: skip
+    widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
+    lines = []
+    for row in rows:
+        cells = [row[0].ljust(widths[0]), *(cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True))]
+        lines.append("  ".join(cells).rstrip())
+    lines.insert(1, "-" * max(len(line) for line in lines))
+    return "\n".join(lines)
+
+
+def said(seconds: float) -> str:
+    """Write a time with three figures and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``."""
+    for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
+        number = seconds * factor
+        if number >= 1 or unit == "µs":
+            digits = 2 if number < 10 else 1 if number < 100 else 0
+            return f"{number:.{digits}f} {unit}"
+    raise AssertionError

@@ -1,0 +1,57 @@
+"""Measure AMP Studio and print one table: ``make bench``, or ``python bench/run.py [--quick]``.
+
+Everything is measured on a file of eight axes with every parameter set, and on the mill of the examples.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+import cold
+import exchange
+import machine
+import screen
+import warm
+from measure import Measure, table
+
+
+def main() -> None:
+    """Measure everything, or with --quick everything once."""
+    parser = argparse.ArgumentParser(description="Measure AMP Studio and print one table.")
+    parser.add_argument("--quick", action="store_true", help="everything once: shows that it runs, not how fast")
+    times = 1 if parser.parse_args().quick else 15
+    print(f"Python {platform.python_version()} on {platform.system()}, {processor()}, {os.cpu_count()} processors")
+    with tempfile.TemporaryDirectory(prefix="amp-studio-bench-") as name:
+        print(table(list(measures(Path(name), times))))
+
+
+def measures(folder: Path, times: int) -> Iterator[Measure]:
+    """Yield every measure in the order of the table."""
+    full = machine.write_full_file(folder)
+    example = Path(shutil.copytree(machine.example_path().parent, folder / "mill")) / machine.example_path().name
+    yield from cold.measures(folder, full, example, max(1, times // 2))
+    yield from warm.measures(folder, full, example, times)
+    yield from screen.measures(folder, full, times)
+    yield from exchange.measures(folder, example, max(1, times // 3))
+
+
+def processor() -> str:
+    """Return the name of the processor, where the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        return next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
+if __name__ == "__main__":
+    main()

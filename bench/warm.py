@@ -1,0 +1,76 @@
+"""What happens again and again in a program that runs: opening, checking, editing, saving, printing, simulating."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import cycle
+from pathlib import Path
+from statistics import median
+
+import peers
+from measure import Measure, timed
+
+from amp_studio.files import Change, Document, new_file, open_file
+from amp_studio.report import write_report
+from amp_studio.schema import Address, Value, load_schema, written
+from amp_studio.schema.load import load_compiled
+from amp_studio.sim import simulate
+from amp_studio.validate import Validator
+
+EDITED: Address = ("servo.excess_error", "1")
+"""Seven rules and two ranges read it."""
+
+
+def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
+    """Yield the measures of a warm process; ``folder`` takes what is written."""
+    yield Measure("load the schema from its cache", timed(lambda: load_schema("9pc"), times, _forget_schema))
+    axes = ("X", "Y", "Z", "A", "B", "C", "S", "S")
+    yield Measure("new file of eight axes", timed(lambda: new_file("9pc", "mill", axes), times))
+    yield Measure("open and validate", timed(lambda: Validator(open_file(full).file).run(), times), 0.030)
+    yield Measure("  open alone", timed(lambda: open_file(full), times))
+    yield from peers.measures(full, times)
+    yield from _edits(full, times)
+    yield from _saves(folder, full, times)
+    file, pdf = open_file(full).file, folder / "warm.pdf"
+    print_it = timed(lambda: write_report(file, pdf, sort="group", changed_only=False, source=full), times)
+    yield Measure("report to PDF", print_it)
+    mill = open_file(example).file
+    yield Measure("simulate a rapid move of one axis", timed(lambda: simulate(mill, "step", "1"), times, warm=2))
+
+
+def _forget_schema() -> None:
+    load_compiled.cache_clear()
+    load_schema.cache_clear()
+
+
+def _edits(full: Path, times: int) -> Iterator[Measure]:
+    """Yield what one edit costs: that of one value, and of the value on which most depends."""
+    file = open_file(full).file
+    validator = Validator(file)
+    validator.run()
+    values = cycle([Value(12.0, "mm"), Value(11.0, "mm")])
+
+    def edit() -> None:
+        file.set(EDITED, next(values))
+        validator.update([EDITED])
+
+    yield Measure("re-validate after one edit", timed(edit, 20 * times), 0.002)
+
+    def touch(address: Address) -> None:
+        value = file.values[address]
+        file.apply(Change(address, value, value))
+        validator.update([address])
+
+    slowest: dict[Address, tuple[float, ...]] = {a: timed(lambda a=a: touch(a), 1, warm=0) for a in file.values}
+    worst = max(slowest, key=lambda a: median(slowest[a]))
+    yield Measure(f"  the slowest of {len(slowest)} edits: {written(worst)}", timed(lambda: touch(worst), times))
+
+
+def _saves(folder: Path, full: Path, times: int) -> Iterator[Measure]:
+    """Yield a save of one changed value: backup, sync, hash check and history included."""
+    path = folder / "saved.amp"
+    path.write_bytes(full.read_bytes())
+    values = cycle([Value(12.0, "mm"), Value(11.0, "mm")])
+    with Document.open(path) as document:
+        change = lambda: document.file.set(EDITED, next(values))  # noqa: E731  # one line to hand over
+        yield Measure("save", timed(document.save, times, change))

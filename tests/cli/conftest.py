@@ -1,0 +1,67 @@
+"""The command line, run in process: what it says, where, and with which exit code."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from amp_studio import cli
+
+
+@dataclass(frozen=True)
+class Said:
+    """How one run ended."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        """Return the one JSON document on standard output."""
+        return json.loads(self.out)
+
+
+@pytest.fixture
+def amp(capsys: pytest.CaptureFixture[str]) -> Callable[..., Said]:
+    """Return what runs one verb; whatever is refused is refused in one line that names the program."""
+
+    def run(*arguments: object) -> Said:
+        capsys.readouterr()
+        code = cli.run([str(argument) for argument in arguments])
+        said = Said(code, *capsys.readouterr())
+        assert "Traceback" not in said.err
+        if code == 2:
+            assert said.out == ""
+            assert len(said.err.splitlines()) == 1, said.err
+            assert said.err.startswith("amp-studio: ")
+        return said
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def new_mill(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Return the content of a new mill with the axes X, Y, A and S."""
+    path = tmp_path_factory.mktemp("new") / "mill.amp"
+    assert cli.run(["new", "9pc", str(path), "--machine", "mill", "--axes", "X,Y,A,S"]) == 0
+    return path.read_bytes()
+
+
+@pytest.fixture
+def mill(new_mill: bytes, tmp_path: Path) -> Path:
+    """Return the path of a new mill with the axes X, Y, A and S."""
+    path = tmp_path / "mill.amp"
+    path.write_bytes(new_mill)
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Callable[[], dict[str, bytes]]:
+    """Return what tells the files of the test's folder with their contents."""
+    return lambda: {str(p.relative_to(tmp_path)): p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()}

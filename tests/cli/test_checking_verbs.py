@@ -1,0 +1,258 @@
+"""validate, diff, merge: what they find, how they say it, and exit code 1 for what is wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import open_file
+from amp_studio.schema import Value
+
+# -- validate --------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def plain(amp, tmp_path: Path) -> Path:
+    """Return the path of a file in which nothing is an error: no axis is fitted."""
+    path = tmp_path / "plain.amp"
+    amp("new", "9pc", path, "--machine", "mill", "--axes", "X")
+    assert amp("set", path, "360=unfitted").code == 0
+    return path
+
+
+def test_a_file_without_errors_ends_with_0(amp, plain: Path) -> None:
+    said = amp("validate", plain, "--json")
+    assert (0, 0, "", str(plain)) == (said.code, said.json["errors"], said.err, said.json["file"])
+    assert [finding for finding in said.json["findings"] if finding["severity"] == "error"] == []
+
+
+def test_a_finding_has_the_promised_shape_and_ends_with_1(amp, mill: Path) -> None:
+    amp("set", mill, "1300=1e6", "--force")
+    said = amp("validate", mill, "--json")
+    assert said.code == 1
+    found = said.json
+    assert {"file", "errors", "warnings", "findings"} <= found.keys()
+    counted = {s: sum(f["severity"] == s for f in found["findings"]) for s in ("error", "warning", "advice")}
+    assert (counted["error"], counted["warning"]) == (found["errors"], found["warnings"])
+    assert sum(counted.values()) == len(found["findings"])
+    for finding in found["findings"]:
+        assert {"rule", "severity", "params", "message", "fix", "source"} <= finding.keys()
+        assert all({"param", "value"} <= repair.keys() for repair in finding["fix"])
+        assert "{" not in finding["message"]
+    (ours,) = [f for f in found["findings"] if f["params"] == ["1300"]]
+    assert (
+        ours["rule"], ours["severity"], ours["fix"], ours["source"],
+    ) == ("schema.range", "error", [{"param": "1300", "value": "999999.99 mm"}], "5-10")  # fmt: skip
+
+
+def test_the_fix_of_a_finding_can_be_given_to_set(amp, mill: Path) -> None:
+    amp("set", mill, "1300=1e6", "--force")
+    (ours,) = [f for f in amp("validate", mill, "--json").json["findings"] if f["params"] == ["1300"]]
+    assert amp("set", mill, *(f"{fix['param']}={fix['value']}" for fix in ours["fix"])).code == 0
+    assert [f for f in amp("validate", mill, "--json").json["findings"] if f["params"] == ["1300"]] == []
+
+
+def test_several_files_are_checked_in_one_go(amp, mill: Path, plain: Path) -> None:
+    said = amp("validate", plain, mill, "--json")
+    assert (1, [str(plain), str(mill)]) == (said.code, [document["file"] for document in said.json["files"]])
+    totals = [line for line in amp("validate", plain, mill).out.splitlines() if " errors, " in line]
+    assert [totals[0].startswith(f"{plain}: 0 errors"), totals[1].startswith(f"{mill}: ")] == [True, True]
+
+
+def test_validate_writes_nothing(amp, mill: Path, folder) -> None:
+    before = folder()
+    amp("validate", mill)
+    assert before == folder()
+
+
+def test_rules_of_one_s_own_are_checked_too(amp, plain: Path, tmp_path: Path) -> None:
+    rules = tmp_path / "ours.yaml"
+    rules.write_text(
+        "rules:\n"
+        "  - id: ours.calibration\n"
+        "    title: No calibration\n"
+        "    severity: error\n"
+        "    reads: {groups: zone.group_count}\n"
+        "    check: groups > 5.0\n"
+        '    message: "Zone groups are {groups}."\n'
+        '    page: "1"\n'
+    )
+    amp("set", plain, "20=1")
+    said = amp("validate", plain, "--rules", rules, "--json")
+    assert (said.code, [f["message"] for f in said.json["findings"] if f["rule"] == "ours.calibration"]) == (
+        1,
+        ["Zone groups are 1."],
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("", "", "ours.yaml"),
+        ("severity: error", "severity: fatal", "ours.yaml, line 4: ours.one: severity: "),
+        ("zone.group_count", "zone.nothing", "ours.one"),
+        ("groups > 5.0", "groups >", "ours.one"),
+    ],
+)
+def test_rules_that_cannot_be_used_are_refused(
+    amp, plain: Path, tmp_path: Path, old: str, new: str, said: str
+) -> None:
+    text = (
+        "rules:\n  - id: ours.one\n    title: One\n    severity: error\n    reads: {groups: zone.group_count}\n"
+        '    check: groups > 5.0\n    message: no\n    page: "1"\n'
+    )
+    rules = tmp_path / "ours.yaml"
+    if old:
+        assert old in text
+        rules.write_text(text.replace(old, new))
+    refused = amp("validate", plain, "--rules", rules)
+    assert (refused.code, said in refused.err) == (2, True), refused.err
+
+
+# -- diff ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def twin(mill: Path) -> Path:
+    """Return the path of a copy of the mill."""
+    path = mill.with_name("twin.amp")
+    path.write_bytes(mill.read_bytes())
+    return path
+
+
+def test_files_that_are_the_same_do_not_differ(amp, mill: Path, twin: Path) -> None:
+    said = amp("diff", mill, twin, "--json")
+    assert (said.code, said.json["differences"], said.err) == (0, [], "")
+    assert "0 differ" in amp("diff", mill, twin).out
+
+
+def test_a_difference_has_the_promised_shape_and_ends_with_1(amp, mill: Path, twin: Path) -> None:
+    amp("set", twin, "1300=1.5", "1020=yes", "2300=0 in", "20=1", "1013=")
+    said = amp("diff", mill, twin, "--json")
+    assert said.code == 1
+    shown = [{key: d[key] for key in ("param", "a", "b")} for d in said.json["differences"]]
+    assert shown == [
+        {"param": "1300", "a": "0 mm", "b": "1.5 mm"},
+        {"param": "20", "a": None, "b": "1"},
+        {"param": "1020", "a": "False", "b": "True"},
+        {"param": "servo.velocity_gear_teeth@1", "a": "1", "b": None},
+    ], "0 in is 0 mm"
+    back = amp("diff", twin, mill, "--json").json["differences"]
+    assert [(d["param"], d["b"], d["a"]) for d in shown] == [(d["param"], d["a"], d["b"]) for d in back]
+
+
+def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path, twin: Path) -> None:
+    amp("set", twin, "1300=1.5", "20=1", "1013=")
+    *lines, total = amp("diff", mill, twin).out.splitlines()
+    assert len(lines) == 3
+    assert lines[0].startswith("1300 Home Calibration ")
+    assert lines[0].endswith("0 mm  |  1.5 mm")
+    assert "3 differ, " in total
+    assert "1 are absent in A, 1 absent in B" in total
+
+
+def test_diff_writes_nothing(amp, mill: Path, twin: Path, folder) -> None:
+    before = folder()
+    amp("diff", mill, twin)
+    assert before == folder()
+
+
+# -- merge ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def three(amp, mill: Path, twin: Path) -> tuple[Path, Path, Path]:
+    """Return a base, ours and theirs: one value changed by us, one by them, one by both alike."""
+    theirs = mill.with_name("theirs.amp")
+    theirs.write_bytes(mill.read_bytes())
+    amp("set", twin, "1300=1", "2300=3")
+    amp("set", theirs, "1320=2", "2300=3")
+    return mill, twin, theirs
+
+
+def test_a_merge_without_conflicts_ends_with_0(amp, three, tmp_path: Path, folder) -> None:
+    before, out = folder(), tmp_path / "merged.amp"
+    said = amp("merge", *three, "-o", out)
+    assert (0, f"{out}: 0 conflicts\n") == (said.code, said.out)
+    file = open_file(out).file
+    values = [Value(1.0, "mm"), Value(2.0, "mm"), Value(3.0, "mm")]
+    addresses = [("home.calibration", "1"), ("zone.overtravel_positive", "1"), ("home.calibration", "2")]
+    assert (values, "merged") == ([file.get(a) for a in addresses], file.header.name)
+    assert before == {name: content for name, content in folder().items() if name != "merged.amp"}
+
+
+def test_conflicts_are_listed_and_end_with_1(amp, three, tmp_path: Path) -> None:
+    amp("set", three[2], "1300=7")
+    out = tmp_path / "merged.amp"
+    said = amp("merge", *three, "-o", out)
+    expected = "conflict at 1300 Home Calibration: base 0 mm, ours 1 mm, theirs 7 mm; ours stands"
+    assert (1, [expected, f"{out}: 1 conflicts"]) == (said.code, said.out.splitlines())
+    assert Value(1.0, "mm") == open_file(out).file.get(("home.calibration", "1"))
+
+
+def test_a_conflict_over_an_entry_nobody_understands_is_listed_too(amp, three, tmp_path: Path) -> None:
+    for path, number in zip(three, "123", strict=True):
+        path.write_text(path.read_text().replace("\n...", f"\n  future.thing@1: '{number}'\n..."))
+    said = amp("merge", *three, "-o", tmp_path / "merged.amp")
+    assert (said.code, "conflict at future.thing@1: ours stands" in said.out) == (1, True)
+
+
+def test_a_merge_does_not_overwrite(amp, three, folder) -> None:
+    before = folder()
+    said = amp("merge", *three, "-o", three[0])
+    assert (said.code, "exists already" in said.err) == (2, True)
+    assert before == folder()
+
+
+# -- report, simulate ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("ending", "start"), [(".txt", b""), (".csv", b""), (".html", b"<"), (".pdf", b"%PDF-")]
+)
+def test_a_report_follows_the_ending_and_leaves_the_file_alone(
+    amp, mill: Path, ending: str, start: bytes
+) -> None:
+    before, out = mill.read_bytes(), mill.with_suffix(ending)
+    said = amp("report", mill, "-o", out)
+    assert (0, f"{out}\n") == (said.code, said.out)
+    assert out.read_bytes().startswith(start)
+    assert b"Home Calibration" in out.read_bytes() or ending == ".pdf"
+    assert before == mill.read_bytes()
+
+
+def test_a_report_in_a_format_nobody_knows_is_refused(amp, mill: Path, folder) -> None:
+    before = folder()
+    assert amp("report", mill, "-o", mill.with_suffix(".doc")).code == 2
+    assert amp("report", mill, "-o", mill.with_suffix(".txt"), "--sort", "colour").code == 2
+    assert before == folder()
+
+
+def test_a_simulation_has_the_promised_shape(amp, mill: Path, folder) -> None:
+    amp("set", mill, "1030=sercos", "1031=digital")
+    before = folder()
+    said = amp("simulate", mill, "step", "--axis", "1", "--json")
+    assert said.code == (1 if said.json["alarms"] else 0)
+    assert {"scenario", "axis", "model", "result", "alarms", "advice", "trace"} <= said.json.keys()
+    assert (said.json["scenario"], said.json["axis"]) == ("step", "1")
+    assert {"columns", "rows"} <= said.json["trace"].keys()
+    assert all({"param", "value", "why"} <= advice.keys() for advice in said.json["advice"])
+    assert before == folder()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("juggle",), "juggle"),
+        (("step", "--axis", "Q"), "there is no axis 'Q'"),
+        (("step", "--set", "9999=1"), "'9999' is no parameter"),
+        (("step", "--set", "1300"), "'1300' is not PARAM=VALUE"),
+    ],
+)
+def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, arguments, said: str) -> None:
+    amp("set", mill, "1030=sercos", "1031=digital")
+    before = folder()
+    refused = amp("simulate", mill, *arguments)
+    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert before == folder()

@@ -1,0 +1,407 @@
+"""new, set, get: a file is made, changed and read."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+
+from amp_studio.files import backup_path, open_file
+from amp_studio.schema import Value, load_schema
+from amp_studio.schema import load as loading
+from amp_studio.schema.load import load_compiled
+
+# -- new -----------------------------------------------------------------------------------------------------
+
+
+def test_a_new_file_is_of_the_machine_and_axes_asked_for(amp, tmp_path: Path) -> None:
+    path = tmp_path / "bench.amp"
+    said = amp("new", "9pc", path, "--machine", "mill", "--axes", "X, Y,C")
+    assert (said.code, said.err) == (0, "")
+    assert re.fullmatch(rf"{re.escape(str(path))}: Allen-Bradley 9/PC AMP, mill, \d+ values\n", said.out)
+    file = open_file(path).file
+    assert (file.machine, file.header.name) == ("mill", "bench")
+    assert [Value("x"), Value("y"), Value("c"), None] == [file.get(("axis.name", axis)) for axis in "1234"]
+
+
+def test_a_new_file_does_not_overwrite(amp, mill: Path, folder) -> None:
+    before = folder()
+    said = amp("new", "9pc", mill)
+    assert (said.code, f"{mill} exists already" in said.err) == (2, True)
+    assert before == folder()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("fanuc", "x.amp"), "'fanuc' is no control family: "),
+        (("9pc", "x.amp", "--machine", "grinder"), "has no machine type 'grinder': lathe, mill"),
+        (("9pc", "x.amp", "--axes", "X,Q"), "'Q' is not a choice of Axis Name"),
+        (("9pc", "x.amp", "--axes", "X,Y,Z,A,B,C,U,V,W"), "9 axes are too many"),
+        (("9pc", "x.amp", "--axes", "X,,Z"), "'' is not a choice of Axis Name"),
+        (("9pc", "no/such/folder/x.amp"), "there is no folder no/such/folder"),
+        (("9pc",), "path"),
+    ],
+)
+def test_a_new_file_that_cannot_be_is_not_made(
+    amp, tmp_path: Path, folder, monkeypatch, arguments, said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    refused = amp("new", *arguments)
+    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert folder() == {}
+    assert list(tmp_path.iterdir()) == []
+
+
+# -- get ------------------------------------------------------------------------------------------------------
+
+
+def test_a_value_is_given_as_promised(amp, mill: Path) -> None:
+    (row,) = amp("get", mill, "1300", "--json").json["values"]
+    expected = {
+        "param": "1300",
+        "id": "home.calibration",
+        "instance": "1",
+        "value": 0.0,
+        "unit": "mm",
+        "raw": 0,
+        "default": True,
+    }
+    assert expected == {key: row[key] for key in expected}
+
+
+@pytest.mark.parametrize(
+    ("param", "expected"),
+    [
+        (
+            "360",
+            {"id": "axis.type", "instance": "1", "value": "linear", "unit": "", "raw": None, "default": True},
+        ),
+        ("control.type", {"param": "350", "instance": "", "value": "Mill", "raw": None, "default": False}),
+        ("1020", {"id": "zone.overtravel_used", "value": "False", "raw": 0, "default": True}),
+        (
+            "1013",
+            {
+                "param": "servo.velocity_gear_teeth@1",
+                "id": "servo.velocity_gear_teeth",
+                "instance": "1",
+                "value": 1,
+            },
+        ),
+        (
+            "4013",
+            {"param": "servo.spindle_motor_teeth@4", "id": "servo.spindle_motor_teeth", "instance": "4"},
+        ),
+        ("3300", {"id": "home.calibration", "instance": "3", "value": 0.0, "unit": "deg", "raw": 0.0}),
+        ("1204", {"value": 4.23333, "unit": "mm/s", "raw": 4.23333, "default": True}),
+        ("3207", {"id": "axis.rollover", "value": None, "unit": "deg", "raw": None, "default": True}),
+        ("1009", {"id": "zone.group", "value": None, "unit": "", "default": True}),
+    ],
+)
+def test_every_kind_of_value_is_given(amp, mill: Path, param: str, expected: dict) -> None:
+    (row,) = amp("get", mill, param, "--json").json["values"]
+    assert expected == {key: row[key] for key in expected}
+
+
+def test_what_was_asked_for_comes_in_the_order_it_was_asked_for(amp, mill: Path) -> None:
+    rows = amp("get", mill, "2300", "home.calibration@1", "350", "--json").json["values"]
+    assert [row["param"] for row in rows] == ["2300", "1300", "350"]
+
+
+def test_without_parameters_everything_that_exists_is_given(amp, mill: Path) -> None:
+    shown = {(row["id"], row["instance"]) for row in amp("get", mill, "--json").json["values"]}
+    every = {(row["id"], row["instance"]): row for row in amp("get", mill, "--all", "--json").json["values"]}
+    assert set(load_schema("9pc").addresses("mill")) == set(every)
+    assert shown == {a for a, row in every.items() if row["value"] is not None and row["state"] != "hidden"}
+
+
+def test_a_person_sees_what_was_changed_and_what_is_out_of_force(amp, mill: Path) -> None:
+    amp("set", mill, "1300=2")
+    lines = amp("get", mill, "1300", "2300", "1320", "1009").out.splitlines()
+    assert re.fullmatch(r"1300 Home Calibration +2 mm \*", lines[0])
+    assert re.fullmatch(r"2300 Home Calibration +0 mm", lines[1])
+    assert re.fullmatch(r"1320 Positive Software Overtravel +0 mm  \(ignored\)", lines[2])
+    assert re.fullmatch(r"1009 Programmable Zone Group Axis +—", lines[3])
+
+
+# -- set --------------------------------------------------------------------------------------------------------
+
+
+def test_a_value_is_set_and_the_previous_file_becomes_the_backup(amp, mill: Path) -> None:
+    before = mill.read_bytes()
+    said = amp("set", mill, "1300=2.5")
+    assert (said.code, said.out, said.err) == (0, "1300 Home Calibration: 0 mm -> 2.5 mm\n", "")
+    assert before == backup_path(mill).read_bytes()
+    assert Value(2.5, "mm") == open_file(mill).file.get(("home.calibration", "1"))
+    (row,) = amp("get", mill, "1300", "--json").json["values"]
+    assert (row["value"], row["raw"], row["default"]) == (2.5, 2.5, False)
+
+
+@pytest.mark.parametrize(
+    ("assignment", "address", "expected"),
+    [
+        ("1300=2,5", ("home.calibration", "1"), Value(2.5, "mm")),
+        ("1300=2.5 in", ("home.calibration", "1"), Value(2.5, "in")),
+        ("home.calibration@1=-2.5e-3mm", ("home.calibration", "1"), Value(-0.0025, "mm")),
+        ("1300=1 234,5", ("home.calibration", "1"), Value(1234.5, "mm")),
+        ("1204=10 ipm", ("accdec.velocity_step", "1"), Value(10.0, "in/min")),
+        ("1204=1 mm/s", ("accdec.velocity_step", "1"), Value(1.0, "mm/s")),
+        ("3300=12", ("home.calibration", "3"), Value(12.0, "deg")),
+        ("361=rotary", ("axis.type", "2"), Value("rotary")),
+        ("361=ROTARY", ("axis.type", "2"), Value("rotary")),
+        ("361=b", ("axis.type", "2"), Value("rotary")),
+        ("axis.type@2=rotary", ("axis.type", "2"), Value("rotary")),
+        ("1031=Digital or Digital Spindle", ("servo.loop_type", "1"), Value("digital")),
+        ("1020=yes", ("zone.overtravel_used", "1"), Value(True)),
+        ("1020=True", ("zone.overtravel_used", "1"), Value(True)),
+        ("1020=a", ("zone.overtravel_used", "1"), Value(True)),
+        ("1020=raw:1", ("zone.overtravel_used", "1"), Value(True)),
+        ("1504=raw:0", ("servo.sercos_transmit", "1"), Value("low")),
+        ("servo.velocity_port@1=j2", ("servo.velocity_port", "1"), Value("j2")),
+        ("1013=0x10", ("servo.velocity_gear_teeth", "1"), Value(16)),
+        ("4013=7", ("servo.spindle_motor_teeth", "4"), Value(7)),
+        ("1300=", ("home.calibration", "1"), None),
+    ],
+)
+def test_a_value_may_be_given_in_every_clear_form(
+    amp, mill: Path, assignment: str, address, expected
+) -> None:
+    assert amp("set", mill, assignment).code == 0
+    assert expected == open_file(mill).file.get(address)
+
+
+def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:
+    """Axis 1 is a spindle by the time its 1013 is read, and its lengths are angles."""
+    said = amp("set", mill, "360=spindle", "1013=9", "1300=5")
+    assert said.code == 0
+    file = open_file(mill).file
+    assert (Value(9), Value(1)) == (
+        file.get(("servo.spindle_motor_teeth", "1")),
+        file.get(("servo.velocity_gear_teeth", "1")),
+    )
+    assert Value(5.0, "deg") == file.get(("home.calibration", "1"))
+
+
+def test_a_pair_that_bounds_each_other_is_set_together(amp, mill: Path) -> None:
+    assert amp("set", mill, "1320=100", "1330=50").code == 0
+    assert amp("set", mill, "1320=-50", "1330=-100").code == 0
+    file = open_file(mill).file
+    assert (Value(-50.0, "mm"), Value(-100.0, "mm")) == tuple(
+        file.get((f"zone.overtravel_{s}", "1")) for s in ("positive", "negative")
+    )
+
+
+def test_who_sets_what_is_not_in_force_is_told(amp, mill: Path) -> None:
+    said = amp("set", mill, "1320=5")
+    assert (said.code, said.err) == (
+        0,
+        "1320 Positive Software Overtravel is ignored: software overtravel is not used on this axis\n",
+    )
+
+
+def test_setting_what_is_set_writes_nothing(amp, mill: Path, folder) -> None:
+    before = folder()
+    assert (amp("set", mill, "1300=0").code, amp("set", mill, "1300=0 in", "1300=0").out) == (0, "")
+    assert before == folder()
+
+
+def test_a_history_is_kept_of_what_was_set(amp, mill: Path) -> None:
+    amp("set", mill, "1300=1")
+    assert '"home.calibration@1", "0 mm", "1 mm"' in mill.with_name("mill.amp.history").read_text()
+
+
+@pytest.mark.parametrize(
+    ("assignments", "said"),
+    [
+        (["1300=2", "9999=1"], "'9999' is no parameter of Allen-Bradley 9/PC AMP"),
+        (["1300=2", "home.nothing@1=1"], "'home.nothing@1' is no parameter"),
+        (["1300=2", "home.calibration=1"], "'home.calibration': Home Calibration has @1 to @8"),
+        (["1300=2", "home.calibration@9=1"], "Home Calibration has @1 to @8"),
+        (
+            ["1300=2", "2300=1e6"],
+            "Home Calibration 1000000 mm is outside -999999.99 to 999999.99 mm; nothing was changed (--force",
+        ),
+        (["1300=2", "2300=40000 in"], "outside -39370.07835 to 39370.07835 in"),
+        (["1300=2", "2300=1,234"], "'1,234' can be read two ways: write 1234 or 1.234"),
+        (["1300=2", "2300=five"], "'five' is not a number"),
+        (["1300=2", "2300=5 kg"], "'kg' is not a unit"),
+        (["1300=2", "2300=5 deg"], "Home Calibration is given in mm, not in °"),
+        (["1300=2", "3300=5 mm"], "Home Calibration is given in °, not in mm"),
+        (["1300=2", "1013=1.5"], "takes whole numbers, not 1.5"),
+        (
+            ["1300=2", "361=square"],
+            "'square' is not a choice of Axis Type: linear (a), rotary (b), spindle (c), unfitted (d)",
+        ),
+        (["1300=2", "361=raw:9"], "9 is no code of Axis Type; nothing was changed"),
+        (
+            ["1300=2", "1020=perhaps"],
+            "'perhaps' is not a choice of Software Overtravel Used: True (a), False (b)",
+        ),
+        (["1300=2", "1320=-1"], "outside 0 to 2540000 mm (set by 1330 Negative Software Overtravel)"),
+        (["1300=2", "2300"], "'2300' is not PARAM=VALUE"),
+        (["1300=2", "=5"], "'=5' is not PARAM=VALUE"),
+        (["1300=2", "1020.3=1"], "'1020.3' is no parameter"),
+        ([], "PARAM=VALUE"),
+    ],
+)
+def test_one_fault_among_the_assignments_changes_nothing(
+    amp, mill: Path, folder, assignments, said: str
+) -> None:
+    before = folder()
+    refused = amp("set", mill, *assignments)
+    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert before == folder()
+
+
+def test_force_takes_a_value_out_of_range_and_marks_it(amp, mill: Path) -> None:
+    said = amp("set", mill, "1300=1e6", "2300=5", "--force")
+    assert said.code == 0
+    assert "1300 Home Calibration: 0 mm -> 1000000 mm" in said.out
+    rows = amp("get", mill, "1300", "2300", "--json").json["values"]
+    assert [(row["value"], row["forced"]) for row in rows] == [(1e6, True), (5.0, False)]
+    assert re.search(r"forced:\n  home\.calibration@1: on 20\S+ by 'set --force'", mill.read_text())
+    findings = amp("validate", mill, "--json").json["findings"]
+    assert [
+        re.search(r"It was forced on 20", f["message"])[0] for f in findings if f["params"] == ["1300"]
+    ] == ["It was forced on 20"]
+
+
+def test_the_mark_goes_with_the_next_value(amp, mill: Path) -> None:
+    amp("set", mill, "1300=1e6", "--force")
+    assert amp("set", mill, "1300=1").code == 0
+    assert "forced" not in mill.read_text()
+
+
+def test_a_forced_file_is_not_saved_again_for_nothing(amp, mill: Path) -> None:
+    amp("set", mill, "1300=1e6", "--force")
+    backup = backup_path(mill).read_bytes()
+    assert amp("set", mill, "2300=0").code == 0
+    assert backup == backup_path(mill).read_bytes()
+
+
+def test_force_does_not_take_what_is_no_value(amp, mill: Path, folder) -> None:
+    before = folder()
+    assert amp("set", mill, "1300=five", "--force").code == 2
+    assert before == folder()
+
+
+def test_a_file_in_use_is_not_changed(amp, mill: Path, folder) -> None:
+    script = """
+        import sys
+        from pathlib import Path
+        from amp_studio.files import Document
+        with Document.open(Path(sys.argv[1])):
+            print("open", flush=True)
+            sys.stdin.readline()
+    """
+    command = [sys.executable, "-c", dedent(script), str(mill)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout.readline().strip() == "open"
+        before = folder()
+        said = amp("set", mill, "1300=2")
+        assert (said.code, "mill.amp is open in another program (" in said.err) == (2, True)
+        assert before == folder()
+        other.communicate("\n")
+    assert amp("set", mill, "1300=2").code == 0
+
+
+def test_a_disk_that_is_full_changes_nothing(amp, mill: Path, folder, monkeypatch) -> None:
+    before = folder()
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", full)
+        said = amp("set", mill, "1300=2")
+    assert (2, f"amp-studio: {mill} cannot be written: No space left on device\n") == (said.code, said.err)
+    assert before == folder()
+
+
+# -- words of bits ------------------------------------------------------------------------------------------------
+
+FAMILY = """
+family: words
+name: Control of words
+document: words
+title: Words
+machines: [{key: one, name: One}]
+default_machine: one
+scopes: {word: {instances: ["0", "1"], label: "N{i}"}}
+units: {}
+effect: {level: reset}
+groups: [all]
+"""
+MASK = """
+key: all
+name: All
+chapter: "1"
+parameters:
+  - id: axes.displayed
+    name: Displayed Axes
+    scope: word
+    numbers: {format: "P3N{i}"}
+    type: bits
+    bits:
+      - {bit: 0, label: Axis 0}
+      - {bit: 5, label: Axis 5}
+      - {bit: 8, width: 2, label: Kind, choices: [{key: none, label: None, raw: 0}, {key: mask, label: Mask, raw: 2}]}
+    default: {value: 1, page: "1"}
+    storage: {bits: 16, signed: false, notation: hex}
+    help: {what: A bit for each axis.}
+    page: "4-10"
+"""
+
+
+@pytest.fixture
+def words(amp, tmp_path: Path, monkeypatch):
+    """Return the path of a file whose control has words of bits (NUM P3)."""
+    (tmp_path / "database" / "words" / "groups").mkdir(parents=True)
+    (tmp_path / "database" / "words" / "family.yaml").write_text(FAMILY)
+    (tmp_path / "database" / "words" / "groups" / "all.yaml").write_text(MASK)
+    monkeypatch.setattr(loading, "database_folder", lambda: tmp_path / "database")
+    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache"))
+    load_compiled.cache_clear()
+    load_schema.cache_clear()
+    path = tmp_path / "words.amp"
+    assert amp("new", "words", path).code == 0
+    yield path
+    load_compiled.cache_clear()
+    load_schema.cache_clear()
+
+
+def test_a_bit_of_a_word_is_set_by_itself(amp, words: Path) -> None:
+    said = amp("set", words, "P3N0.5=yes", "P3N0.0=0", "p3n1.8=mask")
+    assert (said.code, said.out) == (
+        0,
+        "P3N0 Displayed Axes: 0x0001 -> 0x0020\nP3N1 Displayed Axes: 0x0001 -> 0x0201\n",
+    )
+    assert "axes.displayed@0: '0x0020'" in words.read_text()
+    rows = amp("get", words, "P3N0.5", "P3N0.0", "P3N1.8", "P3N1", "P3N0.3", "--json").json["values"]
+    assert [row["value"] for row in rows] == [1, 0, "Mask", 0x0201, 0]
+    assert [row["param"] for row in rows] == ["P3N0.5", "P3N0.0", "P3N1.8", "P3N1", "P3N0.3"]
+    assert [row["default"] for row in rows] == [False, False, False, False, True]
+    assert "P3N1.8 Kind" in amp("get", words, "P3N1.8").out
+
+
+@pytest.mark.parametrize(
+    ("assignment", "said"),
+    [
+        ("P3N0.16=1", "Displayed Axes has the bits 0 to 15, not 16"),
+        ("P3N0.5=2", "'2' does not fit Axis 5, which takes 0 to 1"),
+        ("P3N0.8=1", "1 is no code of Kind in Displayed Axes; nothing was changed"),
+        ("P3N0.5=", "'' does not fit Axis 5"),
+        ("P3N0=0x10000", "Displayed Axes 65536 does not fit its 16 bits; nothing was changed"),
+        ("P3N9.5=1", "'P3N9.5' is no parameter"),
+    ],
+)
+def test_a_bit_that_cannot_be_is_refused(amp, words: Path, assignment: str, said: str) -> None:
+    before = words.read_bytes()
+    refused = amp("set", words, "P3N1=3", assignment)
+    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert before == words.read_bytes()

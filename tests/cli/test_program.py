@@ -1,0 +1,62 @@
+"""The program as other programs start it: exit codes, streams and encodings."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from amp_studio import __version__
+
+
+def start(*arguments: object, **env: str) -> subprocess.CompletedProcess[bytes]:
+    """Run the program and wait for it."""
+    command = [sys.executable, "-m", "amp_studio.cli", *map(str, arguments)]
+    return subprocess.run(
+        command, capture_output=True, check=False, stdin=subprocess.DEVNULL, env=os.environ | env
+    )
+
+
+def test_exit_codes_and_streams_are_those_of_the_contract(mill: Path) -> None:
+    right, wrong, refused = (
+        start("get", mill, "1300", "--json"),
+        start("validate", mill),
+        start("get", mill, "99999"),
+    )
+    assert [right.returncode, wrong.returncode, refused.returncode] == [0, 1, 2]
+    assert (json.loads(right.stdout)["values"][0]["value"], right.stderr) == (0.0, b"")
+    assert (refused.stdout, refused.stderr.strip()) == (
+        b"",
+        b"amp-studio: '99999' is no parameter of Allen-Bradley 9/PC AMP",
+    )
+
+
+def test_the_version_and_the_help_are_told() -> None:
+    told = start("--version")
+    assert (0, f"amp-studio {__version__}\n".encode()) == (told.returncode, told.stdout)
+    told = start("set", "--help")
+    assert (told.returncode, b"PARAM=VALUE" in told.stdout) == (0, True)
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+def test_a_terminal_that_lacks_signs_still_shows_everything(mill: Path, encoding: str) -> None:
+    shown = start("get", mill, "3300", "3207", PYTHONIOENCODING=encoding)
+    assert (shown.returncode, shown.stderr) == (0, b"")
+    expected = "0°" if encoding != "ascii" else r"0\xb0"
+    assert expected in shown.stdout.decode(encoding)
+    data = start("schema", "9pc", "--group", "accdec", "--json", PYTHONIOENCODING=encoding)
+    assert data.returncode == 0
+    assert json.loads(data.stdout.decode(encoding))["parameters"][0]["id"].startswith("accdec.")
+
+
+def test_a_reader_that_has_enough_is_no_fault_to_be_shown() -> None:
+    command = [sys.executable, "-m", "amp_studio.cli", "schema", "9pc", "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+        assert program.stdout.read(1)
+        program.stdout.close()
+        assert program.stderr.read() == b""
+    assert program.wait() > 0

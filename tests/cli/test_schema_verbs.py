@@ -1,0 +1,142 @@
+"""families, schema, show: what the program knows, for people and for other programs."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.schema import load_schema
+
+TYPES = {"integer", "real", "choice", "boolean", "bits", "text", "format"}
+SCOPES = {"global", "axis", "spindle", "process", "group", "word", "register"}
+
+
+def test_families_are_listed_with_their_size(amp) -> None:
+    said = amp("families", "--json")
+    assert (said.code, said.err) == (0, "")
+    rows = {row["id"]: row for row in said.json["families"]}
+    schema = load_schema("9pc")
+    assert {"id", "name", "parameters", "values"} <= rows["9pc"].keys()
+    expected = (schema.family.name, len(schema.parameters), len(schema.addresses("mill")))
+    assert expected == (rows["9pc"]["name"], rows["9pc"]["parameters"], rows["9pc"]["values"])
+
+
+def test_families_for_a_person_are_one_line_each(amp) -> None:
+    said = amp("families")
+    assert len(amp("families", "--json").json["families"]) == len(said.out.splitlines())
+    assert "9pc        Allen-Bradley 9/PC AMP" in said.out
+
+
+@pytest.fixture
+def definitions(amp):
+    """Return every definition of the 9/PC by id, as another program reads it."""
+    said = amp("schema", "9pc", "--json")
+    assert (said.code, said.err, said.json["family"]) == (0, "", "9pc")
+    return {row["id"]: row for row in said.json["parameters"]}
+
+
+def test_a_definition_has_the_promised_shape(definitions) -> None:
+    found = definitions["home.calibration"]
+    expected = {
+        "id": "home.calibration",
+        "name": "Home Calibration",
+        "group": "Home Parameters",
+        "scope": "axis",
+        "type": "real",
+        "numbers": {str(axis): f"{axis}300" for axis in range(1, 9)},
+        "unit": "length",
+        "ranges": {"mm": [-999999.99, 999999.99], "in": [-39370.07835, 39370.07835]},
+        "choices": None,
+        "default": {"mm": 0.0},
+        "source": {"document": "9pc-amp-reference-manual", "page": "5-10"},
+    }
+    assert expected == {key: found[key] for key in expected}
+    assert {"available_when", "help", "errata"} <= found.keys()
+    assert all(isinstance(found[key], str) for key in ("available_when", "help", "errata"))
+
+
+def test_every_definition_keeps_the_contract(definitions) -> None:
+    assert list(load_schema("9pc").parameters) == list(definitions)
+    for name, found in definitions.items():
+        assert (found["type"] in TYPES, found["scope"] in SCOPES, name) == (True, True, found["id"])
+        assert all(isinstance(number, str) for number in found["numbers"].values())
+        for low, high in (found["ranges"] or {}).values():
+            for bound in (low, high):
+                assert bound is None or isinstance(bound, float) or set(bound) == {"param"}, name
+        for choice in found["choices"] or ():
+            assert {"code", "label", "raw"} <= choice.keys()
+        assert found["default"] is None or isinstance(found["default"], dict)
+        assert found["help"].strip()
+        assert {"document", "page"} == found["source"].keys()
+
+
+def test_choices_come_with_letter_label_and_code(definitions) -> None:
+    """Control Type (page 3-9), Software Overtravel Used (page 6-10)."""
+    used = definitions["zone.overtravel_used"]
+    assert [(c["code"], c["label"], c["raw"]) for c in used["choices"]] == [
+        ("a", "True", 1),
+        ("b", "False", 0),
+    ]
+    assert (used["type"], used["default"]) == ("boolean", {"": "False"})
+
+
+def test_a_bound_that_another_parameter_sets_is_named(definitions) -> None:
+    assert definitions["zone.overtravel_positive"]["ranges"]["mm"] == [
+        {"param": "zone.overtravel_negative"},
+        2540000.0,
+    ]
+
+
+def test_one_group_can_be_asked_for(amp) -> None:
+    found = amp("schema", "9pc", "--group", "Home Parameters", "--json").json["parameters"]
+    assert {"Home Parameters"} == {row["group"] for row in found}
+    assert found == amp("schema", "9pc", "--group", "home", "--json").json["parameters"]
+    lines = amp("schema", "9pc", "--group", "home").out.splitlines()
+    assert len(found) == len(lines)
+    assert any(line.startswith("1300…8300") and "Home Calibration" in line for line in lines)
+
+
+@pytest.mark.parametrize("param", ["1300", "home.calibration", "home.calibration@1", " 1300 "])
+def test_a_parameter_is_shown_as_a_person_reads_it(amp, param: str) -> None:
+    said = amp("show", "9pc", param)
+    assert (said.code, said.err) == (0, "")
+    for part in (
+        "Home Calibration",
+        "home.calibration",
+        "-999999.99 to 999999.99 mm",
+        "page 5-10",
+        "How to find its value",
+    ):
+        assert part in said.out
+
+
+def test_a_number_of_two_parameters_shows_both(amp) -> None:
+    said = amp("show", "9pc", "1013")
+    assert said.code == 0
+    assert "Teeth on Motor Gear for Velocity Feedback" in said.out
+    assert "No of Teeth on Motor Gear" in said.out
+
+
+def test_a_choice_a_rule_and_a_contradiction_are_shown(amp) -> None:
+    said = amp("show", "9pc", "1020", "--machine", "mill")
+    for part in ("(a) True — stored as 1", "Software Overtravel Used", "The manual contradicts itself"):
+        assert part in said.out
+    assert "Velocity Loop Feedback Port\n---" not in said.out, "1020 belongs to the other one"
+    assert "Rules it takes part in" in amp("show", "9pc", "1730").out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("schema", "fanuc"), "'fanuc' is no control family: "),
+        (("schema", "9pc", "--group", "Tools"), "has no group 'Tools': Axis Configuration, "),
+        (("show", "fanuc", "1"), "'fanuc' is no control family: "),
+        (("show", "9pc", "99999"), "'99999' is no parameter of Allen-Bradley 9/PC AMP"),
+        (("show", "9pc", "home.calibratio"), "'home.calibratio' is no parameter"),
+        (("show", "9pc"), "param"),
+        (("families", "--xml"), "--xml"),
+        (("frobnicate",), "frobnicate"),
+    ],
+)
+def test_what_does_not_exist_is_refused(amp, arguments, said: str) -> None:
+    refused = amp(*arguments)
+    assert (refused.code, said in refused.err) == (2, True), refused.err

@@ -1,0 +1,128 @@
+"""Every example is a machine that runs: complete, sound, explained, and unharmed by the program."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import run
+from amp_studio.files import Document, ParameterFile, Project, axis_type, fitted_axes, open_file
+from amp_studio.report import write_report
+from amp_studio.schema import Address, read_address
+from amp_studio.sim import simulate
+
+SOURCE = re.compile(r"\b(?:page (?:\d{1,2}|[AB])-\d{1,2}|ours)\b|^printed default\b")
+"""A page of the manual, or the example's own choice."""
+
+
+def entries(path: Path) -> list[tuple[str, str]]:
+    """Return (key, comment) of every value as it stands: the comment beside it, else that above its parameter's block.
+
+    A block is the lines of one parameter; what stands between two blocks belongs to the one below.
+    """
+    found: list[tuple[str, str]] = []
+    above, parameter = "", ""
+    _, _, lines = path.read_text(encoding="utf-8").partition("\nvalues:\n")
+    for line in lines.splitlines():
+        text = line.strip()
+        if text.startswith("#"):
+            above, parameter = above + text.lstrip("# ") + " ", ""
+        elif text and text != "...":
+            entry, _, beside = text.partition("  # ")
+            key = entry.partition(":")[0]
+            if parameter not in ("", read_address(key)[0]):
+                above = ""
+            parameter = read_address(key)[0]
+            found.append((key, beside or above))
+        else:
+            above = ""
+    return found
+
+
+def in_force(file: ParameterFile) -> list[Address]:
+    return [a for a in file.addresses() if file.situation.state(a).state == "in-force"]
+
+
+def test_nothing_is_found_wrong(example: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # The advice an example keeps on purpose would stand in its README; at present there is none.
+    assert run(["validate", str(example)]) == 0
+    assert capsys.readouterr().out == f"{example}: 0 errors, 0 warnings, 0 pieces of advice\n"
+
+
+def test_every_parameter_in_force_has_a_value(example: Path) -> None:
+    file = open_file(example).file
+    assert [a for a in in_force(file) if a not in file.values] == []
+
+
+def test_nothing_stands_in_it_that_the_control_would_not_look_at(example: Path) -> None:
+    file = open_file(example).file
+    idle = {a for a in file.values if a not in in_force(file)}
+    assert {a for a in idle if a[1] in fitted_axes(file) or not a[1]} == set()
+    assert file.unknown == {}
+    assert file.forced == {}
+
+
+def test_a_value_that_is_not_the_printed_default_says_where_it_comes_from(example: Path) -> None:
+    file = open_file(example).file
+    told = entries(example)
+    assert len(told) == len(file.values)
+    silent = [
+        key for key, comment in told if not SOURCE.search(comment) and not file.is_default(read_address(key))
+    ]
+    assert silent == []
+
+
+def test_the_project_says_the_same_of_the_machine_as_the_file(example: Path) -> None:
+    project, file = Project.open(example.parent), open_file(example).file
+    assert [example] == project.files()
+    assert (file.schema.family.family, file.machine, file.header.application) == (
+        project.info.family,
+        project.info.machine,
+        project.info.application,
+    )
+    assert example.stem == file.header.name == project.info.name
+    assert (example.parent / "README.md").is_file()
+
+
+def test_its_linear_and_rotary_axes_make_their_rapid_moves_without_alarm(example: Path) -> None:
+    file = open_file(example).file
+    moving = [a for a in fitted_axes(file) if axis_type(file, a) in ("linear", "rotary")]
+    assert moving
+    for axis in moving:
+        trace = simulate(file, "step", axis)
+        assert trace.alarms == ()
+        assert trace.result["time_in_feedrate_suppression"][0] == 0.0
+        assert trace.result["overshoot"][0] == 0.0
+
+
+def test_a_save_touches_only_the_line_of_the_value(example: Path) -> None:
+    before = example.read_text(encoding="utf-8").splitlines()
+    assert run(["set", str(example), "servo.inposition_band@1=0.05 mm"]) == 0
+    after = example.read_text(encoding="utf-8").splitlines()
+    assert len(before) == len(after)
+    changed = [new for old, new in zip(before, after, strict=True) if old != new and "signature:" not in new]
+    assert changed == ["  servo.inposition_band@1: 0.05 mm"]
+
+
+def test_a_value_put_back_leaves_the_file_as_it_was(example: Path) -> None:
+    with Document.open(example) as document:
+        document.save()  # the signature is that of the schema now
+    before = example.read_bytes()
+    assert run(["set", str(example), "servo.excess_error@1=20 mm", "home.g30_position@1=1 in"]) == 0
+    assert before != example.read_bytes()
+    with Document.open(example) as document:
+        earlier = {entry.param: entry.old for entry in document.history()}
+    assert run(["set", str(example), *(f"{param}={old}" for param, old in earlier.items())]) == 0
+    assert before == example.read_bytes()
+
+
+def test_it_can_be_printed(example: Path, tmp_path: Path) -> None:
+    path = tmp_path / "example.pdf"
+    write_report(open_file(example).file, path, sort="group", changed_only=False, source=example)
+    assert path.read_bytes().startswith(b"%PDF-")
+
+
+def test_nothing_but_the_file_its_project_and_its_readme_is_shipped(example: Path) -> None:
+    assert {example.name, "project.yaml", "README.md"} == {p.name for p in example.parent.iterdir()}

@@ -1,0 +1,282 @@
+"""Sound machines, in which nothing is to be found, and for every rule the changes that break it and that just do not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+import pytest
+from ruamel.yaml import YAML
+
+from amp_studio.files import ParameterFile, new_file
+from amp_studio.schema import Address, Value
+from amp_studio.validate import Finding, Validator
+
+Change = Mapping[str, str | None]
+"""``id@instance`` -> the value as a person writes it; None takes the value away."""
+
+CONTROL = {
+    "feedrate.f1_rapid_override": "25 %",
+    "feedrate.use_skip_feedrate": "yes",
+    "feedrate.skip_g31": "500 mm/min",
+    "feedrate.skip_g31_2": "400 mm/min",
+    "feedrate.skip_g31_3": "300 mm/min",
+    "feedrate.skip_g31_4": "200 mm/min",
+    "feedrate.circular_tolerance": "0.02 mm",
+    "feedrate.external_decel_cutting": "600 mm/min",
+    "accdec.programmed_delay": "5",
+    "timing.fine_foreground": "16 ms",
+    "timing.scans_per_logic": "2",
+    "timing.logic_warning": "40 ms",
+    "servo.sercos_cycle": "2 ms",
+    "servo.sercos_baud": "4 MHz",
+    "zone.group_count": "2",
+}
+
+MOVING = {
+    "axis.integrand_name": "none",
+    "home.direction_off_switch": "negative",
+    "home.calibration": "1.5 mm",
+    "home.speed_off_switch": "120 mm/min",
+    "home.g28_direction": "plus",
+    "home.g28_speed": "3000 mm/min",
+    "home.g30_position": "50 mm",
+    "zone.group": "g2",
+    "zone.limit2_min": "-100 mm",
+    "zone.limit2_max": "100 mm",
+    "zone.limit3_min": "-50 mm",
+    "zone.limit3_max": "50 mm",
+    "zone.overtravel_used": "yes",
+    "zone.overtravel_positive": "400 mm",
+    "zone.overtravel_negative": "-400 mm",
+    "feedrate.rapid": "12000 mm/min",
+    "feedrate.max_cutting": "6000 mm/min",
+    "feedrate.external_decel_positioning": "1000 mm/min",
+    "accdec.velocity_step": "100 mm/min",
+    "accdec.linear_acceleration": "500 mm/s2",
+    "accdec.linear_deceleration": "500 mm/s2",
+    "accdec.scurve_acceleration": "600 mm/s2",
+    "accdec.scurve_deceleration": "600 mm/s2",
+    "accdec.jerk": "5000 mm/s3",
+    "accdec.min_jerk": "500 mm/s3",
+    "accdec.manual_delay": "5",
+    "servo.lead_screw_pitch": "10 mm",
+    "servo.excess_error": "15 mm",
+    "servo.feedrate_suppression": "13.5 mm",
+    "servo.gain_break_point": "8 mm",
+    "servo.inposition_band": "0.02 mm",
+    "servo.initial_gain": "1",
+    "servo.gain_break_ratio": "1",
+    "servo.feed_forward": "50 %",
+}
+"""A slide or a table; the lengths of a table are degrees."""
+
+DIGITAL = {
+    "servo.hardware_type": "sercos",
+    "servo.loop_type": "digital",
+    "servo.position_loop_type": "closed",
+    "servo.position_feedback_type": "hiperface-absolute",
+    "servo.position_counts": "1048576",
+    "servo.velocity_feedback_type": "hiperface-absolute",
+    "servo.velocity_counts": "1048576",
+    "servo.velocity_proportional_gain": "6000",
+    "servo.velocity_integral_gain": "500",
+    "servo.peak_current": "300%",
+    "servo.motor_type": "b410g",
+    "servo.motor_poles": "p4",
+    "servo.max_motor_speed": "1400 rpm",
+    "servo.motor_rated_current": "5 A",
+    "servo.amplifier_type": "kw5",
+    "servo.amplifier_rack": "1",
+}
+
+ANALOG = {
+    "servo.hardware_type": "sercos",
+    "servo.loop_type": "analog",
+    "servo.position_loop_type": "closed",
+    "servo.position_feedback_type": "inc-narrow",
+    "servo.position_counts": "8000",
+    "servo.velocity_feedback_type": "inc-narrow",
+    "servo.velocity_counts": "8000",
+    "servo.analog_positive_voltage": "8 V",
+    "servo.analog_negative_voltage": "-8 V",
+    "servo.max_acceleration": "120000 mm/min/s",
+    "servo.amplifier_rack": "1",
+}
+
+SERCOS = {
+    "servo.hardware_type": "sercos",
+    "servo.loop_type": "sercos",
+    "servo.position_loop_type": "closed",
+    "servo.amplifier_rack": "2",
+}
+
+
+SPINDLE = {
+    "zone.group": "none",
+    "servo.gain_break_point": "180 mm",
+    "accdec.manual_delay": "5",
+    "servo.position_loop_type": "open",
+    "axis.integrand_name": "none",
+    "axis.incremental_name": "none",
+}
+
+SCALE = {"servo.position_feedback_type": "aqb-one-marker", "servo.position_counts": "40000"}
+"""A linear scale: its counts over one lead of the screw."""
+
+
+def connected(output: str, position: str, velocity: str = "none") -> dict[str, str]:
+    """Return the connectors of a motor and its devices."""
+    return {"servo.output_port": output, "servo.position_port": position, "servo.velocity_port": velocity}
+
+
+MILL = (
+    ("X", MOVING | DIGITAL | connected("mod1", "j1", "j1") | {"axis.integrand_name": "i"}),
+    ("Y", MOVING | DIGITAL | connected("mod2", "j2", "j2") | {"axis.integrand_name": "j", "servo.position_loop_type": "zfe"}),
+    ("Z", MOVING | DIGITAL | connected("mod3", "j9", "j3") | {"axis.integrand_name": "k"} | SCALE),
+    ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | {"axis.rollover": "360"}),
+    ("U", MOVING | ANALOG | DIGITAL | connected("mod1", "j1", "j1") | SERCOS | {"axis.integrand_name": "i"}),
+    ("V", MOVING | ANALOG | connected("tb2", "j10") | {"axis.integrand_name": "j"}),
+    ("S", ANALOG | SPINDLE | connected("tb3", "j11") | {"servo.spindle_type": "s1"}),
+)
+"""Four digital servos (a slide on the device of its motor, one without following error, one on a linear scale, a
+table), a drive of another make on the ring, an analog slide and an analog spindle."""
+
+LATHE = (
+    ("X", MOVING | DIGITAL | connected("mod1", "j1", "j1") | {"axis.incremental_name": "u", "axis.integrand_name": "i"}),
+    ("Z", MOVING | DIGITAL | connected("mod2", "j2", "j2") | {"axis.incremental_name": "w", "axis.integrand_name": "k"}),
+    ("C", MOVING | DIGITAL | connected("mod3", "j3", "j3") | {"axis.incremental_name": "none", "axis.rollover": "360"}),
+    ("S", DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
+    ("S", ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
+)
+"""Two slides, a digital main spindle with its C axis, and an analog spindle for driven tools."""
+
+ROUTER = (
+    *((name, MOVING | ANALOG | connected(f"mod{n}", f"j{n + 8}")) for n, name in enumerate("XYZA", 1)),
+    *((name, MOVING | ANALOG | connected(f"tb{n}", f"j{n + 7}") | {"servo.amplifier_rack": "2"}) for n, name in ((2, "U"), (3, "V"))),
+    ("W", MOVING | ANALOG | connected("mod1", "j11") | SERCOS),
+)
+"""Analog servos and no digital one, and a drive of another make."""
+
+MACHINES = {
+    "mill": ("mill", CONTROL | {"control.mill_type": "standard"}, MILL),
+    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
+    "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
+}
+
+
+def change(file: ParameterFile, texts: Change) -> list[Address]:
+    """Write values into a file as a person would, out of range if it must be; returns where."""
+    wanted: dict[Address, Value | None] = {}
+    for name, text in texts.items():
+        address = file.find(name)
+        if text is not None and file.situation.turns(address):
+            text = str(text).replace("mm", "deg")
+        wanted[address] = None if text is None else file.read(address, str(text))
+    file.set_many(wanted, force="by a test")
+    return list(wanted)
+
+
+def sound(name: str) -> ParameterFile:
+    """Return a machine in which nothing is to be found."""
+    machine, control, axes = MACHINES[name]
+    file = new_file("9pc", machine, [axis for axis, _ in axes])
+    change(file, control)
+    change(file, {f"{name}@{n}": text for n, (_, texts) in enumerate(axes, 1) for name, text in texts.items()})
+    return file
+
+
+# ------------------------------------------------------------------------- machines that are broken and mended
+
+
+class Stand:
+    """A machine on which changes are tried and taken back."""
+
+    def __init__(self, machine: str) -> None:
+        self.file = sound(machine)
+        self.validator = Validator(self.file)
+        self.findings = self.validator.run()
+
+    @contextmanager
+    def changed(self, texts: Change) -> Iterator[tuple[Finding, ...]]:
+        """Make changes; gives the findings, and takes the changes back at the end."""
+        with self.recorded():
+            self.findings = self.validator.update(change(self.file, texts) or self.file.addresses())
+            yield self.findings
+
+    @contextmanager
+    def recorded(self) -> Iterator[None]:
+        """Take back at the end whatever is changed."""
+        values, forced = dict(self.file.values), dict(self.file.forced)
+        try:
+            yield
+        finally:
+            touched = {a for a in values.keys() | self.file.values.keys() if values.get(a) != self.file.values.get(a)}
+            for address in touched:
+                self.file.set(address, values.get(address))
+            marks = forced.keys() ^ self.file.forced.keys()
+            self.file.forced.clear()
+            self.file.forced.update(forced)
+            self.findings = self.validator.update(touched | marks)
+
+
+@cache
+def stand(machine: str) -> Stand:
+    return Stand(machine)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One way to break a rule, and one that nearly does."""
+
+    rule: str
+    n: int
+    of: str
+    """The machine it starts from."""
+    given: Change = field(default_factory=dict)
+    """What is changed beforehand; may cause findings of its own, but not of this rule."""
+    breaks: Change | None = None
+    times: int = 1
+    """How many findings of the rule that gives."""
+    also: tuple[str, ...] = ()
+    """Other rules that it breaks too."""
+    holds: Change | None = None
+    beside: tuple[str, ...] = ()
+    """Other rules that are broken where this one holds."""
+
+    def __str__(self) -> str:
+        return f"{self.rule}-{self.n}"
+
+
+@cache
+def cases() -> tuple[Case, ...]:
+    """Read the table of ``rule_cases.yaml``."""
+    rows = YAML(typ="safe").load(Path(__file__).with_name("rule_cases.yaml").read_text("utf-8"))
+    return tuple(Case(rule, n, **row) for rule, written in rows.items() for n, row in enumerate(written, 1))
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    for name in ("breaks", "holds"):
+        if f"case_that_{name}" in metafunc.fixturenames:
+            chosen = [case for case in cases() if getattr(case, name) is not None]
+            metafunc.parametrize(f"case_that_{name}", chosen, ids=str)
+
+
+@pytest.fixture(scope="session")
+def rule_cases() -> tuple[Case, ...]:
+    return cases()
+
+
+@pytest.fixture(scope="session")
+def machine() -> Callable[[str], ParameterFile]:
+    """Return what builds a sound machine: ``machine("mill")``."""
+    return sound
+
+
+@pytest.fixture(scope="session")
+def stands() -> Callable[[str], Stand]:
+    """Return what gives the machine of a type on which changes are tried."""
+    return stand
