@@ -34,8 +34,8 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run one verb and exit with its code; without a verb the desktop program opens."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a sign that the terminal does not have is no reason to stop
+    for stream in (sys.stdout, sys.stderr):  # a sign that the terminal does not have is no reason to stop
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
@@ -295,7 +295,8 @@ def _bit_row(file: Any, address: Any, bit: int) -> dict[str, Any]:
     from amp_studio.schema import field_at, field_value
 
     field = field_at(file.schema.parameters[address[0]], bit)
-    word, default = (None if v is None else field_value(field, int(v.value)) for v in (file.get(address), file.default(address)))
+    words = (file.get(address), file.default(address))
+    word, default = (None if v is None else field_value(field, int(v.value)) for v in words)
     labels = {c.raw: c.label for c in field.choices or ()}
     return {"param": f"{file.schema.short(address, file.machine)}.{bit}", "id": address[0], "instance": address[1],
             "bit": bit, "label": field.label, "value": labels.get(word, word), "unit": "", "raw": word,
@@ -319,7 +320,8 @@ def _get(options: argparse.Namespace) -> int:
         if bit is not None:
             rows.append(_bit_row(file, address, bit))
             if not options.json:
-                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {'—' if rows[-1]['value'] is None else rows[-1]['value']}")
+                held = "—" if rows[-1]["value"] is None else rows[-1]["value"]
+                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {held}")
             continue
         parameter, value = file.schema.parameters[address[0]], file.get(address)
         plain = None if value is None else value.value

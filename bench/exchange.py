@@ -7,11 +7,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import cycle
 from pathlib import Path
 
 from measure import Measure, timed
 
 from amp_studio.files import open_file
+from amp_studio.schema import Value
 from amp_studio.transfer.parameters import download_file, fetch_file
 
 LINES = {"TCP loopback": "tcp://127.0.0.1:0", **({"pty": "pty:"} if os.name == "posix" else {})}
@@ -19,13 +21,17 @@ LINES = {"TCP loopback": "tcp://127.0.0.1:0", **({"pty": "pty:"} if os.name == "
 
 def measures(folder: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield upload and download over every line there is."""
-    file = open_file(example).file
+    file, values = open_file(example).file, cycle([Value(12.0, "mm"), Value(11.0, "mm")])
+
+    def change() -> None:  # a control that holds the same already is sent nothing
+        file.set(("servo.excess_error", "1"), next(values))
+
     for name, listen in LINES.items():
         kept = folder / f"kept-{name.replace(' ', '-')}"
         kept.mkdir()
         with _control(listen, kept / "control") as address:
-            down = timed(lambda a=address, k=kept: download_file(file, a, k, "bench"), times, warm=0)
-            yield Measure(f"download, {name} (keep, send, restart 0.5 s, compare)", down)
+            down = timed(lambda a=address, k=kept: download_file(file, a, k, "bench"), times, change, warm=0)
+            yield Measure(f"download, {name} (restart of the control included)", down)
             yield Measure(f"upload, {name}", timed(lambda a=address: fetch_file(a), times))
 
 

@@ -6,7 +6,6 @@ the table says "over" and nothing fails, because a time is not a test.
 
 from __future__ import annotations
 
-import gc
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -35,18 +34,15 @@ def timed(
 ) -> tuple[float, ...]:
     """Return the seconds of each of ``times`` calls; ``before`` runs ahead of each and does not count.
 
-    ``warm`` calls come first and are thrown away. The collector of cycles runs between calls, not in them.
+    ``warm`` calls come first and are thrown away. Python's collector runs as it does in the program.
     """
     seconds = []
     for n in range(-warm, times):
         if before is not None:
             before()
-        gc.collect()
-        gc.disable()
         begin = time.perf_counter()
         call()
         elapsed = time.perf_counter() - begin
-        gc.enable()
         if n >= 0:
             seconds.append(elapsed)
     return tuple(seconds)

@@ -220,7 +220,7 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
         _drop(tree, key)
     for key, value in header.items():
         if tree.get(key) != value:
-            tree[key] = value
+            tree[key] = _quoted(value)
     _fill(tree, "values", _entries(file), CommentedMap)
     _fill(tree, "forced", {written(a): why for a, why in file.forced.items()}, CommentedMap)
     stream = io.StringIO()
@@ -249,7 +249,15 @@ def _fill(tree: Any, section: str, entries: dict[str, str], empty: type) -> None
     named = {str(key): key for key in part}
     for key, text in entries.items():
         if key not in named or _scalar(part[named[key]]) != text:
-            part[named.get(key, key)] = text
+            part[named.get(key, key)] = _quoted(text)
+
+
+def _quoted(value: Any) -> Any:
+    """Return a text so that YAML keeps every sign of it: it folds the rarer line ends unless they are written as escapes."""
+    from ruamel.yaml.scalarstring import DoubleQuotedScalarString
+
+    rare = isinstance(value, str) and any(sign in value for sign in "\x85\u2028\u2029\ufeff\r")
+    return DoubleQuotedScalarString(value) if rare else value
 
 
 def _drop(part: Any, key: Any) -> None:

@@ -45,11 +45,15 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
             yield Inconsistency(None, (*here, "when"), f"condition {name}: {_first_line(error)}")
         for short, text in condition.reads.items():
             if text.partition("@")[0] not in ids:
-                yield Inconsistency(None, (*here, "reads", short), f"condition {name} reads '{text}', which does not exist")
+                yield Inconsistency(
+                    None, (*here, "reads", short), f"condition {name} reads '{text}', which does not exist"
+                )
     if family.angular_when is not None and family.angular_when not in family.conditions:
         yield Inconsistency(None, ("angular_when",), f"there is no condition '{family.angular_when}'")
     if family.machine_parameter is not None and family.machine_parameter not in ids:
-        yield Inconsistency(None, ("machine_parameter",), f"there is no parameter '{family.machine_parameter}'")
+        yield Inconsistency(
+            None, ("machine_parameter",), f"there is no parameter '{family.machine_parameter}'"
+        )
 
 
 def _first_line(error: Exception) -> str:

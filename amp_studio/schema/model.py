@@ -233,8 +233,9 @@ class Parameter(Model):
             raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
         if self.choices:
             for field in ("key", "label", "code"):
-                seen = [" ".join(said.casefold().split()) for c in self.choices if (said := getattr(c, field)) is not None]
-                if len(set(seen)) != len(seen):  # compared as a person's word is: read_value ignores case and blanks
+                said = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
+                seen = [" ".join(word.casefold().split()) for word in said]  # as read_value compares a person's word
+                if len(set(seen)) != len(seen):
                     raise ValueError(f"two choices share a {field}")
         if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:
             raise ValueError("the choices of a yes/no parameter have the keys 'yes' and 'no'")

@@ -136,9 +136,9 @@ class Situation:
         for short, text in condition.reads.items():
             try:
                 reading = self.reading(text, instance, scope)
-            except UnknownParameter:  # what it reads does not exist on this machine type, or not for this instance
+            except UnknownParameter:
                 self.schema.parameter(read_address(text)[0])
-                names[short] = None
+                names[short] = None  # it exists, but not on this machine type or not for this instance
                 continue
             for address in reading.addresses:
                 self._readers.setdefault(address, set()).add(asked)

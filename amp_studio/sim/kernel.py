@@ -227,7 +227,8 @@ def next_command(
         speed = speed + (given / period - speed) * share
         progress = progress + speed * period
         fed = fed + given
-        if fed >= p.distance and p.distance - progress <= p.snap:
+        rest = p.distance - progress
+        if fed >= p.distance and rest <= p.snap and speed * period + rest <= p.feedrate * period:
             return p.distance, 0.0, p.distance
         return progress, speed, fed
     step = min(feedrate * period, p.distance - progress)

@@ -46,11 +46,6 @@ class Conversation:
         self._received: deque[tuple[int, Message]] = deque()
         link.write(b"\x00")  # ends whatever the other end may have half received before
 
-    @property
-    def bad_frames(self) -> int:
-        """How many damaged frames came on this line."""
-        return self._decoder.bad_frames
-
     def now(self) -> float:
         """Return the time in seconds."""
         return self._clock()

@@ -6,8 +6,14 @@ Qt is imported in this room only.
 from __future__ import annotations
 
 import sys
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
 
 __all__ = ["main"]
 
@@ -23,9 +29,23 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
     window = MainWindow()
+    sys.excepthook = _hook(window)
     window.show()
     if arguments:
         window.open_first(Path(arguments[0]))
     if emulate:
         window.control.start_emulated()
     return int(application.exec())
+
+
+def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
+    """Return the hook that tells a fault of the program in a sentence; the traceback goes to the terminal."""
+
+    def tell_fault(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        from .questions import tell
+
+        traceback.print_exception(kind, error, trace)
+        tell(window, "A fault in AMP Studio", f"Something went wrong in the program itself: {kind.__name__}: {error}\n\n"
+             "Your work is still open: save it, under a new name to be sure.")  # fmt: skip
+
+    return tell_fault

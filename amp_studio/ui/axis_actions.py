@@ -68,9 +68,9 @@ class AxisActions:
         dialog.note.setText("Its figures stay: what is in mm becomes degrees, or the other way round.")
         dialog.ask_for([profile.type])
         if dialog.exec():
-            for address, text in dialog.texts().items():
-                key = str(workspace.file.read(address, text).value)
-                workspace.do("Configure axis type", lambda axis=address[1], key=key: retype_axis(workspace.file, axis, key))
+            axis, text = dialog.axis(), dialog.texts()[(profile.type, dialog.axis())]
+            key = str(workspace.file.read((profile.type, axis), text).value)
+            workspace.do("Configure axis type", lambda: retype_axis(workspace.file, axis, key))
 
     def configure_servo(self) -> None:
         """Choose servo hardware and loop type of an axis."""
@@ -82,7 +82,9 @@ class AxisActions:
         workspace, _ = self._workspace()
         dialog = self._dialog("Copy axis")
         target = dialog.ask_for_target()
-        dialog.note.setText("Every per-axis value of all groups is copied; the name stays. Both axes must be of one type.")
+        dialog.note.setText(
+            "Every per-axis value of all groups is copied; the name stays. Both axes must be of one type."
+        )
         if dialog.exec():
             source, axis = dialog.axis(), str(target.currentData())
             workspace.do(f"Copy axis {source} to {axis}", lambda: copy_axis(workspace.file, source, axis))
@@ -91,7 +93,9 @@ class AxisActions:
         """Make an axis unfitted, with its values at their defaults."""
         workspace, _ = self._workspace()
         dialog = self._dialog("Delete axis")
-        dialog.note.setText("The axis becomes unfitted and its values go back to their defaults. You can undo it.")
+        dialog.note.setText(
+            "The axis becomes unfitted and its values go back to their defaults. You can undo it."
+        )
         if dialog.exec():
             axis = dialog.axis()
             name = axis_title(workspace.file, axis)

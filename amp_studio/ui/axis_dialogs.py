@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QComboBox, QDialog, QDialogButtonBox, QFormLayout,
 from amp_studio.files import axis_instances, axis_title, axis_type
 from amp_studio.schema import Address
 
-from .value_delegate import choice_box
+from .choice_box import ChoiceBox
 from .workspace import Workspace
 
 
@@ -26,7 +26,9 @@ class AxisDialog(QDialog):
         self._form.addRow("&Axis", self.axis_box)
         self.note = QLabel()
         self.note.setWordWrap(True)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        )
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
@@ -50,7 +52,9 @@ class AxisDialog(QDialog):
     def ask_for_target(self) -> QComboBox:
         """Offer a second axis, the one that receives."""
         box = self._axis_list(self.axis())
-        same = [n for n in range(box.count()) if n != box.currentIndex() and self._is_alike(str(box.itemData(n)))]
+        same = [
+            n for n in range(box.count()) if n != box.currentIndex() and self._is_alike(str(box.itemData(n)))
+        ]
         box.setCurrentIndex(same[0] if same else box.currentIndex())
         self._form.addRow("&To axis", box)
         return box
@@ -63,7 +67,7 @@ class AxisDialog(QDialog):
             self._form.removeRow(box)
         self._fields = {}
         for parameter_id in self._wanted:
-            box = choice_box(self._workspace, (parameter_id, self.axis()))
+            box = ChoiceBox(self._workspace, (parameter_id, self.axis()))
             self._form.addRow(self._workspace.file.schema.parameters[parameter_id].name, box)
             self._fields[parameter_id] = box
 
@@ -78,4 +82,6 @@ class AxisDialog(QDialog):
 
     def texts(self) -> dict[Address, str]:
         """Return the chosen label of each parameter."""
-        return {(p, self.axis()): str(b.currentData()) for p, b in self._fields.items() if b.currentIndex() >= 0}
+        return {
+            (p, self.axis()): str(b.currentData()) for p, b in self._fields.items() if b.currentIndex() >= 0
+        }

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 
 from amp_studio.files import Comparison, Difference
 from amp_studio.schema import Address, Value, show_value
@@ -24,6 +33,7 @@ class DifferenceList(QTreeWidget):
         self.setRootIsDecorated(False)
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)
+        self.items: list[QTreeWidgetItem] = []
         schema, machine = workspace.file.schema, workspace.file.machine
         for difference in found.differences:
             item = QTreeWidgetItem([
@@ -35,23 +45,27 @@ class DifferenceList(QTreeWidget):
             item.setData(0, _DIFFERENCE, difference)
             if tick:
                 item.setCheckState(0, Qt.CheckState.Unchecked)
-            self.addTopLevelItem(item)
+            self.items.append(item)
+        self.addTopLevelItems(self.items)
         for column, width in enumerate((290, 70, 105, 190, 190)):
             self.setColumnWidth(column, width)
 
-    def items(self) -> list[QTreeWidgetItem]:
-        """Return every row."""
-        return [self.topLevelItem(n) for n in range(self.topLevelItemCount())]
-
     def tick_all(self) -> None:
         """Tick every row, or none if all are ticked."""
-        ticked = all(i.checkState(0) == Qt.CheckState.Checked for i in self.items())
-        for item in self.items():
+        ticked = all(i.checkState(0) == Qt.CheckState.Checked for i in self.items)
+        for item in self.items:
             item.setCheckState(0, Qt.CheckState.Unchecked if ticked else Qt.CheckState.Checked)
+
+    def tick(self, addresses: Iterable[Address]) -> None:
+        """Tick the rows of these addresses."""
+        wanted = set(addresses)
+        for item in self.items:
+            if item.data(0, _DIFFERENCE).address in wanted:
+                item.setCheckState(0, Qt.CheckState.Checked)
 
     def ticked(self) -> list[Difference]:
         """Return the differences whose rows are ticked."""
-        return [i.data(0, _DIFFERENCE) for i in self.items() if i.checkState(0) == Qt.CheckState.Checked]
+        return [i.data(0, _DIFFERENCE) for i in self.items if i.checkState(0) == Qt.CheckState.Checked]
 
 
 def counts(found: Comparison, other: str) -> str:
@@ -98,12 +112,14 @@ class CompareDialog(QDialog):
         self._fill()
 
     def _fill(self, *_: object) -> None:
-        """Show what differs now; an edit may have made some the same."""
+        """Show what differs now; an edit may have made some the same. Ticks stay."""
         found = self._workspace.differences_to(self._values)
+        ticked = {d.address for d in self.list.ticked()}
         fresh = DifferenceList(self._workspace, found, self._other, tick=True)
         self._layout.replaceWidget(self.list, fresh)
         self.list.deleteLater()
         self.list = fresh
+        self.list.tick(ticked)
         self.list.itemActivated.connect(self._go)
         self.text.setText(counts(found, self._other))
         for button in (self.every, self.take_button):
@@ -129,9 +145,8 @@ class DownloadPreview(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Download")
         self.resize(900, 500)
-        text = QLabel(f"{counts(found, 'the control')} The control takes the file as a whole: what is absent in this file is "
-                      "left to the control's own default. What it holds now is kept beside the file first.\n\n"
-                      "The control must be in E-stop.")  # fmt: skip
+        text = QLabel(f"{counts(found, 'the control')} The control takes the file as a whole; what is absent in this file is "
+                      "not sent. What it holds now is kept beside the file first.\n\nThe control must be in E-stop.")  # fmt: skip
         text.setWordWrap(True)
         self.list = DifferenceList(workspace, found, "the control", tick=False)
         self.send, cancel = QPushButton("&Download"), QPushButton("Cancel")

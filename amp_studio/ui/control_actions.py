@@ -2,74 +2,37 @@
 
 from __future__ import annotations
 
-import sys
-import tempfile
 import threading
+from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QProcess, Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QFileDialog, QInputDialog, QMessageBox
+from PySide6.QtWidgets import QInputDialog, QMessageBox, QStyle
 
-from amp_studio.files import Document, ParameterFile, RangeFault, compare
+from amp_studio.files import Document, ParameterFile, RangeFault
 from amp_studio.files.lock import now
-from amp_studio.schema import Address, ValueFault
-from amp_studio.transfer.parameters import Outcome, download_file, fetch_file, out_of_range
+from amp_studio.schema import Address, ValueFault, write_value
 
-from .file_actions import FILTER
+from .emulated_control import EmulatedControl
+from .questions import ask, tell
 from .task import Progress, ProgressDialog
 
 if TYPE_CHECKING:
+    from amp_studio.transfer.parameters import Outcome
+
     from .main_window import MainWindow
+    from .workspace import Workspace
 
-
-class EmulatedControl(QObject):
-    """An emulated control in a process of its own; its memory lies in a folder."""
-
-    ready = Signal(str)
-    """The address it listens on."""
-    ended = Signal()
-
-    def __init__(self, parent: QObject) -> None:
-        super().__init__(parent)
-        self.address = ""
-        self._process = QProcess(self)
-        self._process.readyReadStandardOutput.connect(self._read)
-        self._process.finished.connect(lambda *_: self._finished())
-
-    @property
-    def is_running(self) -> bool:
-        """Whether the process is there."""
-        return self._process.state() != QProcess.ProcessState.NotRunning
-
-    def start(self, family: str, machine: str, state: Path) -> None:
-        """Start it; ``ready`` tells the address."""
-        arguments = ["-m", "amp_studio.cli", "emulate", family, "--listen", "tcp://127.0.0.1:0", "--state", str(state),
-                     "--machine", machine]  # fmt: skip
-        self._process.start(sys.executable, arguments)
-
-    def say(self, command: str) -> None:
-        """Do something at its panel: ``estop on``, ``estop off``, ``restart``."""
-        self._process.write(f"{command}\n".encode())
-
-    def stop(self) -> None:
-        """End the process; its memory stays on disk."""
-        if self.is_running:
-            self.say("quit")
-            if not self._process.waitForFinished(2000):
-                self._process.kill()
-                self._process.waitForFinished(2000)
-
-    def _read(self) -> None:
-        for line in bytes(self._process.readAllStandardOutput().data()).decode("utf-8", "replace").splitlines():
-            if line.startswith("listening on "):
-                self.address = line.removeprefix("listening on ").strip()
-                self.ready.emit(self.address)
-
-    def _finished(self) -> None:
-        self.address = ""
-        self.ended.emit()
+STAGES = {
+    "keep": "Reading what the control holds, to keep it …",
+    "download": "Sending the file …",
+    "commit": "The control checks the file and takes it over …",
+    "restart": "Waiting for the control to restart …",
+    "verify": "Reading everything back and comparing …",
+    "upload": "Reading what the control holds …",
+}
 
 
 class ControlActions:
@@ -78,146 +41,223 @@ class ControlActions:
     def __init__(self, window: MainWindow) -> None:
         self.window = window
         self.emulated = EmulatedControl(window)
-        self.emulated.ready.connect(lambda address: self._tell(f"Emulated control at {address}, in E-stop"))
-        self.emulated.ended.connect(self._enable)
-        self.emulated.ready.connect(lambda _: self._enable())
-        act = window.action
+        self.emulated.ready.connect(self._ready)
+        self.emulated.ended.connect(self._ended)
+        act, icons = window.action, QStyle.StandardPixmap
         menu = window.menuBar().addMenu("&Control")
-        self.download_action = act("&Download to Control…", self.download, "F5")
-        self.verify_action = act("&Verify With Control…", self.verify, "F6")
-        self.upload_action = act("&Upload From Control…", self.upload, "F7", needs_file=False)
-        menu.addActions([self.download_action, self.verify_action, self.upload_action])
+        download = act("&Download to Control…", self.download, "F5", "file", icons.SP_ArrowDown, "Download")
+        verify = act("&Verify With Control…", self.verify, "F6", "file", icons.SP_DialogApplyButton, "Verify")
+        upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
+        menu.addActions([download, verify, upload])
         menu.addSeparator()
-        self.start_action = act("Start &Emulated Control", self.start_emulated, None)
-        self.estop_action = act("Emulated Control in E-&Stop", self._estop, None, needs_file=False)
+        self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
+        self.estop_action = act("Emulated Control in &E-Stop", self._estop, None, "")
         self.estop_action.setCheckable(True)
-        self.estop_action.setChecked(True)
-        self.stop_action = act("S&top Emulated Control", self.emulated.stop, None, needs_file=False)
+        self.stop_action = act("Sto&p Emulated Control", self.emulated.stop, None, "")
         menu.addActions([self.start_action, self.estop_action, self.stop_action])
-        self.toolbar: list[QAction] = [self.download_action, self.verify_action, self.upload_action]
-        self._enable()
+        self.toolbar: list[QAction] = [download, verify, upload]
 
-    def _tell(self, text: str) -> None:
-        self.window.statusBar().showMessage(text, 10_000)
-
-    def _enable(self) -> None:
+    def enable(self) -> None:
+        """Bring the actions up to date with the emulated control."""
         running = self.emulated.is_running
+        self.start_action.setEnabled(self.window.workspace is not None and not running)
         self.estop_action.setEnabled(running)
         self.stop_action.setEnabled(running)
 
     # -- the emulated control --------------------------------------------------
 
     def start_emulated(self) -> None:
-        """Start an emulated control for the open file's family; its memory lies beside the project or in a temporary folder."""
-        file = self.window.workspace
-        if file is None or self.emulated.is_running:
-            return
-        state = Path(tempfile.mkdtemp(prefix="amp-studio-control-"))
-        self.emulated.start(file.file.schema.family.family, file.file.machine, state)
+        """Start an emulated control for the open file's family and machine type."""
+        workspace = self.window.workspace
+        if workspace is not None and not self.emulated.is_running:
+            self.emulated.start(workspace.file.schema.family.family, workspace.file.machine)
+            self.estop_action.setChecked(True)
+            self.window.say("Starting an emulated control …")
+            self.enable()
+
+    def _ready(self, address: str) -> None:
+        self.window.say(f"Emulated control at {address}, in E-stop")
+        self.enable()
+
+    def _ended(self, said: str) -> None:
+        self.window.say(f"The emulated control has ended: {said}" if said else "Emulated control stopped")
+        self.enable()
 
     def _estop(self) -> None:
         self.emulated.say("estop on" if self.estop_action.isChecked() else "estop off")
 
     def close(self) -> None:
         """End what was started."""
-        self.emulated.stop()
+        self.emulated.ended.disconnect(self._ended)
+        self.emulated.stop(wait=True)
 
     # -- exchange --------------------------------------------------------------
 
-    def _address(self) -> str | None:
-        """Ask for the control's address; the project's or the emulated control's is offered."""
-        project = self.window.files.project
-        known = [a for a in (self.emulated.address, project.info.control if project else "",
-                             str(self.window.settings.value("control", "") or "")) if a]  # fmt: skip
-        offered = list(dict.fromkeys(known)) or ["tcp://127.0.0.1:9600"]
-        text, accepted = QInputDialog.getItem(self.window, "Control", "Address (tcp://host:port or serial:…?baud=…)", offered, 0, True)
+    def _address(self, title: str) -> str | None:
+        """Ask for the control's address; the emulated control's, the project's and the last one are offered."""
+        project, settings = self.window.projects.project, self.window.settings
+        known = (
+            self.emulated.address,
+            project.info.control if project else "",
+            str(settings.value("control", "") or ""),
+        )
+        offered = list(dict.fromkeys(a for a in known if a)) or ["tcp://127.0.0.1:9600"]
+        label = "Address of the control (tcp://host:port or serial:/dev/ttyUSB0?baud=115200)"
+        text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
         if not accepted or not text.strip():
             return None
-        self.window.settings.setValue("control", text.strip())
+        settings.setValue("control", text.strip())
         return text.strip()
 
-    def download(self) -> None:
-        """Send the file: keep what the control held, send, restart, read back, compare."""
+    def _workspace(self) -> Workspace:
         workspace = self.window.workspace
         assert workspace is not None
-        if workspace.is_dirty and not self.window.save_or_tell():
+        return workspace
+
+    def download(self) -> None:
+        """Show what would change, then send: keep what the control held, restart, read back, compare."""
+        workspace = self._workspace()
+        if not self._is_ready(workspace):
             return
-        errors = [f for f in workspace.findings if f.severity == "error"]
-        question = f"The file has {len(errors)} errors, the first: {errors[0].message}\n\nDownload it all the same?" if errors else ""
-        if question and QMessageBox.question(self.window, "Download", question) != QMessageBox.StandardButton.Yes:
-            return
-        address = self._address()
-        if address is None:
+        address = self._address("Download")
+        if address is None or not self._preview(workspace, address):
             return
         file, path = workspace.file.copy(), workspace.path
 
         def work(progress: Progress, cancel: threading.Event) -> Outcome:
+            from amp_studio.transfer.parameters import download_file
+
             return download_file(file, address, path.parent, path.stem, progress, cancel)
 
-        hint = "Put the control in E-stop. Waiting for its answer …"
-        outcome: Outcome = ProgressDialog("Download", work, self.window, hint).run()
-        show = QMessageBox.information if outcome.verified else QMessageBox.warning
-        show(self.window, "Download", outcome.text)
+        hint = "Waiting for the control …"
+        outcome: Outcome = ProgressDialog("Download", work, self.window, hint, STAGES).run()
+        if outcome.verified:
+            self._remember(workspace, file)
+        icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
+        tell(self.window, "Download", outcome.text, icon)
+
+    def _is_ready(self, workspace: Workspace) -> bool:
+        """Ask about unsaved changes and errors; tells whether the file may go to a control."""
+        if workspace.is_dirty and workspace.may_edit:
+            question = f"{workspace.path.name} has unsaved changes. Only what is saved is downloaded."
+            if ask(self.window, "Download", question, "&Save and go on", "Cancel") != "&Save and go on":
+                return False
+            if not self.window.save_or_tell():
+                return False
+        errors = [f for f in workspace.findings if f.severity == "error"]
+        if not errors:
+            return True
+        count = "an error" if len(errors) == 1 else f"{len(errors)} errors, the first"
+        question = f"The file has {count}: {errors[0].message}\n\nDownload it all the same?"
+        answer = ask(
+            self.window, "Download", question, "&Download", "Cancel", default=1, icon=QMessageBox.Icon.Warning
+        )
+        return answer == "&Download"
+
+    def _preview(self, workspace: Workspace, address: str) -> bool:
+        """Show what the download would change in the control; tells whether to go on."""
+        from amp_studio.transfer.image import ImageFault
+
+        from .compare_dialog import DownloadPreview
+
+        try:
+            held = self._fetch(address, "Download")
+        except ImageFault as error:
+            question = f"{error}.\n\nWhat the control holds is kept as it is. Download all the same?"
+            return ask(self.window, "Download", question, "&Download", "Cancel", default=1) == "&Download"
+        if held.schema is not workspace.file.schema:
+            return True  # the download itself refuses it
+        self._remember(workspace, held)
+        found = workspace.differences_to(held.values)
+        return not found.differences or bool(DownloadPreview(workspace, found, self.window).exec())
+
+    def _remember(self, workspace: Workspace, held: ParameterFile) -> None:
+        if held.schema is workspace.file.schema:
+            workspace.remember_control(held.values, f"{datetime.now(UTC).astimezone():%H:%M}")
 
     def verify(self) -> None:
         """Compare the file with what the control holds."""
-        workspace = self.window.workspace
-        assert workspace is not None
-        address = self._address()
+        workspace = self._workspace()
+        address = self._address("Verify")
         if address is None:
             return
         held = self._fetch(address, "Verify")
-        found = compare(workspace.file.schema, workspace.file.values, held.values)
+        if held.schema is not workspace.file.schema:
+            raise ValueError(
+                f"The control is a {held.schema.family.name}, this file is for {workspace.file.schema.family.name}."
+            )
+        self._remember(workspace, held)
+        found = workspace.differences_to(held.values)
         if not found.differences:
-            QMessageBox.information(self.window, "Verify", f"Nothing differs: {found.same} values are the same.")
+            tell(
+                self.window,
+                "Verify",
+                f"Nothing differs: {found.same} values are the same.",
+                QMessageBox.Icon.Information,
+            )
             return
         from .compare_dialog import CompareDialog
 
-        CompareDialog(workspace, found, "the control", self.window.go_to, self.window).show()
+        CompareDialog(workspace, held.values, "the control", self.window.go_to, self.window).show()
 
     def _fetch(self, address: str, title: str) -> ParameterFile:
         def work(progress: Progress, cancel: threading.Event) -> ParameterFile:
+            from amp_studio.transfer.parameters import fetch_file
+
             return fetch_file(address, progress, cancel)
 
-        file: ParameterFile = ProgressDialog(title, work, self.window, "Waiting for the control …").run()
+        file: ParameterFile = ProgressDialog(
+            title, work, self.window, "Waiting for the control …", STAGES
+        ).run()
         return file
 
     def upload(self) -> None:
         """Fetch the control's file, walk through what is out of range in it, and save it under a new name."""
+        from amp_studio.transfer.parameters import out_of_range
+
         if not self.window.may_leave():
             return
-        address = self._address()
+        address = self._address("Upload")
         if address is None:
             return
         file = self._fetch(address, "Upload")
         for place, said in out_of_range(file):
             if not self._walk(file, place, said):
-                self._tell("Upload given up; nothing was written")
+                self.window.say("Upload given up; nothing was written")
                 return
-        text, _ = QFileDialog.getSaveFileName(self.window, "Save the upload under a new name", "from-control.amp", FILTER,
-                                              options=QFileDialog.Option.DontConfirmOverwrite)  # fmt: skip
-        if text:
-            path = Path(text)
+        self._save_upload(file)
+
+    def _save_upload(self, file: ParameterFile) -> None:
+        """Save an upload under a name that is free; asks again when it cannot be written there."""
+        while (
+            path := self.window.files.ask_path("Save the upload under a new name", Path("from-control"))
+        ) is not None:
             file.header.name = path.stem
-            self.window.files.show_document(Document.create(file, path))
+            try:
+                self.window.files.write_new(path, partial(Document.create, file, path))
+            except OSError as error:
+                tell(self.window, "Upload", f"{error}.\n\nChoose another name.")
+            else:
+                return
+        self.window.say("Upload given up; nothing was written")
 
     def _walk(self, file: ParameterFile, place: Address, said: str) -> bool:
         """Ask about one out-of-range value: continue checking, edit it, or quit. Tells whether to go on."""
+        go_on, edit, stop = "&Continue checking", "&Edit parameter", "&Quit checking"
         while True:
-            box = QMessageBox(QMessageBox.Icon.Warning, "Out of range", f"{said}.", parent=self.window)
-            go_on = box.addButton("&Continue checking", QMessageBox.ButtonRole.AcceptRole)
-            edit = box.addButton("&Edit parameter", QMessageBox.ButtonRole.ActionRole)
-            stop = box.addButton("&Quit checking", QMessageBox.ButtonRole.RejectRole)
-            box.exec()
-            if box.clickedButton() is stop:
+            answer = ask(
+                self.window, "Out of range", f"{said}.", go_on, edit, stop, icon=QMessageBox.Icon.Warning
+            )
+            if answer == stop:
                 return False
-            if box.clickedButton() is go_on:
+            if answer == go_on:
                 file.forced[place] = f"on {now()} by an upload"
                 return True
-            if box.clickedButton() is edit:
-                text, accepted = QInputDialog.getText(self.window, "Edit parameter", said)
-                try:
-                    if accepted and file.set_many({place: file.read(place, text)}) is not None:
-                        return True
-                except (ValueFault, RangeFault) as error:
-                    QMessageBox.warning(self.window, "Edit parameter", str(error))
+            old = write_value(file.schema.parameters[place[0]], file.get(place))
+            text, accepted = QInputDialog.getText(self.window, "Edit parameter", said, text=old)
+            try:
+                if accepted:
+                    file.set_many({place: file.read(place, text)})
+                    return True
+            except (ValueFault, RangeFault) as error:
+                tell(self.window, "Edit parameter", f"{error}.")

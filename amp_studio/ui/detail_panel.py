@@ -8,14 +8,14 @@ from PySide6.QtCore import QUrl, Signal
 from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.report import facts, help_parts
-from amp_studio.schema import Address, Schema, limits, read_address, show_value, written
+from amp_studio.schema import Address, Schema, Value, limits, read_address, same_value, show_value, written
 
 from .theme import severity_ink
 from .workspace import Workspace
 
 
 class DetailPanel(QWidget):
-    """Shows one address; links lead to other parameters."""
+    """Shows one address; links lead to other parameters. Only the page in front is written."""
 
     linked = Signal(str)
     """A parameter id that was clicked."""
@@ -25,33 +25,46 @@ class DetailPanel(QWidget):
         self._workspace = workspace
         self._address: Address | None = None
         self.tabs = QTabWidget()
-        self.pages = {name: QTextBrowser() for name in ("Help", "Facts", "Rules", "History")}
+        self.tabs.setDocumentMode(True)
+        self._write = {
+            "Help": self._help,
+            "Facts": self._facts,
+            "Rules": self._rules,
+            "History": self._history,
+        }
+        self.pages = {name: QTextBrowser() for name in self._write}
         for name, page in self.pages.items():
             page.setOpenLinks(False)
             page.anchorClicked.connect(self._follow)
             self.tabs.addTab(page, name)
+        self.tabs.currentChanged.connect(self._show)
+        self.setFocusProxy(self.tabs)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.tabs)
-        workspace.changed.connect(lambda _: self.show_address(self._address))
-        workspace.saved.connect(lambda: self.show_address(self._address))
+        workspace.changed.connect(self._show)
+        workspace.saved.connect(self._show)
 
     def show_address(self, address: Address | None) -> None:
         """Show an address, or nothing."""
         self._address = address
+        self._show()
+
+    def _show(self, *_: object) -> None:
+        name = self.tabs.tabText(self.tabs.currentIndex())
+        page, address = self.pages[name], self._address
         if address is None:
-            for page in self.pages.values():
-                page.clear()
+            page.clear()
             return
-        self.pages["Help"].setHtml(self._help(address))
-        self.pages["Facts"].setHtml(self._facts(address))
-        self.pages["Rules"].setHtml(self._rules(address))
-        self.pages["History"].setHtml(self._history(address))
+        text = self._head(address) + self._write[name](address)
+        if page.property("written") != text:  # a page that did not change stays where it was scrolled to
+            page.setProperty("written", text)
+            page.setHtml(text)
 
     def _follow(self, url: QUrl) -> None:
         self.linked.emit(url.toString().removeprefix("param:"))
 
-    # -- pages -----------------------------------------------------------------
+    # -- the head of every page ------------------------------------------------
 
     def _head(self, address: Address) -> str:
         file = self._workspace.file
@@ -60,8 +73,17 @@ class DetailPanel(QWidget):
         place = html.escape(file.schema.instance_label(address, file.machine))
         value = html.escape(show_value(parameter, file.get(address)))
         default = file.default(address)
-        told = f"default {html.escape(show_value(parameter, default))}" if default is not None else "no default printed"
-        lines = [f"<h3>{title}</h3>", f"<p><b>{value}</b> &nbsp; <small>{place}, {told}</small></p>"]
+        told = (
+            f"default {html.escape(show_value(parameter, default))}"
+            if default is not None
+            else "no default printed"
+        )
+        lines = [
+            f"<h3>{title}</h3>",
+            f"<p><b>{value}</b> &nbsp; <small>{', '.join(t for t in (place, told) if t)}</small>",
+        ]
+        lines += [f"<br>{line}" for line in self._elsewhere(address)]
+        lines.append("</p>")
         state = file.situation.state(address)
         if state.state != "in-force":
             page = f" (page {state.page})" if state.page else ""
@@ -75,42 +97,53 @@ class DetailPanel(QWidget):
                 lines.append(f'<p style="color:{colour}">{html.escape(finding.message)}</p>')
         return "".join(lines)
 
+    def _elsewhere(self, address: Address) -> list[str]:
+        """Return what the file on disk and the control hold where that is not what is shown: three values may differ."""
+        workspace, value = self._workspace, self._workspace.file.get(address)
+        found: list[tuple[str, Value | None]] = [("on disk", workspace.document.saved.get(address))]
+        if workspace.control is not None:
+            values, when = workspace.control
+            found.append((f"in the control at {when}", values.get(address)))
+        parameter = workspace.file.schema.parameters[address[0]]
+        return [f"<b>{html.escape(show_value(parameter, v))}</b> <small>{where}</small>" for where, v in found
+                if not same_value(v, value)]  # fmt: skip
+
     def _allowed(self, address: Address) -> str:
         file = self._workspace.file
         if file.schema.parameters[address[0]].choices:
             return ""
-        found = limits(file.situation, address, file.situation.unit(address, file.header.units))
+        found = limits(file.situation, address, self._workspace.typed_unit(address))
         if found is None:
             return ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = found.text() + "".join(f" (set by {file.schema.label(s, file.machine)})" for s in sources)
         return text + (" — degrees are not printed; the metric figures are used" if found.borrowed else "")
 
+    # -- pages -----------------------------------------------------------------
+
     def _help(self, address: Address) -> str:
         schema = self._workspace.file.schema
         parameter = schema.parameters[address[0]]
-        lines = [self._head(address)]
+        lines = []
         for title, text in help_parts(schema, parameter):
-            if title == "Related":
-                text = ", ".join(_link(schema, r) for r in parameter.help.related if r in schema.parameters)
-            else:
-                text = html.escape(text)
-            lines.append(f"<h4>{title}</h4><p>{text}</p>")
+            related = [_link(schema, r) for r in parameter.help.related if r in schema.parameters]
+            lines.append(
+                f"<h4>{title}</h4><p>{', '.join(related) if title == 'Related' else html.escape(text)}</p>"
+            )
         lines.append(f"<p><small>{html.escape(schema.family.title)}, page {parameter.page}</small></p>")
         return "".join(lines)
 
     def _facts(self, address: Address) -> str:
         schema, machine = self._workspace.file.schema, self._workspace.file.machine
-        rows = "".join(
+        return "<table cellpadding=2>" + "".join(
             f"<tr><td><b>{html.escape(k)}</b>&nbsp;</td><td>{html.escape(v)}</td></tr>"
             for k, v in facts(schema, schema.parameters[address[0]], machine)
-        )
-        return f"{self._head(address)}<table cellpadding=2>{rows}</table>"
+        ) + "</table>"  # fmt: skip
 
     def _rules(self, address: Address) -> str:
         schema = self._workspace.file.schema
-        lines = [self._head(address)]
         broken = {f.rule for f in self._workspace.findings_of(address)}
+        lines = []
         for rule in self._workspace.validator.rules_of(address):
             names = ", ".join(f"{n} = {_link(schema, read_address(t)[0])}" for n, t in rule.reads.items())
             mark = "✗" if rule.id in broken else "✓"
@@ -119,26 +152,16 @@ class DetailPanel(QWidget):
                 f"<p>{mark} <b>{html.escape(rule.title)}</b> <small>({rule.severity}, page {rule.page})</small><br>"
                 f"<code>{html.escape(rule.check)}</code>{when}<br><small>{names}</small></p>"
             )
-        if len(lines) == 1:
-            lines.append("<p>No rule reads this parameter.</p>")
-        return "".join(lines)
+        return "".join(lines) or "<p>No rule reads this parameter.</p>"
 
     def _history(self, address: Address) -> str:
-        document = self._workspace.document
-        file = document.file
-        parameter = file.schema.parameters[address[0]]
-        lines = [self._head(address)]
-        on_disk = document.saved.get(address)
-        if on_disk != file.get(address):
-            lines.append(f"<p>Not saved yet; on disk: {html.escape(show_value(parameter, on_disk))}</p>")
-        for entry in document.history(address):
-            lines.append(
-                f"<p><small>{entry.when[:16].replace('T', ' ')} {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
-                f"<br>{html.escape(entry.old or '—')} → {html.escape(entry.new or '—')}</p>"
-            )
-        if len(lines) == 1:
-            lines.append(f"<p>No saved change of {html.escape(written(address))} yet.</p>")
-        return "".join(lines)
+        entries = self._workspace.document.history(address)
+        lines = [
+            f"<p><small>{entry.when[:16].replace('T', ' ')} {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
+            f"<br>{html.escape(entry.old or '—')} → {html.escape(entry.new or '—')}</p>"
+            for entry in entries
+        ]
+        return "".join(lines) or f"<p>No saved change of {html.escape(written(address))} yet.</p>"
 
 
 def _link(schema: Schema, parameter_id: str) -> str:

@@ -64,5 +64,10 @@ class DiskWatch(QObject):
             return
         lost = " Your unsaved changes would be lost." if workspace.is_dirty else ""
         question = f"{workspace.path.name} has been changed by another program.\n\nLoad it again?{lost}"
-        if ask(self._window, "Changed on disk", question, "&Load again", "Keep what is open") == "&Load again":
-            self._window.guarded(lambda: self._window.files.open_path(workspace.path, ask_first=False), "Open")
+        if (
+            ask(self._window, "Changed on disk", question, "&Load again", "Keep what is open")
+            == "&Load again"
+        ):
+            self._window.guarded(
+                lambda: self._window.files.open_path(workspace.path, ask_first=False), "Open"
+            )

@@ -156,7 +156,9 @@ class EditActions:
     def _repair(self) -> None:
         finding = self.window.findings.current() if self.window.findings else None
         if finding is None or not finding.repairs:
-            raise ValueError("The selected finding has no repair that could be made without knowing the machine.")
+            raise ValueError(
+                "The selected finding has no repair that could be made without knowing the machine."
+            )
         self.repair(finding)
 
     def repair(self, finding: Finding) -> None:
@@ -166,6 +168,8 @@ class EditActions:
     def repair_safe(self) -> None:
         """Apply every repair that cannot change motion, as one step."""
         workspace = self._workspace()
-        wanted: dict[Address, Value | None] = {r.address: r.value for f in workspace.findings if f.safe for r in f.repairs}
+        wanted: dict[Address, Value | None] = {
+            r.address: r.value for f in workspace.findings if f.safe for r in f.repairs
+        }
         if not workspace.edit("Repair all safe findings", wanted):
             self.window.say("No finding has a repair that cannot change motion.")

@@ -53,7 +53,9 @@ class FileActions:
         menu.addMenu(self._recent_menu)
         menu.addActions([save, save_as, close])
         menu.addSeparator()
-        menu.addActions([act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")])
+        menu.addActions(
+            [act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")]
+        )
         menu.addSeparator()
         menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()
@@ -101,7 +103,7 @@ class FileActions:
         else:
             path = self.ask_path("New parameter file", Path(file.header.name or "machine"))
         if path:
-            self._write_new(path, lambda: Document.create(file, path))
+            self.write_new(path, lambda: Document.create(file, path))
 
     def ask_path(self, title: str, near: Path) -> Path | None:
         """Ask where to save; a name without an ending gets ours, and replacing a file is asked for."""
@@ -117,7 +119,7 @@ class FileActions:
             return None
         return path
 
-    def _write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
+    def write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
         """Show the document that ``write`` makes; a file that stands there becomes its own backup first."""
 
         def work() -> Checked:
@@ -151,7 +153,9 @@ class FileActions:
         workspace, here = self.window.workspace, None
         if workspace is not None and workspace.path.resolve() == path.resolve():
             here = self.window.selected()
-            in_background(self.window, "Opening", lambda: open_file(path))  # what cannot be read replaces nothing
+            in_background(
+                self.window, "Opening", lambda: open_file(path)
+            )  # what cannot be read replaces nothing
             self.window.show_nothing()
         try:
             opened = in_background(self.window, "Opening", lambda: _opened(Document.open, path))
@@ -182,7 +186,9 @@ class FileActions:
         count = "one change" if len(left.changes) == 1 else f"{len(left.changes)} changes"
         text = (f"The program ended before {count} of {left.when[:16].replace('T', ' ')} ({left.who}) could be saved."
                 f"{note}\n\nTake the work back? It can be undone.")  # fmt: skip
-        answer = ask(self.window, "Unsaved work found", text, "&Take it back", "&Throw it away", "Decide &later")
+        answer = ask(
+            self.window, "Unsaved work found", text, "&Take it back", "&Throw it away", "Decide &later"
+        )
         if answer == "&Take it back":
             self._take(left)
         elif answer == "&Throw it away":
@@ -216,7 +222,7 @@ class FileActions:
         if path.resolve() == workspace.path.resolve():
             self.window.save_or_tell()
             return
-        self._write_new(path, lambda: workspace.document.save_as(path), here)
+        self.write_new(path, lambda: workspace.document.save_as(path), here)
 
     def compare(self) -> None:
         """List the differences to another file."""
@@ -271,7 +277,6 @@ class FileActions:
         self.window.say(f"{path} written")
         if show:
             QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
-
 
 
 def _opened(how: Callable[[Path], Document], path: Path) -> Checked:

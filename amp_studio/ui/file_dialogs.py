@@ -46,7 +46,9 @@ class _Form(QDialog):
 
     def add_buttons(self) -> None:
         """Close the form with its buttons."""
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        )
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         self.form.addRow(buttons)
@@ -69,7 +71,12 @@ class NewFileDialog(_Form):
         self.name = QLineEdit("MACHINE_1")
         self.axes = QLineEdit()
         self.axes.setPlaceholderText("X, Y, Z, B, S — empty keeps the default axes")
-        for label, field in (("&Control", self.family), ("&Machine type", self.machine), ("&Name", self.name), ("&Axes", self.axes)):
+        for label, field in (
+            ("&Control", self.family),
+            ("&Machine type", self.machine),
+            ("&Name", self.name),
+            ("&Axes", self.axes),
+        ):
             self.form.addRow(label, field)
         self.family.currentIndexChanged.connect(lambda _: self._machines())
         self._machines()
@@ -85,7 +92,9 @@ class NewFileDialog(_Form):
     def make(self) -> ParameterFile:
         """Return the new file; raises ValueError for an axis name that is not offered."""
         axes = [a.strip() for a in self.axes.text().split(",") if a.strip()]
-        return new_file(str(self.family.currentData()), str(self.machine.currentData()), axes, self.name.text().strip())
+        return new_file(
+            str(self.family.currentData()), str(self.machine.currentData()), axes, self.name.text().strip()
+        )
 
     def accept(self) -> None:
         """Close only when the file can be made."""
@@ -127,7 +136,11 @@ class ReportDialog(_Form):
         super().__init__("Report", parent)
         self.setMinimumWidth(560)
         self.sort = QComboBox()
-        for key, name in (("axis", "Axis and non-axis parameters"), ("number", "By parameter number"), ("group", "By group")):
+        for key, name in (
+            ("axis", "Axis and non-axis parameters"),
+            ("number", "By parameter number"),
+            ("group", "By group"),
+        ):
             self.sort.addItem(name, key)
         self.sort.setCurrentIndex(2)
         self.changed = QCheckBox("Only values that &differ from the default")
@@ -153,7 +166,9 @@ class ReportDialog(_Form):
         text, chosen = QFileDialog.getSaveFileName(self, "Report", self.path.text(), endings)
         if text:
             path = Path(text)
-            self.path.setText(text if path.suffix else str(path.with_suffix(chosen[chosen.index("*") + 1 : -1])))
+            self.path.setText(
+                text if path.suffix else str(path.with_suffix(chosen[chosen.index("*") + 1 : -1]))
+            )
 
     def chosen(self) -> tuple[Path, Sort, bool, bool]:
         """Return path, order, whether only changed values are printed, and whether to open the report."""

@@ -4,18 +4,28 @@ from __future__ import annotations
 
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
-from PySide6.QtGui import QBrush
-from PySide6.QtWidgets import QAbstractItemView, QHBoxLayout, QHeaderView, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, QTimer, Signal
+from PySide6.QtGui import QBrush, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QTableView,
+    QVBoxLayout,
+    QWidget,
+)
 
 from amp_studio.schema import show_value
 from amp_studio.validate import Finding
 
-from .theme import severity_ink
+from .theme import severity_icon, severity_ink
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
 _COLUMNS = ("Severity", "Parameters", "Finding", "Repair", "Page")
+_WIDTHS = (88, 230, 480, 170, 52)
 
 
 class FindingsTable(QAbstractTableModel):
@@ -39,91 +49,134 @@ class FindingsTable(QAbstractTableModel):
     def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
         return len(_COLUMNS)
 
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
         if orientation == Qt.Orientation.Horizontal and role == Qt.ItemDataRole.DisplayRole:
             return _COLUMNS[section]
         return None
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         finding = self.findings[index.row()]
-        if role == Qt.ItemDataRole.ForegroundRole and index.column() == 0:
+        if index.column() == 0 and role == Qt.ItemDataRole.ForegroundRole:
             return QBrush(severity_ink(finding.severity))
+        if index.column() == 0 and role == Qt.ItemDataRole.DecorationRole:
+            return severity_icon(finding.severity)
         if role == Qt.ItemDataRole.ToolTipRole:
             return finding.message
-        if role != Qt.ItemDataRole.DisplayRole:
-            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self._text(finding, index.column())
+        return None
+
+    def _text(self, finding: Finding, column: int) -> str:
         file = self._workspace.file
-        if index.column() == 0:
-            return finding.severity
-        if index.column() == 1:
+        if column == 1:
             names = [file.schema.label(a, file.machine) for a in finding.addresses[:3]]
             return ", ".join(names) + (" …" if len(finding.addresses) > 3 else "")
-        if index.column() == 2:
-            return finding.message
-        if index.column() == 3:
-            return self._repair(finding)
-        return finding.page or ""
+        if column == 3:
+            return ", ".join(
+                f"{file.schema.short(r.address, file.machine)} = {show_value(file.schema.parameters[r.address[0]], r.value)}"
+                for r in finding.repairs
+            )
+        return {0: finding.severity, 2: finding.message}.get(column, finding.page or "")
 
-    def _repair(self, finding: Finding) -> str:
-        file = self._workspace.file
-        return ", ".join(
-            f"{file.schema.short(r.address, file.machine)} = {show_value(file.schema.parameters[r.address[0]], r.value)}"
-            for r in finding.repairs
-        )
+
+class _View(QTableView):
+    """The list itself: Enter shows, and the rows are as high as their words need at the present width."""
+
+    entered_on = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._fit = QTimer(self)
+        self._fit.setSingleShot(True)
+        self._fit.timeout.connect(self.resizeRowsToContents)
+
+    def fit(self) -> None:
+        """Give the rows their heights once the present event is done."""
+        self._fit.start(0)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.fit()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.entered_on.emit()
+        else:
+            super().keyPressEvent(event)
 
 
 class FindingsPanel(QWidget):
     """The table of findings with its buttons."""
 
     activated = Signal(object)
-    """A finding that was double-clicked."""
+    """A finding whose parameter is wanted: double-clicked, or Enter."""
     repaired = Signal(object)
     """A finding whose repair is wanted."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self._workspace = workspace
+        self._selected: Finding | None = None
         self.model = FindingsTable(workspace)
-        self.view = QTableView()
+        self.view = _View()
         self.view.setModel(self.model)
         self.view.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.view.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.view.setWordWrap(True)
+        self.view.setTabKeyNavigation(False)
         self.view.verticalHeader().hide()
         header = self.view.horizontalHeader()
-        for column, width in enumerate((70, 250, 480, 190, 50)):
+        for column, width in enumerate(_WIDTHS):
             self.view.setColumnWidth(column, width)
         header.setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
-        self.view.doubleClicked.connect(lambda _: self._activate())
-        self.view.selectionModel().selectionChanged.connect(lambda *_: self._update_buttons())
+        header.sectionResized.connect(self.view.fit)
+        self.view.doubleClicked.connect(self._activate)
+        self.view.entered_on.connect(self._activate)
+        self.view.selectionModel().currentRowChanged.connect(self._select)
         self.counts = QLabel()
-        self.repair_button = QPushButton("&Repair")
+        self.show_button, self.repair_button = QPushButton("Sh&ow"), QPushButton("&Repair")
+        self.show_button.setToolTip("Show the first parameter of the selected finding (Enter)")
         self.repair_button.setToolTip("Apply the repair of the selected finding (F8)")
-        self.repair_button.clicked.connect(self.repair)
-        self.show_button = QPushButton("&Show")
         self.show_button.clicked.connect(self._activate)
+        self.repair_button.clicked.connect(self.repair)
         buttons = QHBoxLayout()
+        buttons.setContentsMargins(6, 0, 6, 4)
         for widget in (self.counts, None, self.show_button, self.repair_button):
             buttons.addStretch() if widget is None else buttons.addWidget(widget)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
         layout.addWidget(self.view)
         layout.addLayout(buttons)
+        self.setFocusProxy(self.view)
         self.model.modelReset.connect(self._after_reset)
         self._after_reset()
 
     def _after_reset(self) -> None:
-        counts = {s: sum(f.severity == s for f in self.model.findings) for s in ("error", "warning", "advice")}
-        self.counts.setText(f"{counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice")
-        self.view.resizeRowsToContents()
-        if self.model.findings:
-            self.view.selectRow(0)
+        """Keep the finding that was selected, or its place in the list."""
+        found = {s: self._workspace.count(s) for s in ("error", "warning", "advice")}
+        told = [f"{n or 'no'} {what}{'' if n == 1 else 's'}" for what, n in list(found.items())[:2]]
+        self.counts.setText(", ".join([*told, f"{found['advice'] or 'no'} advice"]))
+        self.view.fit()
+        findings = self.model.findings
+        if findings:
+            same = [n for n, f in enumerate(findings) if self._selected and _key(f) == _key(self._selected)]
+            self.view.selectRow(same[0] if same else 0)
+        self._update_buttons()
+
+    def _select(self, *_: object) -> None:
+        self._selected = self.current() or self._selected
         self._update_buttons()
 
     def current(self) -> Finding | None:
         """Return the selected finding."""
         index = self.view.currentIndex()
-        return self.model.findings[index.row()] if index.isValid() and index.row() < len(self.model.findings) else None
+        return (
+            self.model.findings[index.row()]
+            if index.isValid() and index.row() < len(self.model.findings)
+            else None
+        )
 
     def repair(self) -> None:
         """Ask for the repair of the selected finding."""
@@ -131,7 +184,7 @@ class FindingsPanel(QWidget):
         if finding and finding.repairs:
             self.repaired.emit(finding)
 
-    def _activate(self) -> None:
+    def _activate(self, *_: object) -> None:
         finding = self.current()
         if finding:
             self.activated.emit(finding)
@@ -139,4 +192,8 @@ class FindingsPanel(QWidget):
     def _update_buttons(self) -> None:
         finding = self.current()
         self.show_button.setEnabled(bool(finding and finding.addresses))
-        self.repair_button.setEnabled(bool(finding and finding.repairs and self._workspace.document.is_locked))
+        self.repair_button.setEnabled(bool(finding and finding.repairs and self._workspace.may_edit))
+
+
+def _key(finding: Finding) -> tuple[object, ...]:
+    return finding.rule, finding.addresses

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
-
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.schema import Parameter
@@ -13,7 +11,22 @@ from amp_studio.schema import Parameter
 from .theme import severity_ink
 from .workspace import Workspace
 
-_KeyRole = Qt.ItemDataRole.UserRole
+_KEYS = Qt.ItemDataRole.UserRole
+_ALL, _CHANGED, _FINDINGS = "*", "changed", "findings"
+
+
+class _Search(QLineEdit):
+    """A search field from which Down and Enter lead on."""
+
+    left = Signal()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Down):
+            self.left.emit()
+        elif event.key() == Qt.Key.Key_Escape and self.text():
+            self.clear()
+        else:
+            super().keyPressEvent(event)
 
 
 class GroupList(QWidget):
@@ -21,26 +34,39 @@ class GroupList(QWidget):
 
     chosen = Signal(str, list)
     """Title and parameters."""
+    left = Signal()
+    """Enter in the search field: what was found is wanted."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self._workspace = workspace
-        self.search = QLineEdit()
-        self.search.setPlaceholderText("Search number, name, help  (Ctrl+F)")
+        self.search = _Search()
+        self.search.setPlaceholderText("Search  (Ctrl+F)")
         self.search.setClearButtonEnabled(True)
-        self.search.textChanged.connect(lambda _: self.choose())
+        self.search.setToolTip("Numbers, names and words of the help; every word must be found")
+        self.search.setAccessibleName("Search parameters")
+        self.search.textChanged.connect(self.choose)
+        self.search.left.connect(self.left)
         self.tree = QTreeWidget()
         self.tree.setHeaderHidden(True)
-        self.tree.setColumnCount(2)
-        self.tree.currentItemChanged.connect(lambda *_: self._choose_group())
+        self.tree.setColumnCount(3)
+        self.tree.setUniformRowHeights(True)
+        self.tree.setIndentation(14)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(3)
         layout.addWidget(self.search)
         layout.addWidget(self.tree)
-        QShortcut(QKeySequence.StandardKey.Find, self, self.focus_search)
-        self._texts = _search_texts(workspace)
+        self.setFocusProxy(self.tree)
+        self._items: list[QTreeWidgetItem] = []
+        self._machine, self._texts = workspace.file.machine, _search_texts(workspace)
         self._fill()
-        workspace.changed.connect(lambda _: self.update_counts())
+        self.tree.currentItemChanged.connect(self._choose_group)
+        self.tree.itemClicked.connect(self._choose_group)
+        self._later = QTimer(self)
+        self._later.setSingleShot(True)
+        self._later.timeout.connect(self.choose)
+        workspace.changed.connect(self._follow)
 
     def focus_search(self) -> None:
         """Put the cursor into the search field."""
@@ -49,29 +75,37 @@ class GroupList(QWidget):
 
     def _fill(self) -> None:
         schema = self._workspace.file.schema
-        self._add(None, "All parameters", "*")
-        self._add(None, "Changed from default", "changed")
-        self._add(None, "With findings", "findings")
+        for text, key in (
+            ("All parameters", _ALL),
+            ("Changed from default", _CHANGED),
+            ("With findings", _FINDINGS),
+        ):
+            self._add(None, text, [key])
         by_name: dict[str, list[str]] = {}
         for group in schema.groups:
             by_name.setdefault(group.name, []).append(group.key)
         sections = {g.key: g.section for g in schema.groups}
         for name, keys in by_name.items():
-            item = self._add(None, name, "+".join(keys))
+            item = self._add(None, name, keys)
             for key in keys if len(keys) > 1 else ():
-                self._add(item, sections[key], key)
+                self._add(item, sections[key], [key])
             item.setExpanded(True)
         header = self.tree.header()
         header.setStretchLastSection(False)
+        header.setMinimumSectionSize(8)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
+        for column in (1, 2):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.update_counts()
-        self.tree.setCurrentItem(self.tree.topLevelItem(3))
+        self.tree.setCurrentItem(self._items[3])
 
-    def _add(self, parent: QTreeWidgetItem | None, text: str, key: str) -> QTreeWidgetItem:
-        item = QTreeWidgetItem([text, ""])
-        item.setData(0, _KeyRole, key)
-        item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight)
+    def _add(self, parent: QTreeWidgetItem | None, text: str, keys: list[str]) -> QTreeWidgetItem:
+        item = QTreeWidgetItem([text.removesuffix(" Parameters"), "", ""])
+        item.setData(0, _KEYS, keys)
+        self._items.append(item)
+        item.setToolTip(0, text)
+        for column in (1, 2):
+            item.setTextAlignment(column, Qt.AlignmentFlag.AlignRight)
         if parent is None:
             self.tree.addTopLevelItem(item)
         else:
@@ -81,79 +115,87 @@ class GroupList(QWidget):
     def update_counts(self) -> None:
         """Show how many errors and warnings each group has."""
         schema = self._workspace.file.schema
-        counts: Counter[tuple[str, str]] = Counter()
-        for finding in self._workspace.findings:
-            if finding.severity == "advice":
-                continue
-            for key in {schema.group_of[a[0]].key for a in finding.addresses}:
-                counts[(key, finding.severity)] += 1
-        items = [self.tree.topLevelItem(n) for n in range(self.tree.topLevelItemCount())]
-        items += [i.child(n) for i in list(items) for n in range(i.childCount())]
-        for item in items:
-            keys = str(item.data(0, _KeyRole)).split("+")
-            errors = sum(counts[(k, "error")] for k in keys)
-            warnings = sum(counts[(k, "warning")] for k in keys)
-            item.setText(1, " ".join([f"{errors} E"] * bool(errors) + [f"{warnings} W"] * bool(warnings)))
-            item.setForeground(1, severity_ink("error" if errors else "warning"))
+        found = [
+            (f.severity, {schema.group_of[a[0]].key for a in f.addresses}) for f in self._workspace.findings
+        ]
+        for item in self._items:
+            keys = set(item.data(0, _KEYS))
+            for column, severity in ((1, "error"), (2, "warning")):
+                count = sum(s == severity and not keys.isdisjoint(in_groups) for s, in_groups in found)
+                item.setText(column, str(count) if count else "")
+                item.setForeground(column, severity_ink(severity))
+                item.setToolTip(column, f"{count} {severity}{'' if count == 1 else 's'}" if count else "")
+
+    def _follow(self, addresses: list[object]) -> None:
+        """Bring counts up to date, and a list that depends on values, once the present edit is done."""
+        if self._workspace.file.machine != self._machine:  # another machine type has other numbers
+            self._machine, self._texts = self._workspace.file.machine, _search_texts(self._workspace)
+        self.update_counts()
+        item = self.tree.currentItem()
+        if item is not None and item.data(0, _KEYS)[0] in (_CHANGED, _FINDINGS) and not self.search.text():
+            self._later.start(0)
 
     # -- choosing --------------------------------------------------------------
 
-    def _choose_group(self) -> None:
+    def _choose_group(self, *_: object) -> None:
         if self.search.text():
             self.search.blockSignals(True)
             self.search.clear()
             self.search.blockSignals(False)
         self.choose()
 
-    def choose(self) -> None:
+    def choose(self, *_: object) -> None:
         """Tell again what is chosen."""
         words = self.search.text().casefold().split()
+        item = self.tree.currentItem()
         if words:
             self.chosen.emit(f"Search: {self.search.text()}", self.found(words))
-            return
-        item = self.tree.currentItem()
-        if item is not None:
-            self.chosen.emit(item.text(0), self._parameters(str(item.data(0, _KeyRole))))
+        elif item is not None:
+            self.chosen.emit(item.toolTip(0), self._parameters(item.data(0, _KEYS)))
 
     def found(self, words: list[str]) -> list[Parameter]:
-        """Return the parameters whose numbers, name, id or help hold every word."""
+        """Return the parameters whose numbers, name, id or help hold every word; by number and name first."""
         schema = self._workspace.file.schema
-        hits = [pid for pid, text in self._texts.items() if all(word in text for word in words)]
-        return [schema.parameters[pid] for pid in hits]
+        heads, rest = [], []
+        for parameter in schema.parameters.values():
+            head, text = self._texts[parameter.id]
+            if all(word in head for word in words):
+                heads.append(parameter)
+            elif all(word in text for word in words):
+                rest.append(parameter)
+        return heads + rest
 
-    def _parameters(self, key: str) -> list[Parameter]:
+    def _parameters(self, keys: list[str]) -> list[Parameter]:
         schema, file = self._workspace.file.schema, self._workspace.file
         every = list(schema.parameters.values())
-        if key == "*":
+        if keys == [_ALL]:
             return every
-        if key == "changed":
+        if keys == [_CHANGED]:
             ids = {a[0] for a in file.values if not file.is_default(a)}
             return [p for p in every if p.id in ids]
-        if key == "findings":
+        if keys == [_FINDINGS]:
             ids = {a[0] for f in self._workspace.findings for a in f.addresses if f.rule != "schema.unset"}
             return [p for p in every if p.id in ids]
-        keys = set(key.split("+"))
         return [p for g in schema.groups if g.key in keys for p in g.parameters]
 
     def choose_group_of(self, parameter_id: str) -> None:
         """Select the group a parameter stands in."""
         wanted = self._workspace.file.schema.group_of[parameter_id].key
-        items = [self.tree.topLevelItem(n) for n in range(self.tree.topLevelItemCount())]
-        items += [i.child(n) for i in list(items) for n in range(i.childCount())]
-        for item in items:
-            if item.data(0, _KeyRole) == wanted:
+        for item in self._items:
+            if item.data(0, _KEYS) == [wanted]:
                 self.tree.setCurrentItem(item)
                 self._choose_group()
                 return
 
 
-def _search_texts(workspace: Workspace) -> dict[str, str]:
-    """Return one lower-case text a parameter, made once, so that a keystroke only compares."""
+def _search_texts(workspace: Workspace) -> dict[str, tuple[str, str]]:
+    """Return two lower-case texts a parameter, made once: how it is called, and all that is said of it."""
     schema, machine = workspace.file.schema, workspace.file.machine
     texts = {}
     for parameter in schema.parameters.values():
         numbers = " ".join(schema.numbers(parameter, machine).values())
         choices = " ".join(c.label for c in parameter.choices or ())
         told = f"{parameter.help.what} {parameter.help.find} {parameter.help.wrong}"
-        texts[parameter.id] = f"{numbers} {parameter.id} {parameter.name} {choices} {told}".casefold()
+        head = f"{numbers} {parameter.id} {parameter.name}".casefold()
+        texts[parameter.id] = (head, f"{head} {choices} {told}".casefold())
     return texts

@@ -48,7 +48,8 @@ class MainWindow(QMainWindow):
     def __init__(self) -> None:
         super().__init__()
         self.setWindowIcon(program_icon())
-        self.resize(1280, 800)
+        room = self.screen().availableSize()
+        self.resize(min(1360, room.width()), min(850, room.height() - 40))  # the frame needs its place as well
         self.workspace: Workspace | None = None
         self.table: ParameterTable | None = None
         self.table_view: ValueTable | None = None
@@ -60,7 +61,13 @@ class MainWindow(QMainWindow):
         self.file_status, self.value_status = QLabel(), QLabel()
         self.statusBar().addWidget(self.value_status, 1)
         self.statusBar().addPermanentWidget(self.file_status)
-        self._needing: dict[Needs, list[QAction]] = {"": [], "file": [], "edit": [], "axes": [], "project": []}
+        self._needing: dict[Needs, list[QAction]] = {
+            "": [],
+            "file": [],
+            "edit": [],
+            "axes": [],
+            "project": [],
+        }
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
         self.watch = DiskWatch(self)
         self.files = FileActions(self)
@@ -108,7 +115,9 @@ class MainWindow(QMainWindow):
         try:
             return act()
         except (OSError, ValueError, KeyError, RuntimeError) as error:
-            tell(self, title, str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error))
+            tell(
+                self, title, str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
+            )
             return None
 
     def _help_menu(self) -> None:
@@ -166,10 +175,17 @@ class MainWindow(QMainWindow):
         layout.addWidget(self.list_title)
         layout.addWidget(self.table_view)
         self.setCentralWidget(centre)
-        self.groups, self.detail, self.findings = GroupList(workspace), DetailPanel(workspace), FindingsPanel(workspace)
-        for (title, area, size), panel in zip(_PANELS, (self.groups, self.detail, self.findings), strict=True):
+        self.groups, self.detail, self.findings = (
+            GroupList(workspace),
+            DetailPanel(workspace),
+            FindingsPanel(workspace),
+        )
+        for (title, area, size), panel in zip(
+            _PANELS, (self.groups, self.detail, self.findings), strict=True
+        ):
             self._dock(title, panel, area, size)
         self.groups.chosen.connect(self._show_parameters)
+        self.groups.left.connect(self.table_view.setFocus)
         self.table_view.selected.connect(self._show_address)
         self.table.modelReset.connect(self._tell_title)
         self.detail.linked.connect(self._follow)
@@ -220,7 +236,10 @@ class MainWindow(QMainWindow):
     def _show_parameters(self, title: str, parameters: list[Parameter]) -> None:
         assert self.table is not None
         self._list_title = title
-        self.table.show_parameters(parameters)
+        if parameters == self.table.asked:
+            self._tell_title()
+        else:
+            self.table.show_parameters(parameters)
 
     def _tell_title(self) -> None:
         assert self.table is not None
@@ -300,7 +319,9 @@ class MainWindow(QMainWindow):
             return
         project = self.projects.name_of(workspace.path)
         place = f"{project} — " if project else ""
-        self.setWindowTitle(f"{workspace.path.name}[*]{'' if may_edit else ' [read only]'} — {place}AMP Studio")
+        self.setWindowTitle(
+            f"{workspace.path.name}[*]{'' if may_edit else ' [read only]'} — {place}AMP Studio"
+        )
         self.setWindowModified(workspace.is_dirty)
         file = workspace.file
         counts = [counted(workspace.count(s), s) for s in ("error", "warning")]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, cast
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QFont
 
 from amp_studio.files import axis_title, fitted_axes
 from amp_studio.schema import Address, Parameter, UnitError, Value, convert, show_value, write_value
+from amp_studio.schema.model import ScopeInfo
 
 from .theme import FIGURE_SPACE, severity_colour, state_colour
 from .workspace import Workspace
@@ -18,6 +20,7 @@ AddressRole = Qt.ItemDataRole.UserRole + 1
 Column = tuple[str, str]
 """Scope and instance; the column of the whole control is ``("", "")``."""
 
+_LONG = 14  # characters that surely fit into a cell
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
@@ -34,9 +37,11 @@ class ParameterTable(QAbstractTableModel):
         self.hidden_too = False
         """Show also what does not exist for this configuration."""
         self.hidden_rows = 0
-        self._asked: list[Parameter] = []
+        self.asked: list[Parameter] = []
         self._worst: dict[Address, str] = {}
-        self._bold, self._italic, self._both = (_font(*kind) for kind in ((True, False), (False, True), (True, True)))
+        self._bold, self._italic, self._both = (
+            _font(*kind) for kind in ((True, False), (False, True), (True, True))
+        )
         workspace.changed.connect(self._refresh)
         self._find_worst()
 
@@ -45,14 +50,14 @@ class ParameterTable(QAbstractTableModel):
     def show_parameters(self, parameters: list[Parameter]) -> None:
         """Show these rows, with the columns they need."""
         self.beginResetModel()
-        self._asked = parameters
+        self.asked = parameters
         self.columns = self._columns()
         self.rows = self._rows(self.columns)
         self.endResetModel()
 
     def show_again(self) -> None:
         """Show the same parameters anew, after an option changed."""
-        self.show_parameters(self._asked)
+        self.show_parameters(self.asked)
 
     def _column(self, address: Address) -> Column:
         """Return the column of an address: instance 1 of an axis and instance 1 of a process are two columns."""
@@ -63,7 +68,7 @@ class ParameterTable(QAbstractTableModel):
 
     def _columns(self) -> list[Column]:
         file = self.workspace.file
-        needed = dict.fromkeys(self._column((p.id, i)) for p in self._asked for i in self._instances(p))
+        needed = dict.fromkeys(self._column((p.id, i)) for p in self.asked for i in self._instances(p))
         if not self.all_axes and file.schema.family.axes is not None:
             fitted = set(fitted_axes(file))
             needed = {c: None for c in needed if c[0] != "axis" or c[1] in fitted}
@@ -72,7 +77,7 @@ class ParameterTable(QAbstractTableModel):
 
     def _rows(self, columns: list[Column]) -> list[Parameter]:
         """Return the rows that have at least one value that exists for this configuration."""
-        known = [p for p in self._asked if self._instances(p)]
+        known = [p for p in self.asked if self._instances(p)]
         shown = known if self.hidden_too else [p for p in known if self._is_shown(p, columns)]
         self.hidden_rows = len(known) - len(shown)
         return shown
@@ -140,7 +145,9 @@ class ParameterTable(QAbstractTableModel):
     def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
         return 0 if parent.isValid() else len(self.columns)
 
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
         if orientation == Qt.Orientation.Vertical:
             return self._row_head(section, role)
         if role == Qt.ItemDataRole.DisplayRole:
@@ -155,7 +162,8 @@ class ParameterTable(QAbstractTableModel):
             return "Control"
         if scope == "axis" and file.schema.family.axes is not None:
             return axis_title(file, instance)
-        return file.schema.family.scopes[scope].label.replace("{i}", instance)
+        scopes = cast(Mapping[str, ScopeInfo], file.schema.family.scopes)
+        return scopes[scope].label.replace("{i}", instance)
 
     def _row_head(self, row: int, role: int) -> Any:
         parameter = self.rows[row]
@@ -211,9 +219,13 @@ class ParameterTable(QAbstractTableModel):
     def _tip(self, address: Address) -> str:
         file = self.workspace.file
         state = file.situation.state(address)
-        lines = [f.message for f in self.workspace.findings_of(address) if f.rule != "schema.unset"]
+        shown = self.shown_value(address)
+        lines = [shown] if len(shown) > _LONG else []
+        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != "schema.unset"]
         if state.state != "in-force":
-            lines.append(f"{state.state.capitalize()}: {state.why}" + (f" (page {state.page})" if state.page else ""))
+            lines.append(
+                f"{state.state.capitalize()}: {state.why}" + (f" (page {state.page})" if state.page else "")
+            )
         if address in file.forced:
             lines.append(f"Forced {file.forced[address]}")
         value = file.get(address)

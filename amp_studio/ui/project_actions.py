@@ -61,7 +61,9 @@ class ProjectActions:
         self.project = project
         self.window.enable()
         files = len(project.files())
-        self.window.say(f"Project {project.info.name}: {files or 'no'} file{'' if files == 1 else 's'} in {project.folder}")
+        self.window.say(
+            f"Project {project.info.name}: {files or 'no'} file{'' if files == 1 else 's'} in {project.folder}"
+        )
 
     # -- the project -----------------------------------------------------------
 
@@ -162,11 +164,16 @@ class ProjectActions:
         """Delete a file of the project; it can be recovered."""
         project = self._the_project()
         path = self._choose("Delete", project.files())
-        question = f"Delete {path.name}? Its content stays as its backup, so that it can be recovered." if path else ""
-        if path and ask(self.window, "Delete", question, "&Delete", "Cancel", default=1) == "&Delete":
-            if self._let_go(path):
-                project.delete(path)
-                self.window.say(f"{path.name} deleted")
+        question = (
+            f"Delete {path.name}? Its content stays as its backup, so that it can be recovered."
+            if path
+            else ""
+        )
+        if path is None or ask(self.window, "Delete", question, "&Delete", "Cancel", default=1) != "&Delete":
+            return
+        if self._let_go(path):
+            project.delete(path)
+            self.window.say(f"{path.name} deleted")
 
     def recover(self) -> None:
         """Bring a deleted or older file back."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QAbstractButton, QMessageBox, QWidget
+from PySide6.QtWidgets import QMessageBox, QPushButton, QWidget
 
 Icon = QMessageBox.Icon
 
@@ -18,11 +18,12 @@ def ask(
     """Return the answer that was clicked; Escape is the last one."""
     box = QMessageBox(icon, title, text, parent=parent)
     roles = QMessageBox.ButtonRole
-    buttons: list[QAbstractButton] = []
+    buttons: list[QPushButton] = []
     for n, answer in enumerate(answers):
         role = roles.RejectRole if n == len(answers) - 1 else roles.ActionRole if n else roles.AcceptRole
-        buttons.append(box.addButton(answer, role))
-    box.setDefaultButton(buttons[default])  # type: ignore[arg-type]  # a message box makes push buttons
+        buttons.append(QPushButton(answer))
+        box.addButton(buttons[-1], role)
+    box.setDefaultButton(buttons[default])
     box.setEscapeButton(buttons[-1])
     box.exec()
     clicked = box.clickedButton()

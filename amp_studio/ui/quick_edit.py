@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QDialog, QLabel, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
-from amp_studio.schema import Address, UnknownParameter, write_value
+from amp_studio.schema import Address, UnknownParameter
 
-from .value_delegate import choice_box
-from .workspace import Workspace
+from .choice_box import ChoiceBox
+from .parameter_table import ParameterTable
+from .value_delegate import allowed_text
 
 
 class QuickEdit(QDialog):
@@ -18,73 +20,83 @@ class QuickEdit(QDialog):
 
     def __init__(
         self,
-        workspace: Workspace,
+        table: ParameterTable,
         commit: Callable[[Address, str], bool],
         show: Callable[[Address], None],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle("Quick Edit")
-        self.setMinimumWidth(420)
-        self._workspace, self._commit, self._show = workspace, commit, show
+        self.setMinimumWidth(480)
+        self._table, self._workspace, self._commit, self._show = table, table.workspace, commit, show
         self._address: Address | None = None
         self.number = QLineEdit()
-        self.number.setPlaceholderText("Parameter number, or id@instance")
-        self.number.returnPressed.connect(self.find)
-        self.name = QLabel()
+        self.number.setPlaceholderText("1300, or home.calibration@1")
+        self.name = QLabel("Enter takes the number, then the value; Escape ends.")
         self.name.setWordWrap(True)
-        self._editor: QWidget | None = None
-        self._layout = QVBoxLayout(self)
-        for widget in (self.number, self.name):
-            self._layout.addWidget(widget)
+        self.name.setMinimumHeight(3 * self.name.fontMetrics().height())
+        self.name.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.editor: QLineEdit | ChoiceBox | None = None
+        self._form = QFormLayout(self)
+        self._form.addRow("&Number", self.number)
+        self._form.addRow("", self.name)
+        table.workspace.closed.connect(self.close)
 
-    def find(self) -> None:
+    def look_up(self) -> None:
         """Look up the number and offer its value."""
         try:
             address = self._workspace.file.find(self.number.text())
         except UnknownParameter as error:
             self._offer(None)
-            self.name.setText(str(error))
+            self.name.setText(f"{error}.")
+            self.number.selectAll()
             return
         self._offer(address)
 
     def _offer(self, address: Address | None) -> None:
-        if self._editor is not None:
-            self._layout.removeWidget(self._editor)
-            self._editor.deleteLater()
-            self._editor = None
+        if self.editor is not None:
+            self._form.removeRow(self.editor)
+            self.editor = None
         self._address = address
         if address is None:
             return
         self._show(address)
         file = self._workspace.file
-        parameter = file.schema.parameters[address[0]]
+        place = file.schema.instance_label(address, file.machine) or "Control"
         state = file.situation.state(address)
-        told = "" if state.state == "in-force" else f"\n{state.state}: {state.why}"
-        self.name.setText(f"{file.schema.label(address, file.machine)}  [{written_place(self._workspace, address)}]{told}")
-        if parameter.choices:
-            box = choice_box(self._workspace, address, self)
-            box.activated.connect(lambda _: self.enter())
-            self._editor = box
+        told = "" if state.state == "in-force" else f"\n{state.state.capitalize()}: {state.why}"
+        allowed = allowed_text(self._workspace, address)
+        bounds = f"\nAllowed here: {allowed}" if allowed else ""
+        self.name.setText(f"{file.schema.label(address, file.machine)}, {place}{bounds}{told}")
+        if file.schema.parameters[address[0]].choices:
+            self.editor = ChoiceBox(self._workspace, address, self)
         else:
-            line = QLineEdit(write_value(parameter, file.get(address)))
+            line = QLineEdit(self._table.typed_value(address))
+            line.setPlaceholderText(allowed)
             line.selectAll()
-            line.returnPressed.connect(self.enter)
-            self._editor = line
-        self._layout.addWidget(self._editor)
-        self._editor.setFocus(Qt.FocusReason.OtherFocusReason)
+            self.editor = line
+        self._form.addRow("&Value", self.editor)
+        self.editor.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter goes on: from the number to its value, from the value to the next number."""
+        if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            super().keyPressEvent(event)
+        elif self.number.hasFocus():
+            self.look_up()
+        else:
+            self.enter()
 
     def enter(self) -> None:
-        """Take the value and ask for the next number."""
-        if self._address is None:
+        """Take the value and ask for the next number; one that is refused stays to be mended."""
+        if self._address is None or self.editor is None:
             return
-        text = self._editor.currentData() if isinstance(self._editor, QComboBox) else self._editor.text()  # type: ignore[union-attr]
-        if self._commit(self._address, str(text)):
+        text = self.editor.currentData() if isinstance(self.editor, ChoiceBox) else self.editor.text()
+        if text is None or self._commit(self._address, str(text)):
             self._offer(None)
+            self.name.setText(
+                f"{self.name.text().splitlines()[0]}: taken. Enter takes the next number, Escape ends."
+            )
             self.number.setFocus()
             self.number.selectAll()
-
-
-def written_place(workspace: Workspace, address: Address) -> str:
-    """Return ``Axis 1`` or ``Control``."""
-    return workspace.file.schema.instance_label(address, workspace.file.machine) or "Control"

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import html
 import threading
+from collections.abc import Callable
+from pathlib import Path
 
-import numpy as np
-import pyqtgraph as pg
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
@@ -16,124 +17,167 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
+    QSplitter,
     QTextBrowser,
     QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.files import axis_title, fitted_axes
-from amp_studio.schema import Address, canonical, unit_named
+from amp_studio.schema import Address, angular, canonical, dimension, shown, unit_named, write_number
 from amp_studio.schema.values import read_number
-from amp_studio.sim import SimulationError, Trace, simulate, write_trace
+from amp_studio.sim import Trace, simulate, write_trace
 
+from .step_plot import StepPlot
 from .task import Progress, Task
-from .theme import is_dark
+from .theme import severity_ink
 from .workspace import Workspace
 
-_COLOURS = ("#1a5fb4", "#c64600", "#26a269", "#813d9c")
+_RAMPS = (
+    ("", "as configured"),
+    ("linear", "linear ramp"),
+    ("exponential", "exponential"),
+    ("none", "no ramp"),
+)
+_ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
 
 class StepView(QWidget):
     """Simulates with the values as they are edited now, and again after every edit."""
 
-    def __init__(self, workspace: Workspace, address: Address | None, show: object, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        workspace: Workspace,
+        address: Address | None,
+        show: Callable[[Address], None],
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent, Qt.WindowType.Window)
-        self.setWindowTitle("Step response")
-        self.resize(1060, 760)
-        self._workspace = workspace
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(f"Step response — {workspace.path.name}")
+        self.resize(1100, 740)
+        self._workspace, self._show_parameter = workspace, show
         self._task: Task | None = None
         self._again = False
         self.trace: Trace | None = None
-        self.axis = QComboBox()
-        for axis in fitted_axes(workspace.file):
-            self.axis.addItem(axis_title(workspace.file, axis), axis)
-        if address:
-            self.axis.setCurrentIndex(max(self.axis.findData(address[1]), 0))
+        self.axis, self.mode = QComboBox(), QComboBox()
         self.distance, self.feedrate = QLineEdit(), QLineEdit()
-        self.distance.setPlaceholderText("as long as needed")
-        self.feedrate.setPlaceholderText("rapid feedrate")
-        self.mode = QComboBox()
-        for key, name in (("", "as configured"), ("linear", "linear ramp"), ("exponential", "exponential"), ("none", "no ramp")):
+        for key, name in _RAMPS:
             self.mode.addItem(name, key)
         self.run_button, self.save_button = QPushButton("&Run"), QPushButton("&Save…")
+        self.save_button.setEnabled(False)
         self.told = QLabel()
         self.told.setWordWrap(True)
-        self.plots = self._plots()
-        self.figures = QTextBrowser()
+        self.plot, self.figures = StepPlot(), QTextBrowser()
+        self.figures.setOpenLinks(False)
+        self.figures.anchorClicked.connect(self._follow)
+        self._fill_axes(address[1] if address else "")
         self._arrange()
-        self.axis.currentIndexChanged.connect(lambda _: self.run())
-        self.mode.currentIndexChanged.connect(lambda _: self.run())
+        self.axis.currentIndexChanged.connect(self.run)
+        self.mode.currentIndexChanged.connect(self.run)
         for field in (self.distance, self.feedrate):
             field.returnPressed.connect(self.run)
         self.run_button.clicked.connect(self.run)
         self.save_button.clicked.connect(self.save)
-        workspace.changed.connect(lambda _: self.run())
+        workspace.changed.connect(self._after_edit)
+        workspace.closed.connect(self.close)
         self.run()
+
+    def _fill_axes(self, wanted: str) -> None:
+        self.axis.blockSignals(True)
+        self.axis.clear()
+        for axis in fitted_axes(self._workspace.file):
+            self.axis.addItem(axis_title(self._workspace.file, axis), axis)
+        self.axis.setCurrentIndex(max(self.axis.findData(wanted), 0))
+        self.axis.blockSignals(False)
+        length, velocity = self._units()
+        self.distance.setPlaceholderText(f"{shown(length)}, as long as needed")
+        self.feedrate.setPlaceholderText(f"{shown(velocity)}, the rapid feedrate")
 
     def _arrange(self) -> None:
         form = QFormLayout()
-        for label, field in (("Axis", self.axis), ("Distance", self.distance), ("Feedrate", self.feedrate), ("Ramp", self.mode)):
+        fields = (
+            ("&Axis", self.axis),
+            ("&Distance", self.distance),
+            ("&Feedrate", self.feedrate),
+            ("Ra&mp", self.mode),
+        )
+        for label, field in fields:
             form.addRow(label, field)
-        side = QVBoxLayout()
-        side.addLayout(form)
         buttons = QHBoxLayout()
+        buttons.addStretch()
         buttons.addWidget(self.run_button)
         buttons.addWidget(self.save_button)
-        side.addLayout(buttons)
-        side.addWidget(self.figures)
-        layout = QHBoxLayout()
-        layout.addWidget(self.plots, 3)
-        layout.addLayout(side, 2)
+        side = QWidget()
+        column = QVBoxLayout(side)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(form)
+        column.addLayout(buttons)
+        column.addWidget(self.figures)
+        middle = QSplitter()
+        middle.addWidget(self.plot)
+        middle.addWidget(side)
+        middle.setStretchFactor(0, 1)
+        middle.setSizes([760, 320])
         outer = QVBoxLayout(self)
         outer.addWidget(self.told)
-        outer.addLayout(layout)
-
-    def _plots(self) -> pg.GraphicsLayoutWidget:
-        pg.setConfigOptions(antialias=True, background="#1e1e1e" if is_dark() else "w", foreground="#ddd" if is_dark() else "k")
-        widget = pg.GraphicsLayoutWidget()
-        self._panels = [widget.addPlot(row=n, col=0) for n in range(3)]
-        for panel in self._panels:
-            panel.showGrid(x=True, y=True, alpha=0.25)
-            panel.addLegend(offset=(70, 8))
-            panel.getAxis("left").enableAutoSIPrefix(False)
-            panel.getAxis("left").setWidth(64)
-            panel.setXLink(self._panels[0])
-        self._panels[2].setLabel("bottom", "time", "s")
-        return widget
+        outer.addWidget(middle, 1)
 
     # -- running ---------------------------------------------------------------
 
+    def _units(self) -> tuple[str, str]:
+        """Return the units in which distance and feedrate of the chosen axis are typed."""
+        file, axis = self._workspace.file, self.axis.currentData()
+        family = file.schema.family
+        system = family.units.get(file.header.units, {})
+        length, velocity = system.get("length", "mm"), system.get("velocity", "mm/min")
+        turns = family.axes is not None and axis and file.situation.turns((family.axes.type, str(axis)))
+        return (angular(length), angular(velocity)) if turns else (length, velocity)
+
     def _settings(self) -> dict[str, float | str]:
         settings: dict[str, float | str] = {}
-        for name, field, unit in (("move.distance", self.distance, "mm"), ("move.feedrate", self.feedrate, "mm/min")):
+        fields = (("move.distance", "Distance", self.distance), ("move.feedrate", "Feedrate", self.feedrate))
+        for (key, name, field), unit in zip(fields, self._units(), strict=True):
             if field.text().strip():
                 number, rest = read_number(field.text())
-                settings[name] = canonical(number, unit_named(rest) if rest else unit)
+                named = unit_named(rest) if rest else unit
+                if dimension(named) != dimension(unit):
+                    raise ValueError(f"{name} of this axis is given in {shown(unit)}, not in {shown(named)}.")
+                settings[key] = canonical(number, named)
         if self.mode.currentData():
             settings["move.mode"] = str(self.mode.currentData())
         return settings
 
-    def run(self) -> None:
+    def _after_edit(self, _: list[Address]) -> None:
+        """Follow the file: another axis may be fitted now, and every value may count."""
+        self._fill_axes(str(self.axis.currentData()))
+        self.run()
+
+    def run(self, *_: object) -> None:
         """Simulate in a thread of its own; a run asked for meanwhile follows."""
         if self._task is not None:
             self._again = True
             return
+        if self.axis.count() == 0:
+            self.told.setText("No axis is fitted.")
+            return
+        self._fill_axes(str(self.axis.currentData()))
         try:
             settings = self._settings()
         except ValueError as error:
-            self.told.setText(str(error))
+            self._fail(error)
             return
         file, axis = self._workspace.file.copy(), str(self.axis.currentData())
 
-        def work(progress: Progress, cancel: threading.Event) -> Trace:
+        def work(_: Progress, __: threading.Event) -> Trace:
             return simulate(file, "step", axis, settings)
 
         self.told.setText("Simulating …")
-        self._task = Task(work, self)
+        self._task = Task(work)
         self._task.done.connect(self._draw)
-        self._task.failed.connect(lambda error: self.told.setText(str(error)))
+        self._task.failed.connect(self._fail)
         self._task.finished.connect(self._ended)
-        self._task.start()
+        self._task.begin()
 
     def _ended(self) -> None:
         self._task = None
@@ -141,65 +185,68 @@ class StepView(QWidget):
             self._again = False
             self.run()
 
+    def _fail(self, error: Exception) -> None:
+        self.told.setText(
+            f'<span style="color:{severity_ink("error").name()}">{html.escape(str(error))}</span>'
+        )
+
     def _draw(self, trace: Trace) -> None:
         self.trace = trace
-        self.told.setText(f"{trace.model}.")
-        groups = (("command_position", "position"), ("following_error",), ("command_velocity", "velocity", "torque_percent"))
-        time = trace.columns["time_s"]
-        step = max(1, len(time) // 6000)
-        self._panels[0].setXRange(0.0, float(time[-1]) if len(time) else 1.0, padding=0.02)
-        for panel, names in zip(self._panels, groups, strict=True):
-            panel.clear()
-            unit = next((trace.units[n] for n in names if n in trace.columns), "")
-            panel.setLabel("left", names[0].replace("command_", "").replace("_", " "), unit)
-            for colour, name in zip(_COLOURS, names, strict=False):
-                if name in trace.columns and name != "torque_percent":
-                    pen = pg.mkPen(colour, width=2)
-                    panel.plot(time[::step], trace.columns[name][::step], pen=pen, name=name.replace("_", " "))
-        self._draw_limits(trace)
-        self._draw_torque(trace, time, step)
+        self.save_button.setEnabled(True)
+        self.told.setText(f"{html.escape(trace.model)}.")
+        self.plot.draw(trace)
         self.figures.setHtml(self._told(trace))
-
-    def _draw_limits(self, trace: Trace) -> None:
-        reached = float(np.max(np.abs(trace.columns["following_error"]), initial=0.0))
-        for n, (name, (level, unit)) in enumerate(trace.limits.items()):
-            colour = _COLOURS[1 + n % 3]
-            if level is not None and level <= 3 * reached:
-                line = pg.InfiniteLine(level, angle=0, pen=pg.mkPen(colour, style=Qt.PenStyle.DashLine),
-                                       label=f"{name.replace('_', ' ')} {level:.5g} {unit}",
-                                       labelOpts={"position": 0.3 + 0.22 * n, "color": QColor(colour)})  # fmt: skip
-                self._panels[1].addItem(line, ignoreBounds=False)
-
-    def _draw_torque(self, trace: Trace, time: np.ndarray, step: int) -> None:
-        torque = trace.columns.get("torque_percent")
-        velocity = trace.columns.get("velocity")
-        if torque is None or velocity is None or not len(torque):
-            return
-        top = float(np.max(np.abs(velocity), initial=0.0)) or 1.0
-        scale = top / max(float(np.max(np.abs(torque))), 1e-9)
-        name = f"torque (full height {top / scale:.4g} %)"
-        self._panels[2].plot(time[::step], torque[::step] * scale, pen=pg.mkPen(_COLOURS[2], width=1), name=name)
 
     def _told(self, trace: Trace) -> str:
         rows = "".join(
-            f"<tr><td>{name.replace('_', ' ')}&nbsp;&nbsp;</td><td><b>{'–' if v is None else f'{v:.6g}'}</b> {unit}</td></tr>"
+            f"<tr><td>{name.replace('_', ' ')}&nbsp;&nbsp;</td>"
+            f"<td align=right><b>{'–' if v is None else f'{v:.6g}'}</b> {shown(unit)}</td></tr>"
             for name, (v, unit) in trace.result.items()
         )
-        alarms = "".join(f"<p style='color:#c01c28'><b>{a.code}</b> at {a.time_s:.4g} s: {a.message}</p>" for a in trace.alarms)
-        advice = "".join(f"<li>{a.parameter} = {a.value:.6g} {a.unit}: {a.why}</li>" for a in trace.advice)
-        assumed = "".join(f"<li>{text}</li>" for text in trace.assumptions)
+        ink = severity_ink("error").name()
+        alarms = "".join(f'<p style="color:{ink}"><b>{a.code}</b> at {a.time_s:.4g} s: {html.escape(a.message)}</p>'
+                         for a in trace.alarms)  # fmt: skip
+        advice = "".join(f"<li>{self._link(a.parameter)} = {write_number(a.value)} {shown(a.unit)}: {html.escape(a.why)}</li>"
+                         for a in trace.advice)  # fmt: skip
+        assumed = "".join(f"<li>{html.escape(text)}</li>" for text in trace.assumptions)
         advice = f"<h4>Advice</h4><ul>{advice}</ul>" if advice else ""
-        return f"{alarms}<table>{rows}</table>{advice}<h4>Assumptions</h4><ul>{assumed}</ul>"
+        return f"{alarms}<table cellpadding=1>{rows}</table>{advice}<h4>Assumptions</h4><ul>{assumed}</ul>"
+
+    def _link(self, parameter: str) -> str:
+        found = self._workspace.file.schema.parameters.get(parameter)
+        return (
+            f'<a href="param:{parameter}">{html.escape(found.name)}</a>' if found else html.escape(parameter)
+        )
+
+    def _follow(self, url: QUrl) -> None:
+        if self.trace is not None:
+            parameter = url.toString().removeprefix("param:")
+            schema, machine = self._workspace.file.schema, self._workspace.file.machine
+            instances = schema.instances(schema.parameters[parameter], machine)
+            self._show_parameter(
+                (parameter, self.trace.axis if self.trace.axis in instances else instances[0])
+            )
 
     def save(self) -> None:
         """Write the trace as CSV, SVG or PNG."""
         if self.trace is None:
             return
-        from pathlib import Path
+        near = self._workspace.path.with_name(f"{self._workspace.path.stem}-step-{self.trace.axis}.svg")
+        text, chosen = QFileDialog.getSaveFileName(self, "Save", str(near), _ENDINGS)
+        if not text:
+            return
+        path = Path(text)
+        try:
+            write_trace(
+                self.trace, path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
+            )
+        except (OSError, ValueError) as error:
+            self._fail(error)
 
-        text, _ = QFileDialog.getSaveFileName(self, "Save", "step.svg", "SVG (*.svg);;PNG (*.png);;CSV (*.csv)")
-        if text:
-            try:
-                write_trace(self.trace, Path(text))
-            except (OSError, SimulationError) as error:
-                self.told.setText(str(error))
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Let a run that is on its way end by itself, unheard."""
+        if self._task is not None:
+            self._task.done.disconnect(self._draw)
+            self._task.failed.disconnect(self._fail)
+            self._task.finished.disconnect(self._ended)
+        super().closeEvent(event)

@@ -41,6 +41,7 @@ class Task(QThread):
         self.start()
 
     def _leave(self) -> None:
+        self.wait()  # "finished" comes just before the end
         Task.running.discard(self)
 
     @classmethod

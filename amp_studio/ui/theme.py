@@ -67,7 +67,10 @@ def _drawn(size: int) -> QPixmap:
     step = [QPointF(9, 48), QPointF(24, 48), QPointF(24, 17), QPointF(55, 17)]
     follow = [QPointF(24, 48), QPointF(29, 36), QPointF(35, 24), QPointF(43, 18), QPointF(55, 17)]
     for points, colour, width in ((step, "#8fb8e8", 4.0), (follow, "#ffb454", 6.0)):
-        painter.setPen(QPen(QColor(colour), width, cap=Qt.PenCapStyle.RoundCap, join=Qt.PenJoinStyle.RoundJoin))
+        pen = QPen(QColor(colour), width)
+        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+        pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+        painter.setPen(pen)
         painter.drawPolyline(QPolygonF(points))
     painter.end()
     return picture

@@ -4,33 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QAbstractItemModel, QEvent, QModelIndex, QObject, QPersistentModelIndex, QPoint, Qt, QTimer
-from PySide6.QtWidgets import QComboBox, QLineEdit, QStyledItemDelegate, QStyleOptionViewItem, QToolTip, QWidget
+from PySide6.QtCore import (
+    QAbstractItemModel,
+    QEvent,
+    QModelIndex,
+    QObject,
+    QPersistentModelIndex,
+    QPoint,
+    Qt,
+    QTimer,
+)
+from PySide6.QtWidgets import QLineEdit, QStyledItemDelegate, QStyleOptionViewItem, QToolTip, QWidget
 
 from amp_studio.schema import Address, Limits, limits, shown
 
+from .choice_box import ChoiceBox
 from .parameter_table import AddressRole
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
-
-
-def choice_box(workspace: Workspace, address: Address, parent: QWidget | None = None) -> QComboBox:
-    """Return a list of the choices of an address, with letters and stored codes, the present one selected."""
-    box = QComboBox(parent)
-    parameter = workspace.file.schema.parameters[address[0]]
-    for choice in parameter.choices or ():
-        code = f"({choice.code})  " if choice.code else ""
-        box.addItem(f"{code}{choice.label}", choice.label)
-        if choice.note:
-            box.setItemData(box.count() - 1, choice.note, Qt.ItemDataRole.ToolTipRole)
-    value = workspace.file.get(address)
-    key = "" if value is None else {True: "yes", False: "no"}.get(value.value, value.value)
-    keys = [c.key for c in parameter.choices or ()]
-    box.setCurrentIndex(keys.index(str(key)) if key in keys else -1)
-    if value is not None and key not in keys:
-        box.setPlaceholderText(str(key))
-    return box
 
 
 def limits_of(workspace: Workspace, address: Address) -> Limits | None:
@@ -57,8 +49,9 @@ class ValueDelegate(QStyledItemDelegate):
     def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: Index) -> QWidget:
         address: Address = index.data(AddressRole)
         if self._workspace.file.schema.parameters[address[0]].choices:
-            box = choice_box(self._workspace, address, parent)
+            box = ChoiceBox(self._workspace, address, parent)
             box.activated.connect(self._choose)
+            box.left.connect(self._leave)
             QTimer.singleShot(0, box, box.showPopup)
             return box
         field = QLineEdit(parent)
@@ -72,9 +65,15 @@ class ValueDelegate(QStyledItemDelegate):
 
     def _choose(self) -> None:
         box = self.sender()
-        assert isinstance(box, QComboBox)
+        assert isinstance(box, ChoiceBox)
         self.commitData.emit(box)
         self.closeEditor.emit(box)
+
+    def _leave(self) -> None:
+        """Close the editor with its list; a choice that was made is on its way before that."""
+        box = self.sender()
+        assert isinstance(box, ChoiceBox)
+        QTimer.singleShot(0, box, lambda: self.closeEditor.emit(box))
 
     def setEditorData(self, editor: QWidget, index: Index) -> None:
         if isinstance(editor, QLineEdit):
@@ -83,8 +82,8 @@ class ValueDelegate(QStyledItemDelegate):
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
         """Give a list the width its longest choice needs, a field that of its text."""
-        rectangle = option.rect  # type: ignore[attr-defined]  # PySide's stub leaves it out
-        wanted = editor.sizeHint().width() if isinstance(editor, QComboBox) else 130
+        rectangle = option.rect
+        wanted = editor.sizeHint().width() if isinstance(editor, ChoiceBox) else 130
         rectangle.setWidth(max(rectangle.width(), wanted))
         editor.setGeometry(rectangle)
 
@@ -95,16 +94,22 @@ class ValueDelegate(QStyledItemDelegate):
             return
         self._asking = True
         try:
-            if isinstance(editor, QComboBox):
+            if isinstance(editor, ChoiceBox):
                 if editor.currentIndex() >= 0:
                     self._commit(address, str(editor.currentData()))
-            elif isinstance(editor, QLineEdit) and editor.text() != str(index.data(Qt.ItemDataRole.EditRole) or ""):
+            elif isinstance(editor, QLineEdit) and editor.text() != str(
+                index.data(Qt.ItemDataRole.EditRole) or ""
+            ):
                 self._commit(address, editor.text())
         finally:
             self._asking = False
 
     def eventFilter(self, editor: QObject, event: QEvent) -> bool:
-        if isinstance(editor, QComboBox) and event.type() == QEvent.Type.FocusOut and editor.view().isVisible():
+        if (
+            isinstance(editor, ChoiceBox)
+            and event.type() == QEvent.Type.FocusOut
+            and editor.view().isVisible()
+        ):
             return False  # the open list takes the focus; the editor must stay
         return super().eventFilter(editor, event)
 

@@ -13,8 +13,8 @@ from amp_studio.schema import Address
 from .parameter_table import AddressRole, ParameterTable
 from .value_delegate import ValueDelegate
 
-_NAMES = 270
-_NARROWEST, _WIDEST = 92, 190
+_NAMES = 256
+_NARROWEST, _WIDEST = 92, 140
 
 
 class ValueTable(QTableView):
@@ -45,7 +45,8 @@ class ValueTable(QTableView):
         names.setDefaultSectionSize(24)
         names.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         names.setTextElideMode(Qt.TextElideMode.ElideRight)
-        names.setMaximumWidth(_NAMES)
+        names.setFixedWidth(_NAMES)
+        names.setHighlightSections(False)
         names.setSectionsClickable(True)
         names.sectionClicked.connect(self._select_row)
         heads.setHighlightSections(True)
@@ -74,7 +75,10 @@ class ValueTable(QTableView):
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
         if not index.isValid():
-            index = next((i for row in range(len(self._table.rows)) if (i := self._table.first_of(row)).isValid()), index)
+            index = next(
+                (i for row in range(len(self._table.rows)) if (i := self._table.first_of(row)).isValid()),
+                index,
+            )
         self.setCurrentIndex(index)
 
     def _fit_columns(self) -> None:
@@ -83,8 +87,12 @@ class ValueTable(QTableView):
         heads = QFontMetrics(self.horizontalHeader().font())
         for column, what in enumerate(table.columns):
             cells = (table.address_at(row, column) for row in range(len(table.rows)))
-            widest = max((texts.horizontalAdvance(t) for t in {table.shown_value(a) for a in cells if a}), default=0)
-            wanted = max(int(1.08 * widest) + 18, heads.horizontalAdvance(table.column_title(what)) + 24)  # bold is wider
+            widest = max(
+                (texts.horizontalAdvance(t) for t in {table.shown_value(a) for a in cells if a}), default=0
+            )
+            wanted = max(
+                int(1.08 * widest) + 18, heads.horizontalAdvance(table.column_title(what)) + 24
+            )  # bold is wider
             self.setColumnWidth(column, max(_NARROWEST, min(_WIDEST, wanted)))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

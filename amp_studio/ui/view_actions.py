@@ -26,17 +26,23 @@ class ViewActions:
         menu = window.menuBar().addMenu("&Options")
         self.units_menu, self.machine_menu = QMenu("&Units", window), QMenu("Control &Type", window)
         self._groups: list[QActionGroup] = []
-        self.switch = act("S&witch mm / inch", self._switch, "Ctrl+M", "file", icons.SP_BrowserReload, "mm / inch")
+        self.switch = act(
+            "S&witch mm / inch", self._switch, "Ctrl+M", "file", icons.SP_BrowserReload, "mm / inch"
+        )
         self.as_entered = self._option("Show Values &As Entered", self._show_as_entered, "Ctrl+E")
         self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")
         self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
-        self.step_action = act("&Step Response…", self._step, "F9", "file", icons.SP_MediaPlay, "Step Response")
+        self.step_action = act(
+            "&Step Response…", self._step, "F9", "file", icons.SP_MediaPlay, "Step Response"
+        )
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
         menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too])
         menu.addSeparator()
         panels = menu.addMenu("&Go To")
-        for n, (title, panel) in enumerate((("&Groups", "Groups"), ("&Parameter Help", "Parameter"), ("&Findings", "Findings")), 2):
+        for n, (title, panel) in enumerate(
+            (("&Groups", "Groups"), ("&Parameter Help", "Parameter"), ("&Findings", "Findings")), 2
+        ):
             panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
         panels.insertAction(panels.actions()[0], act("&Table", self._to_table, "Ctrl+1"))
         menu.addSeparator()
@@ -66,14 +72,18 @@ class ViewActions:
             workspace.show_in(None)
         self._show_columns()
 
-    def _fill(self, menu: QMenu, entries: list[tuple[str, str]], present: str, choose: Callable[[str], None]) -> QActionGroup:
+    def _fill(
+        self, menu: QMenu, entries: list[tuple[str, str]], present: str, choose: Callable[[str], None]
+    ) -> QActionGroup:
         group = QActionGroup(menu)
         for key, name in entries:
             action = QAction(name, group)
             action.setCheckable(True)
             action.setData(key)
             action.setChecked(key == present)
-            action.triggered.connect(lambda *_, key=key: self.window.guarded(partial(choose, key), menu.title().replace("&", "")))
+            action.triggered.connect(
+                lambda *_, key=key: self.window.guarded(partial(choose, key), menu.title().replace("&", ""))
+            )
             menu.addAction(action)
         return group
 
@@ -82,7 +92,9 @@ class ViewActions:
         workspace = self.window.workspace
         if workspace is None:
             return
-        for group, present in zip(self._groups, (workspace.file.header.units, workspace.file.machine), strict=True):
+        for group, present in zip(
+            self._groups, (workspace.file.header.units, workspace.file.machine), strict=True
+        ):
             for action in group.actions():
                 action.setChecked(action.data() == present)
         self.as_entered.setChecked(workspace.as_entered)

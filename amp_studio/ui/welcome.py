@@ -7,7 +7,15 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from .theme import program_icon
 
@@ -15,7 +23,9 @@ from .theme import program_icon
 class WelcomePage(QWidget):
     """The first commands as buttons, and the files that were open last."""
 
-    def __init__(self, actions: Iterable[QAction], recent: list[Path], show: Callable[[Path], object]) -> None:
+    def __init__(
+        self, actions: Iterable[QAction], recent: list[Path], show: Callable[[Path], object]
+    ) -> None:
         super().__init__()
         icon, title = QLabel(), QLabel("<h1>AMP Studio</h1>")
         icon.setPixmap(program_icon().pixmap(64, 64))

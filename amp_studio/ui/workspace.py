@@ -45,7 +45,9 @@ class _Marks:
 class _Edit(QUndoCommand):
     """One step of the undo stack: a few values replaced together, with the marks that go with them."""
 
-    def __init__(self, workspace: Workspace, text: str, changes: list[Change], before: _Marks, after: _Marks) -> None:
+    def __init__(
+        self, workspace: Workspace, text: str, changes: list[Change], before: _Marks, after: _Marks
+    ) -> None:
         super().__init__(text)
         self._workspace, self._changes, self._before, self._after = workspace, changes, before, after
         self._first = True

@@ -51,7 +51,7 @@ def test_a_file_that_cannot_be_used_is_refused_by_every_verb(
         bad.mkdir()
     elif kind != "missing":
         content = BAD[kind]
-        bad.write_bytes(mill.read_bytes()[:5000] if content is None else content)
+        bad.write_bytes(mill.read_bytes()[:-100] if content is None else content)
     before = folder()
     refused = amp(*VERBS[verb](bad, mill, out))
     assert refused.code == 2

@@ -20,8 +20,10 @@ from amp_studio.schema.load import load_compiled
 
 @pytest.fixture
 def mill() -> ParameterFile:
-    """Return a mill with the linear axes X, Y and Z, its servos chosen."""
+    """Return a mill with the linear axes X, Y and Z, its servos chosen; of the axes it does not have nothing is set."""
     file = new_file("9pc", "mill", ["X", "Y", "Z"], name="bench")
+    for address in [address for address in file.values if address[1] in tuple("45678")]:
+        file.set(address, None)
     for axis in "123":
         file.set(("servo.hardware_type", axis), Value("sercos"))
         file.set(("servo.loop_type", axis), Value("digital"))

@@ -102,7 +102,7 @@ def test_a_new_document_does_not_overwrite(tmp_path: Path, mill: ParameterFile) 
     before = path.read_bytes()
     with pytest.raises(FileExistsError, match=r"new\.amp exists already"):
         Document.create(mill, path)
-    with pytest.raises(FileNotFoundError, match="there is no folder .*nowhere"):
+    with pytest.raises(FileNotFoundError, match=r"there is no folder .*nowhere"):
         Document.create(mill, tmp_path / "nowhere" / "new.amp")
     assert (before, {"new.amp"}) == (path.read_bytes(), {p.name for p in tmp_path.iterdir()})
 

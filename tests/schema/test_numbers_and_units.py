@@ -68,7 +68,7 @@ def test_a_number_is_read_with_comma_or_point(text: str, expected: tuple[float, 
 
 @pytest.mark.parametrize("text", ["1,234", "-1,234", "+999,000", "12,345 mm", "123,456e3"])
 def test_a_comma_that_could_be_either_is_refused_with_both_ways(text: str) -> None:
-    with pytest.raises(ValueFault, match="can be read two ways: write .* or .*"):
+    with pytest.raises(ValueFault, match=r"can be read two ways: write .* or .*"):
         read_number(text)
 
 
@@ -101,7 +101,7 @@ def test_the_two_ways_of_an_ambiguous_number_are_those_a_person_can_write() -> N
         "inf",
         "1,23.4",
         "٣",
-    ],  # fmt: skip
+    ],
 )
 def test_what_is_no_number_is_refused(text: str) -> None:
     with pytest.raises(ValueFault, match="is not a number"):
@@ -115,6 +115,14 @@ def test_a_number_that_no_double_holds_is_refused() -> None:
 
 def test_blanks_between_digits_are_no_number() -> None:
     assert read_number("1 2") == (1.0, "2"), "what follows is told as an unknown unit, not read as 12"
+
+
+def read_or_refused(text: str) -> tuple[float, str] | str:
+    """Return the number and what follows it, or the sentence by which the text is refused."""
+    try:
+        return read_number(text)
+    except ValueFault as refused:
+        return str(refused)
 
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
@@ -134,31 +142,23 @@ def test_a_whole_number_is_written_without_a_point(number: int) -> None:
 @given(finite)
 def test_a_comma_in_place_of_the_point_is_the_same_number_or_refused(number: float) -> None:
     text = write_number(number).replace(".", ",")
-    try:
-        found = read_number(text)
-    except ValueFault as refused:
-        assert "two ways" in str(refused)
-    else:
-        assert (number, "") == found
+    found = read_or_refused(text)
+    assert found == (number, "") or "can be read two ways" in found
 
 
 @given(st.text(max_size=12))
 def test_reading_any_text_gives_a_finite_number_or_one_sentence(text: str) -> None:
-    try:
-        number, _ = read_number(text)
-    except ValueFault as refused:
-        assert "\n" not in str(refused).replace(text.strip(), "")
+    found = read_or_refused(text)
+    if isinstance(found, str):
+        assert len(found.replace(text.strip(), "").splitlines()) == 1
     else:
-        assert math.isfinite(number)
+        assert math.isfinite(found[0])
 
 
 @given(st.text(alphabet="0123456789.,' _eE+-m", max_size=14))
 def test_reading_digits_in_disorder_never_breaks(text: str) -> None:
-    try:
-        number, _ = read_number(text)
-    except ValueFault:
-        return
-    assert math.isfinite(number)
+    found = read_or_refused(text)
+    assert isinstance(found, str) or math.isfinite(found[0])
 
 
 # -- units --------------------------------------------------------------------------------------------
@@ -365,7 +365,7 @@ def test_a_value_keeps_the_unit_it_was_entered_in(ninepc, text: str, expected: V
 def test_a_whole_number_takes_no_fraction(ninepc) -> None:
     parameter = ninepc.parameter("servo.velocity_gear_teeth")
     assert Value(3) == read_value(parameter, "3.0", "") == read_value(parameter, "0x3", "")
-    with pytest.raises(ValueFault, match="takes whole numbers, not 3.5"):
+    with pytest.raises(ValueFault, match=r"takes whole numbers, not 3\.5"):
         read_value(parameter, "3.5", "")
     with pytest.raises(ValueFault, match="too large for Teeth"):
         read_value(parameter, "9007199254740993.0e1", "")

@@ -147,7 +147,7 @@ conditions:
         "3": (("axis.type", "3"),),
     }
     assert expected == readings
-    with pytest.raises(UnknownParameter, match="axis.type has no instance '9'"):
+    with pytest.raises(UnknownParameter, match=r"axis\.type has no instance '9'"):
         here.situation.reading("axis.type@9", "1")
     here.set("axis.type@2", Value("linear"))
     assert here.situation.state(("axis.type", "3")).state == "in-force"

@@ -6,7 +6,8 @@ import hashlib
 import random
 import threading
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
+from typing import Any, ClassVar
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -20,6 +21,7 @@ from amp_studio.transfer import (
     Faults,
     Flags,
     ImageChanged,
+    ImageDamaged,
     ImageRejected,
     LineCut,
     LinkError,
@@ -30,9 +32,10 @@ from amp_studio.transfer import (
     SignatureMismatch,
     TransferError,
     WrongFamily,
+    upload,
 )
-from amp_studio.transfer.frame import encode_frame
-from amp_studio.transfer.message import Ack, Code, Data, Gap, Message, Refused, pack
+from amp_studio.transfer.frame import Frame, encode_frame
+from amp_studio.transfer.message import Ack, Code, Data, Gap, Hello, Message, OpenUpload, Read, Refused, pack
 from amp_studio.transfer.responder import Responder
 
 OLD = b"1 old\n" * 20
@@ -462,6 +465,61 @@ def test_a_control_that_gets_nowhere_is_given_up(
     with pytest.raises(ControlSilent):
         send(made.session())
     assert made.control.image == OLD
+
+
+class Wrong(Responder):
+    """A control that answers otherwise than it should: ``answers`` maps a request to what it says instead."""
+
+    answers: ClassVar[dict[type[Message], Callable[[Any], Message]]] = {}
+
+    def _do(self, request: Message) -> Message:
+        change = self.answers.get(type(request))
+        answer = super()._do(request)
+        return answer if change is None else change(answer)
+
+
+@pytest.mark.parametrize(
+    ("request_type", "change", "kind"),
+    [
+        (Hello, lambda welcome: replace(welcome, version=2), ProtocolMismatch),
+        (Hello, lambda welcome: replace(welcome, chunk=0), ProtocolMismatch),
+        (Hello, lambda welcome: replace(welcome, window=0), ProtocolMismatch),
+        (Hello, lambda welcome: replace(welcome, nonce=b"....", name="late"), ControlSilent),
+        (Hello, lambda _: Refused(Code.VERSION, "the control speaks version 2"), ProtocolMismatch),
+        (OpenUpload, lambda ready: replace(ready, size=1 << 31), ProtocolMismatch),
+        (OpenUpload, lambda ready: replace(ready, sha256=bytes(32)), ImageDamaged),
+        (OpenUpload, lambda _: Refused(99, "out of order today"), ProtocolMismatch),
+        (Read, lambda _: Refused(Code.NO_UPLOAD, "no upload is open"), ProtocolMismatch),
+        (Read, lambda data: replace(data, offset=data.offset + 1), ControlSilent),
+        (Read, lambda _: Ack(0), ControlSilent),
+    ],
+)
+def test_a_control_that_does_not_keep_to_the_protocol_is_not_believed(
+    rig: Callable[..., Any],
+    control: Callable[..., Any],
+    monkeypatch: pytest.MonkeyPatch,
+    request_type: type[Message],
+    change: Callable[[Any], Message],
+    kind: type[TransferError],
+) -> None:
+    monkeypatch.setattr("amp_studio.transfer.null_modem.Responder", Wrong)
+    monkeypatch.setattr(Wrong, "answers", {request_type: change})
+    made = rig(control=control(), bytes_per_second=11_520)
+    with pytest.raises(kind) as caught:
+        upload(made.session())
+    assert caught.value.held == "old"
+    assert made.clock.now < 120
+
+
+def test_messages_of_a_later_version_are_passed_over(
+    rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Talkative(Responder):
+        def receive(self, data: bytes) -> bytes:
+            return encode_frame(Frame(0xE0, 1, b"news")) + super().receive(data)
+
+    monkeypatch.setattr("amp_studio.transfer.null_modem.Responder", Talkative)
+    assert rig(control=control()).session().fetch() == OLD
 
 
 class Busy(Responder):

@@ -117,7 +117,7 @@ SERCOS = {
 
 SPINDLE = {
     "zone.group": "none",
-    "servo.gain_break_point": "180 mm",
+    "zone.overtravel_used": "no",
     "accdec.manual_delay": "5",
     "servo.position_loop_type": "open",
     "axis.integrand_name": "none",
@@ -140,7 +140,7 @@ MILL = (
     ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | {"axis.rollover": "360"}),
     ("U", MOVING | ANALOG | DIGITAL | connected("mod1", "j1", "j1") | SERCOS | {"axis.integrand_name": "i"}),
     ("V", MOVING | ANALOG | connected("tb2", "j10") | {"axis.integrand_name": "j"}),
-    ("S", ANALOG | SPINDLE | connected("tb3", "j11") | {"servo.spindle_type": "s1"}),
+    ("S", MOVING | ANALOG | SPINDLE | connected("tb3", "j11") | {"servo.spindle_type": "s1"}),
 )
 """Four digital servos (a slide on the device of its motor, one without following error, one on a linear scale, a
 table), a drive of another make on the ring, an analog slide and an analog spindle."""
@@ -149,20 +149,24 @@ LATHE = (
     ("X", MOVING | DIGITAL | connected("mod1", "j1", "j1") | {"axis.incremental_name": "u", "axis.integrand_name": "i"}),
     ("Z", MOVING | DIGITAL | connected("mod2", "j2", "j2") | {"axis.incremental_name": "w", "axis.integrand_name": "k"}),
     ("C", MOVING | DIGITAL | connected("mod3", "j3", "j3") | {"axis.incremental_name": "none", "axis.rollover": "360"}),
-    ("S", DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
-    ("S", ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
+    ("S", MOVING | DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
+    ("S", MOVING | ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
 )
 """Two slides, a digital main spindle with its C axis, and an analog spindle for driven tools."""
 
 ROUTER = (
-    *((name, MOVING | ANALOG | connected(f"mod{n}", f"j{n + 8}")) for n, name in enumerate("XYZA", 1)),
-    *((name, MOVING | ANALOG | connected(f"tb{n}", f"j{n + 7}") | {"servo.amplifier_rack": "2"}) for n, name in ((2, "U"), (3, "V"))),
-    ("W", MOVING | ANALOG | connected("mod1", "j11") | SERCOS),
+    ("W", MOVING | ANALOG | connected("mod1", "j9") | SERCOS),
+    ("X", MOVING | ANALOG | connected("mod1", "j9")),
+    ("Y", MOVING | ANALOG | connected("mod2", "j10")),
+    ("Z", MOVING | ANALOG | connected("mod3", "j11")),
+    ("A", MOVING | ANALOG | connected("mod4", "j12") | {"axis.rollover": "360"}),
+    ("U", MOVING | ANALOG | connected("tb2", "j9") | {"servo.amplifier_rack": "3"}),
+    ("V", MOVING | ANALOG | connected("tb3", "j10") | {"servo.amplifier_rack": "3"}),
 )
 """Analog servos and no digital one, and a drive of another make."""
 
 MACHINES = {
-    "mill": ("mill", CONTROL | {"control.mill_type": "standard"}, MILL),
+    "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
     "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
     "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
 }
@@ -241,11 +245,7 @@ class Case:
     breaks: Change | None = None
     times: int = 1
     """How many findings of the rule that gives."""
-    also: tuple[str, ...] = ()
-    """Other rules that it breaks too."""
     holds: Change | None = None
-    beside: tuple[str, ...] = ()
-    """Other rules that are broken where this one holds."""
 
     def __str__(self) -> str:
         return f"{self.rule}-{self.n}"

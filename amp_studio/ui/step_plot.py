@@ -1,0 +1,81 @@
+"""The curves of a step: position, following error, velocity with torque, one above the other."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
+
+from amp_studio.sim import Trace
+
+from .theme import is_dark
+
+_POINTS = 6000
+"""More than a screen is wide; a longer trace is thinned out."""
+_PANELS = (("command_position", "position"), ("following_error",), ("command_velocity", "velocity"))
+
+
+class StepPlot(pg.GraphicsLayoutWidget):
+    """Three plots over one time axis."""
+
+    def __init__(self) -> None:
+        dark = is_dark()
+        pg.setConfigOptions(
+            antialias=True, background="#1e1e1e" if dark else "w", foreground="#ddd" if dark else "k"
+        )
+        super().__init__()
+        self._colours = (
+            ("#62a0ea", "#ffa348", "#57e389", "#dc8add")
+            if dark
+            else ("#1a5fb4", "#c64600", "#208050", "#813d9c")
+        )
+        self.panels = [self.addPlot(row=n, col=0) for n in range(len(_PANELS))]
+        for panel in self.panels:
+            panel.showGrid(x=True, y=True, alpha=0.25)
+            panel.addLegend(offset=(70, 8))
+            panel.getAxis("left").enableAutoSIPrefix(False)
+            panel.getAxis("left").setWidth(64)
+            panel.setXLink(self.panels[0])
+        self.panels[-1].setLabel("bottom", "time", "s")
+
+    def draw(self, trace: Trace) -> None:
+        """Draw a trace in place of the one before."""
+        time = trace.columns["time_s"]
+        step = max(1, len(time) // _POINTS)
+        self.panels[0].setXRange(0.0, float(time[-1]) if len(time) else 1.0, padding=0.02)
+        for panel, names in zip(self.panels, _PANELS, strict=True):
+            panel.clear()
+            unit = next((trace.units[n] for n in names if n in trace.columns), "")
+            panel.setLabel("left", names[0].replace("command_", "").replace("_", " "), unit)
+            for colour, name in zip(self._colours, names, strict=False):
+                if name in trace.columns:
+                    pen = pg.mkPen(colour, width=2)
+                    panel.plot(
+                        time[::step], trace.columns[name][::step], pen=pen, name=name.replace("_", " ")
+                    )
+        self._draw_limits(trace)
+        self._draw_torque(trace, time, step)
+
+    def _draw_limits(self, trace: Trace) -> None:
+        reached = float(np.max(np.abs(trace.columns["following_error"]), initial=0.0))
+        for n, (name, (level, unit)) in enumerate(trace.limits.items()):
+            colour = self._colours[1 + n % 3]
+            if level is not None and level <= 3 * reached:
+                label = f"{name.replace('_', ' ')} {level:.5g} {unit}"
+                options = {"position": 0.3 + 0.22 * n, "color": QColor(colour)}
+                pen = pg.mkPen(colour, style=Qt.PenStyle.DashLine)
+                line = pg.InfiniteLine(level, angle=0, pen=pen, label=label, labelOpts=options)
+                self.panels[1].addItem(line, ignoreBounds=False)
+
+    def _draw_torque(self, trace: Trace, time: np.ndarray, step: int) -> None:
+        """Draw the torque over the velocity, scaled to its height; the legend says what full height is."""
+        torque, velocity = trace.columns.get("torque_percent"), trace.columns.get("velocity")
+        if torque is None or velocity is None or not len(torque):
+            return
+        top = float(np.max(np.abs(velocity), initial=0.0)) or 1.0
+        scale = top / max(float(np.max(np.abs(torque))), 1e-9)
+        name = f"torque (full height {top / scale:.4g} %)"
+        self.panels[2].plot(
+            time[::step], torque[::step] * scale, pen=pg.mkPen(self._colours[2], width=1), name=name
+        )
