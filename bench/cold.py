@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,6 +13,8 @@ from pathlib import Path
 from measure import Measure
 
 BENCH = Path(__file__).resolve().parent
+PATIENCE = 60.0
+"""Seconds after which a desktop program that has painted nothing is ended."""
 PROGRAM = (sys.executable, "-m", "amp_studio.cli")
 
 
@@ -51,11 +54,14 @@ def _until_painted(example: Path, settings: Mapping[str, str]) -> float:
     command = (sys.executable, str(BENCH / "first_paint.py"), str(example))
     begin = time.perf_counter()
     with subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        watchdog = threading.Timer(PATIENCE, process.kill)
+        watchdog.start()
         assert process.stdout is not None
         assert process.stderr is not None
         line = process.stdout.readline()
         elapsed = time.perf_counter() - begin
         said = process.stderr.read()
+        watchdog.cancel()
     if line.strip() != b"painted":
         raise RuntimeError(f"the desktop program was not painted: {said.decode()}")
     return elapsed

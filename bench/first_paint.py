@@ -1,7 +1,7 @@
-"""Start the desktop program on a file, say ``painted`` when its table has been painted once, and end.
+"""Start the desktop program on a file, say ``painted`` when the table of its values has been painted, and end.
 
 The start is that of the program itself (``amp_studio.ui.main``); all that is
-added is an ear for the paint event of the table that shows the file.
+added is an ear for the paint event of the table.
 """
 
 from __future__ import annotations
@@ -34,13 +34,14 @@ class _Ear(QObject):
         application.exit()
 
 
-def _listening(window: MainWindow, path: Path) -> None:
+def _open_and_listen(window: MainWindow, path: Path) -> None:
     _open_first(window, path)
+    assert window.table_view is not None, "the file is open"
     ear = _Ear(window)
     window.table_view.viewport().installEventFilter(ear)
 
 
 if __name__ == "__main__":
     _open_first = MainWindow.open_first
-    MainWindow.open_first = _listening  # type: ignore[method-assign]  # the one thing that is added
+    MainWindow.open_first = _open_and_listen  # type: ignore[method-assign]  # the one thing that is added
     sys.exit(main(sys.argv[1:2]))

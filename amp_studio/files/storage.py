@@ -125,8 +125,10 @@ def _family(path: Path, data: dict[str, Any]) -> Schema:
 
 
 def _header(path: Path, text: str, schema: Schema, data: dict[str, Any]) -> Header:
-    header = Header(**{key: str(data[key]) for key in _HEADER if data.get(key) is not None})
-    header.extra = {k: v for k, v in data.items() if k not in _KNOWN}
+    header = Header(extra={k: v for k, v in data.items() if k not in _KNOWN})
+    for key in _HEADER:
+        if data.get(key) is not None:
+            setattr(header, key, str(data[key]))
     machines, systems = [m.key for m in schema.family.machines], list(schema.family.units)
     for key, said, known in (("machine", header.machine, machines), ("units", header.units, systems)):
         if data.get(key) is not None and known and said not in known:

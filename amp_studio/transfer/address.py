@@ -35,7 +35,7 @@ class Address:
 
 
 def parse_address(text: str) -> Address:
-    """Return the address a person wrote; raises ValueError with one sentence that says what is wrong with it."""
+    """Return the address a person wrote; raises ValueError with one sentence that says what is wrong."""
     text = text.strip()
     if text.startswith("tcp://"):
         return _tcp(text)

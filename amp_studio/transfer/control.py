@@ -41,9 +41,10 @@ CAPACITY = 1 << 20  # bytes
 class Control:
     """One control with its memory in a folder.
 
-    A new folder is born with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not given, at
-    first on. ``accept`` may raise ValueError for an image the control does not take. Raises StateFault when the
-    folder is another control's, damaged or in use. Requests raise Refusal and then have changed nothing.
+    A new folder is born with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not
+    given, at first on. ``accept`` may raise ValueError for an image the control does not take. Raises
+    StateFault when the folder is another control's, damaged or in use. Requests raise Refusal and then have
+    changed nothing.
     """
 
     def __init__(
@@ -119,7 +120,7 @@ class Control:
         self._remember(incarnation=self.incarnation + 1, running=True, restart_needed=False)
 
     def patch(self, change: Callable[[bytes], bytes]) -> None:
-        """Change the image at the control itself; raises Refusal out of E-stop, OSError, and what ``change`` raises."""
+        """Change the image at the control itself; raises Refusal, OSError, and what ``change`` raises."""
         self._need_estop("change its image")
         changed = change(self._active)
         self.memory.replace(ACTIVE, changed)
@@ -159,7 +160,7 @@ class Control:
             self._staging.add(plan, content)
 
     def commit(self, request: Commit) -> Committed:
-        """Put what is staged in the place of the active image, all or nothing; asked again, answer the same again."""
+        """Put what is staged in the place of the active image; asked again, answer the same again."""
         answered = self._record.answer_to(request.transfer, request.sha256)
         if answered is not None:
             return answered
@@ -219,7 +220,7 @@ class Control:
         self._staging.drop()
 
     def _finish(self, intent: dict[str, Any]) -> None:
-        """Write down a commit that has happened; what cannot be written now is made up for at the next start."""
+        """Write down a commit that has happened; what cannot be written now, the next start writes."""
         record = self._record
         record.running, record.restart_needed, record.changed_at_control = False, True, False
         record.committed = intent["answer"]

@@ -24,8 +24,8 @@ class Silence(Exception):
 class Conversation:
     """Sends requests and finds their answers; drops what was damaged and what answers nothing.
 
-    ``look`` is called at least every 0.1 s while waiting and may raise to break off. ``first`` is the first number given;
-    a random one makes answers to an earlier program's requests miss.
+    ``look`` is called at least every 0.1 s while waiting and may raise to break off. ``first`` is the first
+    number given; a random one makes answers to an earlier program's requests miss.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class Conversation:
         return number
 
     def receive(self, timeout: float) -> tuple[int, Message] | None:
-        """Return the next whole message and its number, or None after ``timeout`` seconds; raises LinkError."""
+        """Return the next message and its number, or None after ``timeout`` seconds; raises LinkError."""
         end = self._clock() + timeout
         while True:
             self._look()

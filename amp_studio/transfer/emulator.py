@@ -14,6 +14,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 from .address import Address, parse_address
 from .control import Control
@@ -36,8 +37,8 @@ COMMANDS = "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, qu
 class Emulator:
     """Serves one client at a time until ``quit``.
 
-    ``patch`` gets the image, a key and a value and returns the changed image; it may raise ValueError with what the
-    operator is to read. ``say`` gets what the operator is told, one line at a time.
+    ``patch`` gets the image, a key and a value and returns the changed image; it may raise ValueError with
+    what the operator is to read. ``say`` gets what the operator is told, one line at a time.
     """
 
     def __init__(
@@ -92,9 +93,9 @@ class Emulator:
                 if data:
                     heard = time.monotonic()
                     answers = responder.receive(data)
+                    self._restart_due |= responder.restart_due
                     if answers:
                         link.write(answers)
-                    self._restart_due |= responder.restart_due
                 self._obey()
                 if not data and not self._stays(heard):
                     return
@@ -123,8 +124,7 @@ class Emulator:
             if caller is not None:
                 caller.close()
                 time.sleep(min(left, SLICE))
-        self._control.restart()
-        self._say(f"restarted {self._control.incarnation}")
+        self._tell(self._restarted)
 
     # -- the operator ------------------------------------------------------------------------------
 
@@ -132,12 +132,20 @@ class Emulator:
         while not self._commands.empty():
             line = self._commands.get().strip()
             if line:
-                try:
-                    self._say(self._done(line))
-                except (Refusal, ValueError) as error:
-                    self._say(f"refused: {error}")
-                except OSError as error:
-                    self._say(f"refused: the control cannot write its memory ({error.strerror or error})")
+                self._tell(partial(self._done, line))
+
+    def _tell(self, action: Callable[[], str]) -> None:
+        """Do something and tell the operator how it went."""
+        try:
+            self._say(action())
+        except (Refusal, ValueError) as error:
+            self._say(f"refused: {error}")
+        except OSError as error:
+            self._say(f"refused: the control cannot write its memory ({error.strerror or error})")
+
+    def _restarted(self) -> str:
+        self._control.restart()
+        return f"restarted {self._control.incarnation}"
 
     def _done(self, line: str) -> str:
         """Do a command and return what the operator reads."""
@@ -173,7 +181,8 @@ class Emulator:
         flags = control.flags
         state = {flag.name: "on" if flags & flag else "off" for flag in Flags}
         words = " ".join(f"{str(name).lower().replace('_', '-')}={on}" for name, on in state.items())
-        return f"status {words} incarnation={control.incarnation} size={len(control.image)} sha256={control.sha256.hex()}"
+        image = f"size={len(control.image)} sha256={control.sha256.hex()}"
+        return f"status {words} incarnation={control.incarnation} {image}"
 
 
 def serve(
@@ -188,9 +197,9 @@ def serve(
 ) -> int:
     """Run an emulated control until ``quit`` or an interrupt; return the exit code 0.
 
-    Says ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those of standard
-    input where that is a terminal or a pipe. Raises ValueError for an address that is none, LinkError for one that
-    cannot be listened on.
+    Says ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those of
+    standard input where that is a terminal or a pipe. Raises ValueError for an address that is none,
+    LinkError for one that cannot be listened on.
     """
     tell = say or (lambda line: print(line, flush=True))
     listener = listen(parse_address(address) if isinstance(address, str) else address)

@@ -1,4 +1,4 @@
-"""What can end an exchange early. Every error says in one sentence what happened and what the control holds now."""
+"""What can end an exchange early: every error says in a sentence what happened and what the control holds."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ HELD_TEXT: dict[Held, str] = {
 class TransferError(OSError):
     """An exchange that did not reach its end.
 
-    ``what`` happened; ``held`` is what the control holds now; ``kept`` the place where the image it held before
-    was kept, if it was.
+    ``what`` happened; ``held`` is what the control holds now; ``kept`` the place where the image it held
+    before was kept, if it was.
     """
 
     def __init__(self, what: str, held: Held = "old", kept: str | None = None) -> None:

@@ -30,7 +30,7 @@ class Outcome:
     ``verified``  whether every byte of the new image was read back and is equal
     ``written``   whether the control had to take anything
     ``kept``      where the image it held before is kept; None when nothing was replaced or it held none
-    ``restart``   "not needed"; "done" (the image is current); "needed" (by hand); "missed" (it did not come back)
+    ``restart``   "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
     ``sha256``    of the image, in hexadecimal
     ``text``      all of it in one sentence or two
     """
@@ -46,9 +46,9 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Verification:
-    """Whether a control holds an image; ``first_difference`` is the offset in bytes of the first that differs.
+    """Whether a control holds an image.
 
-    ``held`` is what was read from the control.
+    ``first_difference`` is the offset in bytes of the first that differs; ``held`` is what was read.
     """
 
     same: bool
@@ -84,10 +84,11 @@ def download(
 ) -> Outcome:
     """Put an image into a control, and prove it.
 
-    Fetches what the control holds and hands it to ``keep``, which returns where it has kept it, before anything is
-    replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to ``restart_wait`` seconds for
-    the restart, reads everything back and compares. ``signature`` is the schema's under which the image was made.
-    Raises TransferError, whose ``held`` and ``kept`` say what the control holds and where its old image is.
+    Fetches what the control holds and hands it to ``keep``, which returns where it has kept it, before
+    anything is replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to
+    ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
+    schema's under which the image was made. Raises TransferError, whose ``held`` and ``kept`` say what the
+    control holds and where its old image is.
     """
     digest = hashlib.sha256(image)
     welcome = session.hello(cancel)
@@ -115,7 +116,10 @@ def download(
 
 
 def first_difference(a: bytes, b: bytes) -> int | None:
-    """Return where two images first differ (the length of the shorter where one goes on), None when they are equal."""
+    """Return where two images first differ, None when they are equal.
+
+    Where one goes on and the other ends, that is the length of the shorter.
+    """
     if a == b:
         return None
     pairs = enumerate(zip(a, b, strict=False))
@@ -126,7 +130,8 @@ def _check(welcome: Welcome, signature: str, digest: bytes) -> None:
     """Refuse what can be seen before anything is moved; an image that is there already needs no E-stop."""
     if welcome.signature != signature:
         raise SignatureMismatch(
-            f"the control '{welcome.name}' (revision {welcome.revision}) numbers its parameters by another schema"
+            f"the control '{welcome.name}' (revision {welcome.revision}) numbers its parameters "
+            "by another schema"
         )
     if welcome.sha256 != digest and not welcome.flags & Flags.ESTOP:
         raise NotInEmergencyStop("please place the control in E-stop to download")
@@ -162,13 +167,15 @@ def _prove(
     restart: Literal["done", "needed"] = "needed"
     if committed.restarting:
         if session.wait_restarted(committed.incarnation, restart_wait, progress, cancel) is None:
-            text = f"Download complete, but the control has not come back from its restart within {restart_wait:g} s."
+            text = "Download complete, but the control has not come back from its restart "
+            text += f"within {restart_wait:g} s."
             return Outcome("new", False, True, kept, "missed", digest, text + before)
         restart = "done"
     held = session.fetch(progress, cancel, "verify")
     at = first_difference(image, held)
     if at is not None:
-        text = f"The control took the image, but what it holds differs from byte {at} on; {HELD_TEXT['unknown']}."
+        text = f"The control took the image, but what it holds differs from byte {at} on; "
+        text += f"{HELD_TEXT['unknown']}."
         return Outcome("unknown", False, True, kept, restart, digest, text + before)
     text = "Download complete and read back equal"
     text += (

@@ -26,7 +26,7 @@ class Faults:
     ``lose_every``          lose every so-many-th byte, each way
     ``silent``              take everything, answer nothing
     ``disk_full_at``        a download cannot grow past so many bytes
-    ``die_at_commit_step``  the process is killed just before this step of a commit on the disk, counted from 1
+    ``die_at_commit_step``  the process is killed just before this step of a commit, counted from 1
     """
 
     drop_after_bytes: int | None = None

@@ -38,7 +38,7 @@ class Frame:
 
 
 def encode_frame(frame: Frame) -> bytes:
-    """Return the bytes of a frame with the 00 that ends it; raises ValueError for a payload that is too long."""
+    """Return the bytes of a frame with the 00 that ends it; raises ValueError for too long a payload."""
     if len(frame.payload) > MAX_PAYLOAD:
         raise ValueError(f"a payload of {len(frame.payload)} bytes does not fit a frame ({MAX_PAYLOAD})")
     body = HEAD.pack(frame.type, frame.sequence) + frame.payload

@@ -101,7 +101,8 @@ class Line:
     ) -> Result:
         """Run ``action`` to its end, on as many lines as it takes.
 
-        ``held`` says what the control holds should no line come back. Raises Refusal, LineCut, ControlSilent, ControlBusy.
+        ``held`` says what the control holds should no line come back. Raises Refusal, LineCut, ControlSilent,
+        ControlBusy.
         """
         self._moved_at = self.now()
         pause = PAUSE

@@ -29,8 +29,8 @@ class VirtualClock:
 class NullModem:
     """Lines to one control, one at a time.
 
-    ``bytes_per_second`` is what each way carries (None: any amount at once) and ``latency`` the seconds a byte is on
-    the way. After a commit or a Restart the control is gone for ``restart_seconds``.
+    ``bytes_per_second`` is what each way carries (None: any amount at once) and ``latency`` the seconds a
+    byte is on the way. After a commit or a Restart the control is gone for ``restart_seconds``.
     """
 
     def __init__(

@@ -67,7 +67,7 @@ class Record:
 
 
 def load_record(memory: Memory, identity: Identity) -> Record:
-    """Return the record of a folder, or a new one; raises StateFault when it is another control's or damaged."""
+    """Return a folder's record, or a new one; raises StateFault when it is another control's or damaged."""
     found = load_json(memory, RECORD)
     if found is None:
         return Record(identity.family, identity.signature)

@@ -1,4 +1,4 @@
-"""The control's side of the protocol: bytes of one line in, bytes out. It opens nothing and waits for nothing."""
+"""The control's side of the protocol: bytes of a line in, bytes out; opens nothing and waits for nothing."""
 
 from __future__ import annotations
 
@@ -40,7 +40,8 @@ CHUNK = 512  # bytes a piece
 class Responder:
     """Answers the requests of one line on behalf of a control.
 
-    When ``restart_due`` is set, whoever holds the line hangs up once the answers are out, and restarts the control.
+    When ``restart_due`` is set, whoever holds the line hangs up once the answers are out, and restarts the
+    control.
     """
 
     def __init__(self, control: Control, *, window: int = WINDOW, chunk: int = CHUNK) -> None:

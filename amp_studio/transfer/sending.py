@@ -20,7 +20,7 @@ ABORT_WAIT = 0.5  # seconds
 
 @dataclass(frozen=True)
 class Sent:
-    """An image that a control has committed: what it answered, and how often the line had to be made again."""
+    """An image that a control has committed: what it answered, and how often the line was made again."""
 
     committed: Committed
     reconnections: int
@@ -43,7 +43,7 @@ class Sending:
 
     def run(self, cancel: threading.Event | None) -> Sent:
         """Return what the control answered to the commit; raises TransferError."""
-        self._cancel = cancel
+        self._cancel = self._line.cancel = cancel
         self._line.reconnections = 0
         try:
             return Sent(self._stage_and_commit(), self._line.reconnections)
@@ -64,8 +64,9 @@ class Sending:
             try:
                 return self._line.persist(self._attempt, lambda: self.held)
             except Refusal as refusal:
-                # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a control may
-                # also have begun anew without the client's noticing; then it says how much it has.
+                # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
+                # control may also have begun anew without the client's noticing; then it says how much it
+                # has.
                 if refusal.code == Code.DIGEST:
                     spoilt, self._reached = spoilt + 1, 0
                 elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):
@@ -122,7 +123,7 @@ class Sending:
         return error
 
     def _abort(self) -> None:
-        """Tell the control to throw the staged bytes away; a control that does not hear it keeps them for nothing."""
+        """Have the control throw the staged bytes away; one that does not hear it keeps them for nothing."""
         self._line.cancel = None
         if self.held != "old":
             return

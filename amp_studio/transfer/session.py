@@ -1,4 +1,4 @@
-"""The client's side of an exchange: it survives cut lines and always ends by saying what the control holds."""
+"""The client's side of an exchange: it survives cut lines and ends by saying what the control holds."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class Session:
     """An exchange with one control.
 
     ``open_link`` makes the line, and makes it again when it is cut, for up to ``patience`` seconds without
-    progress. ``family`` is the family the control must be of ("" for any). ``clock`` and ``sleep`` are in seconds.
-    A session belongs to one thread; only a cancel event may be set from another.
+    progress. ``family`` is the family the control must be of ("" for any). ``clock`` and ``sleep`` are in
+    seconds. A session belongs to one thread; only a cancel event may be set from another.
     """
 
     def __init__(
@@ -104,7 +104,7 @@ class Session:
         return self._ask(lambda talk: talk.request(Status(), State))
 
     def restart(self) -> int:
-        """Have the control restart and return the incarnation that ends; raises NotInEmergencyStop and the like."""
+        """Have the control restart and return the incarnation that ends; raises TransferError."""
         incarnation = self.hello().incarnation
         self._ask(lambda talk: talk.request(Restart(incarnation), Restarting))
         self.close()
@@ -157,8 +157,8 @@ class Session:
     ) -> Sent:
         """Have the control replace the image whose SHA-256 is ``expected`` by ``image``, all or nothing.
 
-        Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through. Raises
-        TransferError, whose ``held`` says what the control holds.
+        Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through.
+        Raises TransferError, whose ``held`` says what the control holds.
         """
         return Sending(self._line, image, signature, expected, progress).run(cancel)
 

@@ -1,4 +1,4 @@
-"""The download an emulated control has begun to take: collected in a file of its own, so that it can be resumed."""
+"""The download an emulated control has begun to take, in a file of its own, so that it can be resumed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PREFIX = "staged-"
 
 @dataclass(frozen=True)
 class Plan:
-    """What a download is to become: ``size`` bytes with this digest, in the place of the image ``expected``."""
+    """What a download is to become: ``size`` bytes with this digest, in the place of ``expected``."""
 
     transfer: bytes
     size: int

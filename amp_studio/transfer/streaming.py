@@ -59,7 +59,8 @@ def push(talk: Conversation, image: bytes, offset: int, chunk: int, limit: int, 
 
 
 def pull(talk: Conversation, size: int, chunk: int, limit: int, pieces: dict[int, bytes], done: Done) -> None:
-    """Read the ``size`` bytes of an opened upload into ``pieces`` (offset to bytes); what is there is not read again.
+    """Read the ``size`` bytes of an opened upload into ``pieces`` (offset to bytes); what is there is not
+    read again.
 
     ``done`` is told how many bytes are there. Raises Refusal, Silence, LinkError.
     """
@@ -93,7 +94,7 @@ def _run(
     send: Callable[[int, int], int],
     answer: Callable[[int, Message], bool],
 ) -> None:
-    """Keep the window full until every piece has arrived; ``answer`` says whether a message was a step forward."""
+    """Keep the window full until every piece has arrived; ``answer`` says whether it was a step forward."""
     missed = useless = 0
     while not window.is_done:
         while (piece := window.next_piece()) is not None:

@@ -29,7 +29,9 @@ class DifferenceList(QTreeWidget):
 
     def __init__(self, workspace: Workspace, found: Comparison, other: str, tick: bool) -> None:
         super().__init__()
-        self.setHeaderLabels(["Parameter", "Axis", "Difference", "This file", other[:1].upper() + other[1:]])
+        self.setHeaderLabels(
+            ["Parameter", "Axis", "Difference", "This file", other.replace("the control", "The control")]
+        )
         self.setRootIsDecorated(False)
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)

@@ -76,7 +76,7 @@ class EditActions:
         try:
             value = workspace.read(address, text)
         except ValueFault as error:
-            tell(self.window, name, f"{error}.\n\nNothing was changed.")
+            tell(self.window, "Not taken", f"{name}: {error}.\n\nNothing was changed.")
             return False
         try:
             workspace.edit(name, {address: value})

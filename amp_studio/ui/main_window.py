@@ -8,7 +8,7 @@ from typing import Literal
 
 from PySide6.QtCore import QByteArray, QSettings, Qt
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QStyle, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMessageBox, QStyle, QVBoxLayout, QWidget
 
 from amp_studio.files import ChangedOnDisk, describe
 from amp_studio.schema import Address, Parameter
@@ -49,7 +49,9 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.setWindowIcon(program_icon())
         room = self.screen().availableSize()
-        self.resize(min(1360, room.width()), min(850, room.height() - 40))  # the frame needs its place as well
+        self.resize(
+            min(1360, room.width()), min(850, room.height() - 40)
+        )  # the frame needs its place as well
         self.workspace: Workspace | None = None
         self.table: ParameterTable | None = None
         self.table_view: ValueTable | None = None
@@ -139,7 +141,7 @@ class MainWindow(QMainWindow):
         from amp_studio import __version__
 
         tell(self, "About AMP Studio", f"AMP Studio {__version__}\n\nThe numbered parameters of machine controls: "
-             "edited, checked, printed, exchanged, and seen in motion before iron moves.")  # fmt: skip
+             "edited, checked, printed, exchanged, and seen in motion before iron moves.", QMessageBox.Icon.Information)  # fmt: skip
 
     def palette_of_commands(self) -> None:
         """Open the command palette and run what is chosen in it."""

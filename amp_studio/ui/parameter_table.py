@@ -38,6 +38,9 @@ class ParameterTable(QAbstractTableModel):
         """Show also what does not exist for this configuration."""
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
+        self._cells: list[list[Address | None]] = []
+        self._machine = ""
+        self._layouts: dict[str, list[tuple[Address, Column]]] = {}
         self._worst: dict[Address, str] = {}
         self._bold, self._italic, self._both = (
             _font(*kind) for kind in ((True, False), (False, True), (True, True))
@@ -53,22 +56,39 @@ class ParameterTable(QAbstractTableModel):
         self.asked = parameters
         self.columns = self._columns()
         self.rows = self._rows(self.columns)
+        at = {column: n for n, column in enumerate(self.columns)}
+        self._cells = []
+        for parameter in self.rows:
+            cells: list[Address | None] = [None] * len(self.columns)
+            for address, column in self._layout(parameter):
+                if column in at:
+                    cells[at[column]] = address
+            self._cells.append(cells)
         self.endResetModel()
 
     def show_again(self) -> None:
         """Show the same parameters anew, after an option changed."""
         self.show_parameters(self.asked)
 
-    def _column(self, address: Address) -> Column:
-        """Return the column of an address: instance 1 of an axis and instance 1 of a process are two columns."""
-        return (self.workspace.file.situation.scope(address) or "", address[1]) if address[1] else ("", "")
-
-    def _instances(self, parameter: Parameter) -> tuple[str, ...]:
-        return self.workspace.file.schema.instances(parameter, self.workspace.file.machine)
+    def _layout(self, parameter: Parameter) -> list[tuple[Address, Column]]:
+        """Return the addresses of a parameter with their columns, as this machine type has them."""
+        schema, machine = self.workspace.file.schema, self.workspace.file.machine
+        if machine != self._machine:
+            self._machine, self._layouts = machine, {}
+        found = self._layouts.get(parameter.id)
+        if found is None:
+            layout = schema.layout(parameter, machine)
+            scope = layout.scope if layout else ""
+            found = [
+                ((parameter.id, i), (scope, i) if i else ("", ""))
+                for i in schema.instances(parameter, machine)
+            ]
+            self._layouts[parameter.id] = found
+        return found
 
     def _columns(self) -> list[Column]:
         file = self.workspace.file
-        needed = dict.fromkeys(self._column((p.id, i)) for p in self.asked for i in self._instances(p))
+        needed = dict.fromkeys(column for p in self.asked for _, column in self._layout(p))
         if not self.all_axes and file.schema.family.axes is not None:
             fitted = set(fitted_axes(file))
             needed = {c: None for c in needed if c[0] != "axis" or c[1] in fitted}
@@ -77,32 +97,27 @@ class ParameterTable(QAbstractTableModel):
 
     def _rows(self, columns: list[Column]) -> list[Parameter]:
         """Return the rows that have at least one value that exists for this configuration."""
-        known = [p for p in self.asked if self._instances(p)]
-        shown = known if self.hidden_too else [p for p in known if self._is_shown(p, columns)]
+        known = [p for p in self.asked if self._layout(p)]
+        if self.hidden_too:
+            shown = known
+        else:
+            here = set(columns)
+            shown = [p for p in known if any(c in here and self._exists(a) for a, c in self._layout(p))]
         self.hidden_rows = len(known) - len(shown)
         return shown
-
-    def _is_shown(self, parameter: Parameter, columns: list[Column]) -> bool:
-        addresses = [(parameter.id, i) for i in self._instances(parameter)]
-        return any(self._column(a) in columns and self._exists(a) for a in addresses)
 
     def _exists(self, address: Address) -> bool:
         return self.workspace.file.situation.state(address).state != "hidden"
 
     def address_at(self, row: int, column: int) -> Address | None:
         """Return the address a cell shows; None where the parameter has no such instance."""
-        parameter, (_, instance) = self.rows[row], self.columns[column]
-        address = (parameter.id, instance)
-        fits = instance in self._instances(parameter) and self._column(address) == self.columns[column]
-        return address if fits else None
+        return self._cells[row][column]
 
     def index_of(self, address: Address) -> QModelIndex:
         """Return the cell of an address, invalid when it is not shown."""
-        column = self._column(address)
-        if column in self.columns:
-            for row, parameter in enumerate(self.rows):
-                if parameter.id == address[0] and self.address_at(row, self.columns.index(column)) == address:
-                    return self.index(row, self.columns.index(column))
+        for row, parameter in enumerate(self.rows):
+            if parameter.id == address[0] and address in self._cells[row]:
+                return self.index(row, self._cells[row].index(address))
         return QModelIndex()
 
     def first_of(self, row: int) -> QModelIndex:

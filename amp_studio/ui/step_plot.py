@@ -31,9 +31,10 @@ class StepPlot(pg.GraphicsLayoutWidget):
             else ("#1a5fb4", "#c64600", "#208050", "#813d9c")
         )
         self.panels = [self.addPlot(row=n, col=0) for n in range(len(_PANELS))]
-        for panel in self.panels:
+        for panel, legend in zip(self.panels, ((-8, -8), None, (-8, 8)), strict=True):  # where no curve is
             panel.showGrid(x=True, y=True, alpha=0.25)
-            panel.addLegend(offset=(70, 8))
+            if legend:
+                panel.addLegend(offset=legend)
             panel.getAxis("left").enableAutoSIPrefix(False)
             panel.getAxis("left").setWidth(64)
             panel.setXLink(self.panels[0])
@@ -58,15 +59,32 @@ class StepPlot(pg.GraphicsLayoutWidget):
         self._draw_torque(trace, time, step)
 
     def _draw_limits(self, trace: Trace) -> None:
+        """Draw the levels that the following error comes near; levels that would lie on each other share a line."""
         reached = float(np.max(np.abs(trace.columns["following_error"]), initial=0.0))
-        for n, (name, (level, unit)) in enumerate(trace.limits.items()):
+        near = [
+            (v, f"{n.replace('_', ' ')} {v:.5g} {u}")
+            for n, (v, u) in trace.limits.items()
+            if v is not None and v <= 3 * reached
+        ]
+        lines: list[tuple[float, list[str]]] = []
+        for level, text in sorted(near):
+            if lines and level - lines[-1][0] < 0.05 * reached:
+                lines[-1][1].append(text)
+            else:
+                lines.append((level, [text]))
+        for n, (level, texts) in enumerate(lines):
             colour = self._colours[1 + n % 3]
-            if level is not None and level <= 3 * reached:
-                label = f"{name.replace('_', ' ')} {level:.5g} {unit}"
-                options = {"position": 0.3 + 0.22 * n, "color": QColor(colour)}
-                pen = pg.mkPen(colour, style=Qt.PenStyle.DashLine)
-                line = pg.InfiniteLine(level, angle=0, pen=pen, label=label, labelOpts=options)
-                self.panels[1].addItem(line, ignoreBounds=False)
+            options = {"position": 0.98, "color": QColor(colour), "anchors": [(1.0, 1.0), (1.0, 1.0)]}
+            pen = pg.mkPen(colour, style=Qt.PenStyle.DashLine)
+            self.panels[1].addItem(
+                pg.InfiniteLine(level, angle=0, pen=pen, label=", ".join(texts), labelOpts=options)
+            )
+        error = trace.columns["following_error"]
+        top = max([float(np.max(error, initial=0.0)), *(level for level, _ in lines)])
+        bottom = min(0.0, float(np.min(error, initial=0.0)))
+        self.panels[1].setYRange(
+            bottom, top + 0.14 * (top - bottom or 1.0), padding=0.03
+        )  # room for the highest line's text
 
     def _draw_torque(self, trace: Trace, time: np.ndarray, step: int) -> None:
         """Draw the torque over the velocity, scaled to its height; the legend says what full height is."""

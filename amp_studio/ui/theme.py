@@ -42,8 +42,23 @@ def state_colour() -> QColor:
 
 
 def standard_icon(icon: QStyle.StandardPixmap) -> QIcon:
-    """Return one of the style's own icons."""
-    return QApplication.style().standardIcon(icon)
+    """Return one of the style's own icons; a black one is drawn in the text colour on a dark desktop."""
+    found = QApplication.style().standardIcon(icon)
+    return _in_ink(found) if is_dark() else found
+
+
+def _in_ink(icon: QIcon) -> QIcon:
+    picture = icon.pixmap(32, 32)
+    image = picture.toImage()
+    spots = [image.pixelColor(x, y) for x in range(0, image.width(), 2) for y in range(0, image.height(), 2)]
+    solid = [spot for spot in spots if spot.alpha() > 128]
+    if not solid or sum(spot.lightness() for spot in solid) / len(solid) > 70:
+        return icon
+    painter = QPainter(picture)
+    painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_SourceIn)
+    painter.fillRect(picture.rect(), QGuiApplication.palette().color(QPalette.ColorRole.WindowText))
+    painter.end()
+    return QIcon(picture)
 
 
 def program_icon() -> QIcon:

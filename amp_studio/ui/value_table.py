@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import QModelIndex, Qt, Signal
-from PySide6.QtGui import QAction, QFontMetrics, QKeyEvent
+from PySide6.QtGui import QAction, QFontMetrics, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
 from amp_studio.schema import Address
@@ -14,7 +14,9 @@ from .parameter_table import AddressRole, ParameterTable
 from .value_delegate import ValueDelegate
 
 _NAMES = 256
-_NARROWEST, _WIDEST = 92, 140
+_NARROWEST, _WIDEST = 92, 240
+_CHOICES = (200, 160, 118)
+"""Widths that long choices may take, by the room there is."""
 
 
 class ValueTable(QTableView):
@@ -32,6 +34,7 @@ class ValueTable(QTableView):
     ) -> None:
         super().__init__(parent)
         self._table = model
+        self._is_fitting = self._is_dragged = False
         self.last: Address | None = None
         self.setModel(model)
         self.setItemDelegate(ValueDelegate(model.workspace, commit, self))
@@ -51,6 +54,7 @@ class ValueTable(QTableView):
         names.sectionClicked.connect(self._select_row)
         heads.setHighlightSections(True)
         heads.setMinimumSectionSize(48)
+        heads.sectionResized.connect(self._note_drag)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.addActions(list(actions))
         self.selectionModel().currentChanged.connect(self._tell)
@@ -72,6 +76,7 @@ class ValueTable(QTableView):
         self.setCurrentIndex(here if here.data(AddressRole) else self._table.first_of(row))
 
     def _after_reset(self) -> None:
+        self._is_dragged = False
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
         if not index.isValid():
@@ -82,18 +87,44 @@ class ValueTable(QTableView):
         self.setCurrentIndex(index)
 
     def _fit_columns(self) -> None:
-        """Make each column as wide as its values, within bounds; asks the model for texts only."""
+        """Make each column as wide as its values and its head need; where they do not all fit, long choices are cut off."""
+        if self._is_dragged:
+            return
+        self._is_fitting = True
+        wanted = [self._wanted(column) for column in range(len(self._table.columns))]
+        widths = [max(pair) for pair in wanted]
+        for most in _CHOICES:
+            if sum(widths) <= self.viewport().width():
+                break
+            widths = [max(figures, min(most, choices)) for figures, choices in wanted]
+        for column, width in enumerate(widths):
+            self.setColumnWidth(column, width)
+        self._is_fitting = False
+
+    def _wanted(self, column: int) -> tuple[int, int]:
+        """Return the widths that the figures with the head, and the choices of a column need."""
         table, texts = self._table, QFontMetrics(self.font())
-        heads = QFontMetrics(self.horizontalHeader().font())
-        for column, what in enumerate(table.columns):
-            cells = (table.address_at(row, column) for row in range(len(table.rows)))
-            widest = max(
-                (texts.horizontalAdvance(t) for t in {table.shown_value(a) for a in cells if a}), default=0
-            )
-            wanted = max(
-                int(1.08 * widest) + 18, heads.horizontalAdvance(table.column_title(what)) + 24
-            )  # bold is wider
-            self.setColumnWidth(column, max(_NARROWEST, min(_WIDEST, wanted)))
+        head = QFontMetrics(self.horizontalHeader().font()).horizontalAdvance(
+            table.column_title(table.columns[column])
+        )
+        shown: dict[bool, set[str]] = {False: set(), True: set()}
+        for row, parameter in enumerate(table.rows):
+            address = table.address_at(row, column)
+            if address is not None:
+                shown[bool(parameter.choices)].add(table.shown_value(address))
+        figures, choices = (max((1.1 * texts.horizontalAdvance(t) + 14 for t in shown[kind]), default=0.0)
+                            for kind in (False, True))  # fmt: skip
+        return round(max(_NARROWEST, 1.1 * head + 24, min(_WIDEST, figures))), round(
+            min(_WIDEST, choices)
+        )  # bold is wider
+
+    def _note_drag(self, *_: object) -> None:
+        """Leave the widths alone once a person has set one, until another list is shown."""
+        self._is_dragged = self._is_dragged or not self._is_fitting
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit_columns()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter edits the cell, as F2 and typing do."""

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from operator import is_
 from typing import Any
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, canonical_unit, convert, fault, show_value, shown, write_number
+from amp_studio.schema import (
+    Address,
+    Value,
+    canonical_unit,
+    canonical_value,
+    convert,
+    fault,
+    show_value,
+    shown,
+    write_number,
+)
 from amp_studio.schema.cel_engine import Context, Program
 from amp_studio.schema.situation import Canonical
 from amp_studio.schema.units import angular
@@ -144,18 +155,41 @@ class RuleChecks:
         return f"{write_number(float(f'{found:.7g}'))} {shown(unit)}".rstrip()
 
     def _repairs(self, check: RuleCheck, context: Context) -> tuple[Repair, ...]:
-        """Return what the rule would change; nothing at all if a part of it cannot be had."""
+        """Return what the rule would change; nothing if a part of it is not allowed, or if it would not help."""
         repairs = []
         for name, expression in check.expressions.fixes:
             address = check.address_of(name)
             value = self._mended(address, expression, context)
-            if value is None or fault(self._file.situation, address, value):
+            if value is None or value == self._file.values.get(address):
+                continue
+            if fault(self._file.situation, address, value):
                 return ()
-            if value != self._file.values.get(address):
-                repairs.append(Repair(address, value))
-        return tuple(repairs)
+            repairs.append(Repair(address, value))
+        return tuple(repairs) if repairs and self._mends(check, context, repairs) else ()
+
+    def _mends(self, check: RuleCheck, context: Context, repairs: list[Repair]) -> bool:
+        """Tell whether the rule holds with its own repairs, which were rounded as the parameter wants it."""
+        mended = {repair.address: canonical_value(repair.value) for repair in repairs}
+        given = iter(self._contexts[check.place][1])
+        before: dict[str, Any] = {}
+        after: dict[str, Any] = {}
+        for single, found in zip(check.singles, given):
+            if single.address in mended:
+                before[single.name], after[single.name] = found, mended[single.address]
+        for (name, addresses), found in zip(check.lists, given):
+            if not mended.keys().isdisjoint(addresses):
+                before[name] = found
+                after[name] = [mended.get(a, value) for a, value in zip(addresses, found, strict=True)]
+        context.update(after)
+        try:
+            return check.expressions.broken.execute(context) is not True
+        except EVALUATION_FAULTS:
+            return False
+        finally:
+            context.update(before)
 
     def _mended(self, address: Address, expression: Program, context: Context) -> Value | None:
+        """Return a part of a repair in the unit of the value it replaces; None where there is none."""
         parameter = self._file.schema.parameters[address[0]]
         try:
             found = expression.execute(context)
@@ -163,6 +197,8 @@ class RuleChecks:
             return None
         if isinstance(found, (bool, str)):
             return Value(found)
+        if not isinstance(found, (int, float)) or not math.isfinite(found):
+            return None
         old = self._file.values.get(address)
         unit = old.unit if old else self._file.situation.unit(address, self._file.header.units)
         number = float(f"{convert(float(found), canonical_unit(unit), unit):.12g}")

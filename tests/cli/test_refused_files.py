@@ -27,9 +27,13 @@ VERBS = {
 """Every verb that reads a file, with the bad file in each place it can stand."""
 
 HEAD = b"amp_studio: 1\nfamily: 9pc\n"
+GOOD = (
+    HEAD
+    + b"values:\n  control.type: Mill\n  axis.type@1: linear\n  axis.name@1: X\n  home.calibration@1: 0 mm\n...\n"
+)
 BAD = {
     "empty": b"",
-    "truncated": None,
+    "truncated": GOOD[:-12],
     "no end mark": HEAD + b"values:\n  axis.type@1: linear\n",
     "duplicate": HEAD + b"values:\n  axis.type@1: linear\n  axis.type@1: rotary\n...\n",
     "newer": b"amp_studio: 9\nfamily: 9pc\n...\n",
@@ -44,19 +48,24 @@ BAD = {
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("kind", [*BAD, "missing", "folder"])
 def test_a_file_that_cannot_be_used_is_refused_by_every_verb(
-    amp, mill: Path, tmp_path: Path, folder, verb: str, kind: str
+    amp, tmp_path: Path, folder, verb: str, kind: str
 ) -> None:
-    bad, out = tmp_path / "bad.amp", tmp_path / "out.amp"
+    bad, good, out = tmp_path / "bad.amp", tmp_path / "good.amp", tmp_path / "out.amp"
+    good.write_bytes(GOOD)
     if kind == "folder":
         bad.mkdir()
     elif kind != "missing":
-        content = BAD[kind]
-        bad.write_bytes(mill.read_bytes()[:-100] if content is None else content)
+        bad.write_bytes(BAD[kind])
     before = folder()
-    refused = amp(*VERBS[verb](bad, mill, out))
+    refused = amp(*VERBS[verb](bad, good, out))
     assert refused.code == 2
     assert str(bad) in refused.err
     assert before == folder()
+
+
+def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
+    (tmp_path / "good.amp").write_bytes(GOOD)
+    assert amp("get", tmp_path / "good.amp", "1300", "--json").json["values"][0]["value"] == 0
 
 
 @pytest.mark.parametrize(
@@ -71,7 +80,7 @@ def test_a_file_that_cannot_be_used_is_refused_by_every_verb(
     ],
 )
 def test_the_line_says_what_is_wrong_and_where(amp, tmp_path: Path, kind: str, said: str) -> None:
-    (tmp_path / "bad.amp").write_bytes(BAD[kind] or b"")
+    (tmp_path / "bad.amp").write_bytes(BAD[kind])
     assert said in amp("get", tmp_path / "bad.amp").err
 
 

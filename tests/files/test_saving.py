@@ -81,6 +81,20 @@ def test_a_link_stays_a_link_to_the_file_that_is_saved(old: Path) -> None:
     assert (link.is_symlink(), old.read_bytes(), backup_path(old).read_bytes()) == (True, NEW, OLD)
 
 
+def test_who_is_reading_the_old_file_reads_it_to_its_end(old: Path) -> None:
+    """The new file takes the name of the old one; not a byte of the old one is written over."""
+    with old.open("rb") as reader:
+        write_atomic(old, NEW, digest_of(old))
+        assert (reader.read(), old.read_bytes()) == (OLD, NEW)
+
+
+def test_the_content_is_on_the_disk_before_the_name_is_and_the_name_at_the_end(tmp_path: Path, disk) -> None:
+    disk.fail(999, for_ever=False)
+    write_atomic(tmp_path / "new.amp", NEW, None)
+    steps = [name for name in disk.made if name in ("fsync", "replace")]
+    assert steps == ["fsync", "replace", "fsync"]
+
+
 # -- somebody else's changes ---------------------------------------------------------------------------------
 
 

@@ -76,7 +76,7 @@ class Rig:
 
 @pytest.fixture
 def rig(new_control: Callable[..., Control]) -> Callable[..., Rig]:
-    """Give a function that connects a session and a control; small pieces, so that little images have many."""
+    """Give a function that connects a session and a control; little images have many pieces."""
 
     def make(
         faults: Faults | None = None,

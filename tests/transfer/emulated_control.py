@@ -1,6 +1,7 @@
-"""An emulated control for the tests, in a process of its own: ``emulated_control.py ADDRESS FOLDER [OPTIONS]``.
+"""An emulated control in a process of its own: ``emulated_control.py ADDRESS FOLDER [OPTIONS]``.
 
-OPTIONS is a JSON object: ``initial`` (text), ``signature``, ``estop``, ``autostart``, ``faults`` and ``restart_seconds``.
+OPTIONS is a JSON object: ``initial`` (text), ``signature``, ``estop``, ``autostart``, ``faults`` and
+``restart_seconds``.
 """
 
 from __future__ import annotations

@@ -183,6 +183,19 @@ def test_only_one_download_is_kept_and_an_abort_ends_it(make: Callable[..., Cont
     assert caught.value.code == Code.ALREADY_COMMITTED
 
 
+def test_what_belongs_to_no_download_is_removed_at_the_start(
+    make: Callable[..., Control], tmp_path: Path
+) -> None:
+    control = make(tmp_path)
+    control.open_download(opening())
+    control.close()
+    (tmp_path / "staged-00.part").write_bytes(b"left over")
+    (tmp_path / "active.img.tmp").write_bytes(b"left over")
+    control = make(tmp_path)
+    note, part = f"staged-{TRANSFER.hex()}.json", f"staged-{TRANSFER.hex()}.part"
+    assert control.memory.names() == ["active.img", "control.json", "control.lock", note, part]
+
+
 def test_a_folder_belongs_to_one_control(make: Callable[..., Control], tmp_path: Path) -> None:
     control = make(tmp_path)
     with pytest.raises(StateFault, match="another emulated control works"):

@@ -1,4 +1,4 @@
-"""Emulated controls in processes of their own, over sockets and pseudo terminals: cut off, killed, full, silent."""
+"""Emulated controls in processes of their own, over real lines: cut off, killed, full, silent."""
 
 from __future__ import annotations
 
@@ -203,7 +203,8 @@ def test_the_operator_patches_the_image_and_asks_for_the_state(
     assert emulated.command("estop off") == "estop off"
     assert "E-stop" in emulated.command("patch 11=6")
     assert emulated.command("jump") == (
-        "refused: 'jump' is no command: estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
+        "refused: 'jump' is no command: "
+        "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
     )
     said = emulated.command("status")
     digest = hashlib.sha256(b"1 0\n11 5\n").hexdigest()

@@ -1,4 +1,4 @@
-"""The page that specifies the protocol is true: its tables, its bytes, and that it is enough to write the other end."""
+"""The page that specifies the protocol is true, and enough to write the other end from."""
 
 from __future__ import annotations
 
@@ -191,7 +191,7 @@ def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
 
 
 class PageClient:
-    """A client written from the page, sharing no code with the program: stop and wait, one piece at a time."""
+    """A client written from the page, sharing no code with the program: one piece at a time."""
 
     def __init__(self, host: str, port: int) -> None:
         self.socket = socket.create_connection((host, port), timeout=5)

@@ -1,4 +1,4 @@
-"""The control's answers, request by request, to clients that keep to the protocol and to those that do not."""
+"""The control's answers, request by request, to clients that keep to the protocol and others."""
 
 from __future__ import annotations
 
@@ -117,6 +117,9 @@ def test_what_belongs_to_no_download_or_upload_is_refused(responder: Responder) 
     assert refusal(responder, other) == Code.MALFORMED, "one id, two images"
     ask(responder, Hello(1, bytes(4), ""))
     assert refusal(responder, piece(0)) == Code.UNKNOWN_TRANSFER, "a Hello begins anew"
+    ask(responder, OpenUpload())
+    ask(responder, Hello(1, bytes(4), ""))
+    assert refusal(responder, Read(0, 1)) == Code.NO_UPLOAD
 
 
 def test_an_upload_is_of_one_image_whatever_happens_meanwhile(responder: Responder) -> None:

@@ -54,7 +54,7 @@ def _other(literal: str) -> tuple[str, ...]:
     """Return what to put in the place of a choice or a number."""
     if literal.startswith("'"):
         return ("'other'",)
-    return (repr(float(literal) * 1.001 + 0.001) if "." in literal else str(int(literal) + 1),)
+    return (repr(float(literal) + 1) if "." in literal else str(int(literal) + 1),)
 
 
 def count(file: ParameterFile, rule: Rule) -> int:
