@@ -33,8 +33,8 @@ format: setup ## put the code into the one format and mend what ruff can mend
 	@$(BIN)/ruff format
 	@$(BIN)/ruff check --fix
 
-bench: setup ## measure (results on standard output)
-	@for file in bench/bench_*.py; do echo "== $$file"; $(BIN)/python "$$file" || exit 1; done
+bench: setup ## measure, and print one table
+	@$(BIN)/python bench/run.py
 
 wheel: setup ## build dist/*.whl and the source archive, without the network
 	@$(BIN)/python -m build --no-isolation --outdir dist

@@ -80,12 +80,14 @@ def _print_json(data: Any) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="amp-studio", description="Edit, check, print and exchange the parameters of a machine control.")
+    parser = _Parser(
+        prog="amp-studio", description="Edit, check, print and exchange the parameters of a machine control."
+    )
     parser.add_argument("--version", action="version", version=f"amp-studio {__version__}")
     verbs = parser.add_subparsers(metavar="VERB", required=True, parser_class=_Parser)
 
-    def verb(name: str, act: Any, help: str) -> argparse.ArgumentParser:
-        sub = verbs.add_parser(name, help=help, description=help)
+    def verb(name: str, act: Any, told: str) -> argparse.ArgumentParser:
+        sub = verbs.add_parser(name, help=told, description=told)
         sub.set_defaults(act=act)
         return sub
 
@@ -101,7 +103,9 @@ def _parser() -> argparse.ArgumentParser:
     sub = verb("show", _show, "one parameter as a person reads it")
     sub.add_argument("family")
     sub.add_argument("param")
-    sub.add_argument("--machine", help="machine type, where a number means another parameter on another machine")
+    sub.add_argument(
+        "--machine", help="machine type, where a number means another parameter on another machine"
+    )
     sub = verb("new", _new, "a new parameter file with the family's defaults")
     sub.add_argument("family")
     sub.add_argument("path", type=Path)
@@ -139,11 +143,15 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("--state", type=Path, metavar="DIR", help="where the control keeps its memory")
     sub.add_argument("--machine", help="machine type of the file it is born with")
     sub.add_argument("--no-estop", action="store_true", help="start out of E-stop")
-    sub.add_argument("--manual-restart", action="store_true", help="do not restart by itself after a download")
+    sub.add_argument(
+        "--manual-restart", action="store_true", help="do not restart by itself after a download"
+    )
     sub = verb("download", _download, "send a file to a control, read it back and compare")
     sub.add_argument("path", type=Path)
     sub.add_argument("--to", required=True, metavar="ADDRESS")
-    sub.add_argument("--keep", type=Path, metavar="DIR", help="where to keep what the control held (beside the file)")
+    sub.add_argument(
+        "--keep", type=Path, metavar="DIR", help="where to keep what the control held (beside the file)"
+    )
     sub = verb("upload", _upload, "fetch the control's file under a new name")
     sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
     sub.add_argument("-o", "--output", type=Path, required=True)
@@ -160,8 +168,14 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("--set", action="append", default=[], metavar="PARAM=VALUE", dest="assignments")
     sub.add_argument("-o", "--output", type=Path)
     json_option(sub)
-    sub = verb("demo", _demo, "the whole job on the example machine: in the desktop program, or here without a display")
-    sub.add_argument("--terminal", action="store_true", help="stay in the terminal even where there is a display")
+    sub = verb(
+        "demo",
+        _demo,
+        "the whole job on the example machine: in the desktop program, or here without a display",
+    )
+    sub.add_argument(
+        "--terminal", action="store_true", help="stay in the terminal even where there is a display"
+    )
     return parser
 
 
@@ -184,7 +198,14 @@ def _families(options: argparse.Namespace) -> int:
     for family_id in family_ids():
         schema = _family(family_id)
         values = max(len(schema.addresses(m.key)) for m in schema.family.machines)
-        rows.append({"id": family_id, "name": schema.family.name, "parameters": len(schema.parameters), "values": values})
+        rows.append(
+            {
+                "id": family_id,
+                "name": schema.family.name,
+                "parameters": len(schema.parameters),
+                "values": values,
+            }
+        )
     if options.json:
         _print_json({"families": rows})
     else:
@@ -327,7 +348,11 @@ def _get(options: argparse.Namespace) -> int:
         plain = None if value is None else value.value
         if isinstance(plain, (str, bool)):
             plain = write_value(parameter, value)
-        raw = None if value is None else stored_number(file.schema, parameter, value, file.situation.turns(address))
+        raw = (
+            None
+            if value is None
+            else stored_number(parameter, value, file.situation.turns(address))
+        )
         rows.append({
             "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
             "value": plain, "unit": value.unit if value else file.situation.unit(address, file.header.units), "raw": raw,
@@ -337,15 +362,17 @@ def _get(options: argparse.Namespace) -> int:
         if not options.json:
             mark = "" if rows[-1]["default"] else " *"
             state = "" if rows[-1]["state"] == "in-force" else f"  ({rows[-1]['state']})"
-            print(f"{file.schema.label(address, file.machine):52} {show_value(parameter, value)}{mark}{state}")
+            print(
+                f"{file.schema.label(address, file.machine):52} {show_value(parameter, value)}{mark}{state}"
+            )
     if options.json:
         _print_json({"values": rows})
     return 0
 
 
 def _validate(options: argparse.Namespace) -> int:
-    from amp_studio.report import finding_json, finding_text
     from amp_studio.files import open_file
+    from amp_studio.report import finding_json, finding_text
     from amp_studio.schema import read_rules
     from amp_studio.validate import Validator
 
@@ -361,7 +388,9 @@ def _validate(options: argparse.Namespace) -> int:
         if not options.json:
             for finding in findings:
                 print(finding_text(file, finding))
-            print(f"{path}: {counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice")
+            print(
+                f"{path}: {counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice"
+            )
     if options.json:
         _print_json(documents[0] if len(documents) == 1 else {"files": documents})
     return 1 if errors else 0
@@ -376,6 +405,7 @@ def _diff(options: argparse.Namespace) -> int:
         raise UsageFault(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
     found = compare(a.schema, a.values, b.values)
     if options.json:
+
         def text(d: Any, v: Any) -> str | None:
             return None if v is None else write_value(a.schema.parameters[d.address[0]], v)
 
@@ -385,7 +415,9 @@ def _diff(options: argparse.Namespace) -> int:
     else:
         for d in found.differences:
             parameter = a.schema.parameters[d.address[0]]
-            print(f"{a.schema.label(d.address, a.machine):52} {show_value(parameter, d.a)}  |  {show_value(parameter, d.b)}")
+            print(
+                f"{a.schema.label(d.address, a.machine):52} {show_value(parameter, d.a)}  |  {show_value(parameter, d.b)}"
+            )
         print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in A, "
               f"{found.absent_in_b} absent in B")  # fmt: skip
     return 1 if found.differences else 0
@@ -425,7 +457,9 @@ def _report(options: argparse.Namespace) -> int:
     from amp_studio.report import write_report
 
     file = open_file(options.path).file
-    write_report(file, options.output, sort=options.sort, changed_only=options.changed_only, source=options.path)
+    write_report(
+        file, options.output, sort=options.sort, changed_only=options.changed_only, source=options.path
+    )
     print(options.output)
     return 0
 
@@ -442,7 +476,12 @@ def _progress() -> Any:
         if last.get(stage) != percent:
             last[stage] = percent
             if sys.stderr.isatty():
-                print(f"\r{stage} {percent:3d} %", end="\n" if percent == 100 else "", file=sys.stderr, flush=True)
+                print(
+                    f"\r{stage} {percent:3d} %",
+                    end="\n" if percent == 100 else "",
+                    file=sys.stderr,
+                    flush=True,
+                )
             elif percent == 100:
                 print(f"{stage} 100 %", file=sys.stderr, flush=True)
 
@@ -458,18 +497,20 @@ def _emulate(options: argparse.Namespace) -> int:
 
 
 def _download(options: argparse.Namespace) -> int:
-    from amp_studio.transfer.parameters import download_file
     from amp_studio.files import open_file
+    from amp_studio.transfer.parameters import download_file
 
     file = open_file(options.path).file
-    outcome = download_file(file, options.to, options.keep or options.path.parent, options.path.stem, _progress())
+    outcome = download_file(
+        file, options.to, options.keep or options.path.parent, options.path.stem, _progress()
+    )
     print(outcome.text)
     return 0 if outcome.verified else 1
 
 
 def _upload(options: argparse.Namespace) -> int:
-    from amp_studio.transfer.parameters import fetch_file, out_of_range
     from amp_studio.files import Document
+    from amp_studio.transfer.parameters import fetch_file, out_of_range
 
     if options.output.exists():
         raise UsageFault(f"{options.output} exists already: an upload gets a new name")
@@ -488,7 +529,9 @@ def _walk(file: Any, address: Any, said: str, on_fault: str) -> None:
     from amp_studio.files.lock import now
 
     if on_fault == "quit" or (on_fault == "ask" and not sys.stdin.isatty()):
-        raise UsageFault(f"the upload holds an illegal value, nothing was written: {said} (--on-fault keep takes it)")
+        raise UsageFault(
+            f"the upload holds an illegal value, nothing was written: {said} (--on-fault keep takes it)"
+        )
     while on_fault == "ask":
         answer = input(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
         if answer.startswith("q"):

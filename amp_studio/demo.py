@@ -68,7 +68,10 @@ def _in_terminal() -> int:
     _tell(1, f"opened {path.name}: {file.schema.family.name}, {file.machine}, {len(file.values)} values")
     findings = Validator(file).run()
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
-    _tell(2, f"validated: {counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice")
+    _tell(
+        2,
+        f"validated: {counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice",
+    )
     report = folder / f"{path.stem}.pdf"
     write_report(file, report, sort="group", changed_only=False, source=path)
     _tell(3, f"printed {report} ({report.stat().st_size // 1024} KiB)")

@@ -34,10 +34,12 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
 
 
 def _private(folder: Path) -> Mapping[str, str]:
-    """No display, and no settings of the person who measures."""
+    """No display, no settings of the person who measures, and compiled modules kept as an installed program has them."""
     checkout = str(BENCH.parent)
     path = os.pathsep.join(filter(None, (checkout, os.environ.get("PYTHONPATH", ""))))
-    return {**os.environ, "QT_QPA_PLATFORM": "offscreen", "XDG_CONFIG_HOME": str(folder), "PYTHONPATH": path}
+    own = {"QT_QPA_PLATFORM": "offscreen", "XDG_CONFIG_HOME": str(folder), "PYTHONPATH": path}
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return {**kept, **own, "PYTHONPYCACHEPREFIX": str(folder / "bytecode")}
 
 
 def _run(command: tuple[str, ...], settings: Mapping[str, str]) -> float:

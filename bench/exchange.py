@@ -38,7 +38,17 @@ def measures(folder: Path, example: Path, times: int) -> Iterator[Measure]:
 @contextmanager
 def _control(listen: str, state: Path) -> Iterator[str]:
     """Run an emulated control in its own process, and give its address."""
-    command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", listen, "--machine", "mill"]
+    command = [
+        sys.executable,
+        "-m",
+        "amp_studio.cli",
+        "emulate",
+        "9pc",
+        "--listen",
+        listen,
+        "--machine",
+        "mill",
+    ]
     with subprocess.Popen(
         [*command, "--state", str(state)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},

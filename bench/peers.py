@@ -21,7 +21,9 @@ def measures(full: Path, times: int) -> Iterator[Measure]:
     pure = timed(lambda: YAML(typ="safe", pure=True).load(text), times)
     yield Measure("  peer: YAML alone, ruamel in pure Python", pure)
     document, ranges = _as_json(open_file(full).file)
-    yield Measure("  peer: JSON and a loop over the ranges, no rules", timed(lambda: _loop(document, ranges), times))
+    yield Measure(
+        "  peer: JSON and a loop over the ranges, no rules", timed(lambda: _loop(document, ranges), times)
+    )
 
 
 def _as_json(file: ParameterFile) -> tuple[str, dict[str, tuple[float, float]]]:
@@ -30,7 +32,11 @@ def _as_json(file: ParameterFile) -> tuple[str, dict[str, tuple[float, float]]]:
     for (parameter_id, instance), value in file.values.items():
         parameter = file.schema.parameters[parameter_id]
         for unit, (low, high) in (parameter.ranges or {}).items():
-            if isinstance(value.value, (bool, str)) or isinstance(low, BoundRef) or isinstance(high, BoundRef):
+            if (
+                isinstance(value.value, (bool, str))
+                or isinstance(low, BoundRef)
+                or isinstance(high, BoundRef)
+            ):
                 continue
             try:
                 number = convert(float(value.value), value.unit, unit)

@@ -27,9 +27,13 @@ from measure import Measure, table
 def main() -> None:
     """Measure everything, or with --quick everything once."""
     parser = argparse.ArgumentParser(description="Measure AMP Studio and print one table.")
-    parser.add_argument("--quick", action="store_true", help="everything once: shows that it runs, not how fast")
+    parser.add_argument(
+        "--quick", action="store_true", help="everything once: shows that it runs, not how fast"
+    )
     times = 1 if parser.parse_args().quick else 15
-    print(f"Python {platform.python_version()} on {platform.system()}, {processor()}, {os.cpu_count()} processors")
+    print(
+        f"Python {platform.python_version()} on {platform.system()}, {processor()}, {os.cpu_count()} processors{load()}"
+    )
     with tempfile.TemporaryDirectory(prefix="amp-studio-bench-") as name:
         print(table(list(measures(Path(name), times))))
 
@@ -37,7 +41,9 @@ def main() -> None:
 def measures(folder: Path, times: int) -> Iterator[Measure]:
     """Yield every measure in the order of the table."""
     full = machine.write_full_file(folder)
-    example = Path(shutil.copytree(machine.example_path().parent, folder / "mill")) / machine.example_path().name
+    example = (
+        Path(shutil.copytree(machine.example_path().parent, folder / "mill")) / machine.example_path().name
+    )
     yield from cold.measures(folder, full, example, max(1, times // 2))
     yield from warm.measures(folder, full, example, times)
     yield from screen.measures(folder, full, times)
@@ -51,6 +57,11 @@ def processor() -> str:
         return next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     except (OSError, StopIteration):
         return platform.processor() or platform.machine()
+
+
+def load() -> str:
+    """Say how busy the machine is with other things, where it tells; a busy machine measures too much."""
+    return f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
 
 
 if __name__ == "__main__":

@@ -34,7 +34,9 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     print_it = timed(lambda: write_report(file, pdf, sort="group", changed_only=False, source=full), times)
     yield Measure("report to PDF", print_it)
     mill = open_file(example).file
-    yield Measure("simulate a rapid move of one axis", timed(lambda: simulate(mill, "step", "1"), times, warm=2))
+    yield Measure(
+        "simulate a rapid move of one axis", timed(lambda: simulate(mill, "step", "1"), times, warm=2)
+    )
 
 
 def _forget_schema() -> None:
@@ -62,7 +64,9 @@ def _edits(full: Path, times: int) -> Iterator[Measure]:
 
     least = {a: min(timed(lambda a=a: touch(a), min(times, 5))) for a in list(file.values)}
     worst = max(least, key=least.__getitem__)
-    yield Measure(f"  the slowest of {len(least)} edits: {written(worst)}", timed(lambda: touch(worst), times))
+    yield Measure(
+        f"  the slowest of {len(least)} edits: {written(worst)}", timed(lambda: touch(worst), times)
+    )
 
 
 def _saves(folder: Path, full: Path, times: int) -> Iterator[Measure]:

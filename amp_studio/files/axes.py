@@ -143,7 +143,11 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     if change:
         changes.append(change)
     for address in file.addresses():
-        if address[1] == axis and address[0] not in (profile.type, profile.name) and _is_axis(file, address[0]):
+        if (
+            address[1] == axis
+            and address[0] not in (profile.type, profile.name)
+            and _is_axis(file, address[0])
+        ):
             change = file.set(address, file.default(address))
             if change:
                 changes.append(change)

@@ -40,8 +40,12 @@ class Comparison:
 def compare(schema: Schema, a: Mapping[Address, Value], b: Mapping[Address, Value]) -> Comparison:
     """Compare two sets of values exactly; 1 in and 25.4 mm are the same value."""
     order = {p: n for n, p in enumerate(schema.parameters)}
-    both = sorted({*a, *b}, key=lambda address: (order.get(address[0], len(order)), len(address[1]), *address))
-    found = [Difference(address, a.get(address), b.get(address)) for address in both if not _same(a, b, address)]
+    both = sorted(
+        {*a, *b}, key=lambda address: (order.get(address[0], len(order)), len(address[1]), *address)
+    )
+    found = [
+        Difference(address, a.get(address), b.get(address)) for address in both if not _same(a, b, address)
+    ]
     return Comparison(tuple(found), len(both) - len(found))
 
 
@@ -59,14 +63,18 @@ class Conflict:
     theirs: Value | None
 
 
-def merge(base: ParameterFile, ours: ParameterFile, theirs: ParameterFile) -> tuple[ParameterFile, list[Conflict]]:
+def merge(
+    base: ParameterFile, ours: ParameterFile, theirs: ParameterFile
+) -> tuple[ParameterFile, list[Conflict]]:
     """Return ours with the changes that theirs made to base, and the conflicts, at which ours stands.
 
     Raises ValueError when the three are not of one family.
     """
     families = {f.schema.family.family for f in (base, ours, theirs)}
     if len(families) > 1:
-        raise ValueError(f"files of different control families cannot be merged: {', '.join(sorted(families))}")
+        raise ValueError(
+            f"files of different control families cannot be merged: {', '.join(sorted(families))}"
+        )
     merged, conflicts = ours.copy(), []
     for difference in compare(base.schema, base.values, theirs.values).differences:
         address = difference.address

@@ -114,7 +114,6 @@ class Document:
         """Whether this program may save the file in place."""
         return self._lock.is_taken
 
-
     # -- saving ----------------------------------------------------------------
 
     @property
@@ -137,7 +136,7 @@ class Document:
         self._remember(changes, how)
         self._drop_journal()
 
-    def save_as(self, path: Path, how: str = "save as") -> Document:
+    def save_as(self, path: Path) -> Document:
         """Save under a new name and return that document; the original stays as it is on disk."""
         twin = self.file.copy()
         twin.header.name = path.stem
@@ -198,7 +197,9 @@ class Document:
         if not changes:
             self._drop_journal()
             return
-        entries = [[written(c.address), None if c.new is None else self._text(c.address, c.new)] for c in changes]
+        entries = [
+            [written(c.address), None if c.new is None else self._text(c.address, c.new)] for c in changes
+        ]
         content = json.dumps({"when": now(), "who": user(), "digest": self.digest, "changes": entries})
         write_atomic(self.journal_path, content.encode(), keep_backup=False)
         self._journal_is_ours = True
@@ -216,7 +217,9 @@ class Document:
             return None
         try:
             left = json.loads(self.journal_path.read_text(encoding="utf-8"))
-            changes = tuple(filter(None, (self._left_change(str(entry), text) for entry, text in left["changes"])))
+            changes = tuple(
+                filter(None, (self._left_change(str(entry), text) for entry, text in left["changes"]))
+            )
             return Unsaved(str(left["when"]), str(left["who"]), changes, left["digest"] == self.digest)
         except (OSError, ValueError, TypeError, LookupError):
             return None
@@ -245,4 +248,3 @@ def recover_backup(path: Path, expected: str | None = "") -> str:
         raise FileNotFoundError(f"{path.name} has no backup")
     open_file(backup)  # a backup that cannot be read is not put in place
     return write_atomic(path, backup.read_bytes(), expected)
-

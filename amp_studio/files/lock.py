@@ -6,7 +6,7 @@ import contextlib
 import getpass
 import os
 import socket
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 
 import filelock
@@ -53,7 +53,9 @@ class EditLock:
         if self.is_taken:
             with contextlib.suppress(OSError):
                 beside(self.path, ".holder").unlink(missing_ok=True)
-            if os.name == "posix":  # while it is held: filelock asks whether the file it locked still has its name
+            if (
+                os.name == "posix"
+            ):  # while it is held: filelock asks whether the file it locked still has its name
                 with contextlib.suppress(OSError):
                     beside(self.path, ".lock").unlink(missing_ok=True)
             self._lock.release()
@@ -82,4 +84,4 @@ def user() -> str:
 
 def now() -> str:
     """Return the time as it is written into files."""
-    return datetime.now(timezone.utc).isoformat(timespec="seconds")
+    return datetime.now(UTC).isoformat(timespec="seconds")

@@ -148,7 +148,9 @@ class ParameterFile:
         profile = self.schema.family.axes
         for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
             changes += refit_units(self, axis)
-        faults = {a: said for a, v in wanted.items() if v is not None and (said := fault(self.situation, a, v))}
+        faults = {
+            a: said for a, v in wanted.items() if v is not None and (said := fault(self.situation, a, v))
+        }
         if faults and not force:
             for change in reversed(changes):
                 self.apply(change.reversed())
@@ -193,7 +195,9 @@ def default_value(schema: Schema, situation: Situation, address: Address) -> Val
     return Value(int(value) if parameter.type in ("integer", "bits") else float(value), unit)
 
 
-def new_file(family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = "") -> ParameterFile:
+def new_file(
+    family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = ""
+) -> ParameterFile:
     """Return a new file with the family's printed defaults.
 
     ``axes`` names the axes in order; the rest is unfitted. Without it the

@@ -72,7 +72,9 @@ class Project:
         try:
             data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
         except (OSError, UnicodeDecodeError) as error:
-            raise FileFault(path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
+            raise FileFault(
+                path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}"
+            ) from None
         except (YAMLError, ValueError, RecursionError) as error:
             mark = getattr(error, "problem_mark", None)
             raise FileFault(path, mark.line + 1 if mark else None, "is not readable YAML") from None
@@ -128,7 +130,9 @@ class Project:
         """Return the path of a file by name; raises NameFault for a name that no system can keep."""
         name = name.removesuffix(ENDING)
         if not re.fullmatch(r"[^\W_][\w .-]{0,63}", name) or name.endswith((".", " ")):
-            raise NameFault(f"'{name}' is no file name: letters, digits, '_', '-', '.' and spaces, at most 64")
+            raise NameFault(
+                f"'{name}' is no file name: letters, digits, '_', '-', '.' and spaces, at most 64"
+            )
         if name.split(".")[0].rstrip().upper() in _RESERVED:
             raise NameFault(f"'{name}' is a name that Windows keeps for itself")
         return self.folder / f"{name}{ENDING}"

@@ -110,7 +110,9 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
         raise FileFault(path, _line(text, "amp_studio:"), f"'{version}' is no version of the file format")
     if version > FORMAT:
         raise FileFault(
-            path, _line(text, "amp_studio:"), f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})"
+            path,
+            _line(text, "amp_studio:"),
+            f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})",
         )
     if not text.rstrip().endswith("\n..."):
         raise FileFault(path, text.count("\n") + 1, "ends without its end mark '...': it has been cut off")
@@ -121,7 +123,9 @@ def _family(path: Path, data: dict[str, Any]) -> Schema:
     try:
         return load_schema(str(data.get("family")))
     except KeyError:
-        raise FileFault(path, None, f"is for the control family '{data.get('family')}', which is not known here") from None
+        raise FileFault(
+            path, None, f"is for the control family '{data.get('family')}', which is not known here"
+        ) from None
 
 
 def _header(path: Path, text: str, schema: Schema, data: dict[str, Any]) -> Header:
@@ -132,7 +136,9 @@ def _header(path: Path, text: str, schema: Schema, data: dict[str, Any]) -> Head
     machines, systems = [m.key for m in schema.family.machines], list(schema.family.units)
     for key, said, known in (("machine", header.machine, machines), ("units", header.units, systems)):
         if data.get(key) is not None and known and said not in known:
-            raise FileFault(path, _line(text, f"{key}:"), f"{key} is '{said}'; known here: {', '.join(known)}")
+            raise FileFault(
+                path, _line(text, f"{key}:"), f"{key} is '{said}'; known here: {', '.join(known)}"
+            )
     return header
 
 
@@ -200,7 +206,9 @@ def _scalar(value: object) -> str | None:
 def _line(text: str, start: str) -> int | None:
     """Return the line on which an entry stands."""
     for number, line in enumerate(text.splitlines(), 1):
-        if line.strip().strip("'\"").startswith(start) or line.strip().startswith((f"'{start[:-1]}'", f'"{start[:-1]}"')):
+        if line.strip().strip("'\"").startswith(start) or line.strip().startswith(
+            (f"'{start[:-1]}'", f'"{start[:-1]}"')
+        ):
             return number
     return None
 
@@ -277,7 +285,10 @@ def _drop(part: Any, key: Any) -> None:
         before = comments[slot].value if comments[slot] else "\n"
         comments[slot] = CommentToken(before + below, CommentMark(0), None)
     elif len(keys) > 1:
-        lines = [CommentToken(line.strip() + "\n", CommentMark(part.lc.col), None) for line in below.strip().split("\n")]
+        lines = [
+            CommentToken(line.strip() + "\n", CommentMark(part.lc.col), None)
+            for line in below.strip().split("\n")
+        ]
         following = part.ca.items.setdefault(keys[1], [None, None, None, None])
         following[1] = lines + (following[1] or [])
 
@@ -294,7 +305,9 @@ def _comments_after(part: Any, key: Any) -> tuple[list[Any], int]:
     """Return where ruamel keeps what stands after an entry: with the last thing in it. A list and the place in it."""
     from ruamel.yaml.comments import CommentedMap, CommentedSeq
 
-    while isinstance(inner := part[key], (CommentedMap, CommentedSeq)) and inner and not inner.fa.flow_style():
+    while (
+        isinstance(inner := part[key], (CommentedMap, CommentedSeq)) and inner and not inner.fa.flow_style()
+    ):
         part, key = inner, list(inner)[-1] if isinstance(inner, CommentedMap) else len(inner) - 1
     if isinstance(part, CommentedMap):
         return part.ca.items.setdefault(key, [None, None, None, None]), 2

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property
 
 from .load import Compiled, load_compiled
 from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Table
@@ -149,7 +149,9 @@ class Schema:
         """Return the unit of entry in a unit system (``metric``, ``inch``); degrees where the axis turns."""
         if parameter.unit is not None:
             return parameter.unit
-        unit = self.family.units.get(system, {}).get(parameter.quantity) or _PLAIN_UNITS.get(parameter.quantity, "")
+        unit = self.family.units.get(system, {}).get(parameter.quantity) or _PLAIN_UNITS.get(
+            parameter.quantity, ""
+        )
         return angular(unit) if turns else unit
 
     def units_of(self, parameter: Parameter) -> tuple[str, ...]:
@@ -209,7 +211,7 @@ def read_address(text: str) -> Address:
     return parameter_id, instance
 
 
-@lru_cache(maxsize=None)
+@cache
 def load_schema(family_id: str) -> Schema:
     """Return a family's schema; raises KeyError for an unknown family, DatabaseFault for a bad fact."""
     return schema_of(load_compiled(family_id))

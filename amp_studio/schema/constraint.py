@@ -82,7 +82,7 @@ def _printed(ranges: dict[str, Range], unit: str) -> tuple[str | None, bool]:
 
 
 def _system(unit: str) -> str:
-    return unit.split("/")[0]
+    return unit.split("/", maxsplit=1)[0]
 
 
 def _bound(
@@ -179,5 +179,3 @@ def clip(situation: Situation, address: Address, value: Value) -> Value:
     if allowed.high is not None:
         number = min(number, float(math.floor(allowed.high)) if whole else allowed.high)
     return Value(int(number) if whole else number, value.unit)
-
-

@@ -11,7 +11,7 @@ import contextlib
 import hashlib
 import os
 import tempfile
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -55,7 +55,7 @@ def family_ids() -> tuple[str, ...]:
     return tuple(sorted(p.parent.name for p in database_folder().glob("*/family.yaml")))
 
 
-@lru_cache(maxsize=None)
+@cache
 def load_compiled(family_id: str) -> Compiled:
     """Return the compiled facts of a family; raises KeyError for an unknown one, DatabaseFault for a bad fact."""
     folder = database_folder() / family_id
@@ -111,7 +111,9 @@ def _read(path: Path, model: type[T]) -> T:
         return TypeAdapter(model).validate_python(data)
     except ValidationError as error:
         first = error.errors()[0]
-        raise DatabaseFault(path, _line_of(path, first["loc"]), f"{_place(data, first)}{first['msg']}") from None
+        raise DatabaseFault(
+            path, _line_of(path, first["loc"]), f"{_place(data, first)}{first['msg']}"
+        ) from None
 
 
 def _line_of(path: Path, place: Place) -> int | None:

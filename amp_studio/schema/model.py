@@ -21,7 +21,6 @@ Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_+-]*$")]
 Page = Annotated[str, Field(pattern=r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$")]
 
 
-
 def _known_unit(unit: str) -> str:
     if unit not in UNITS:
         raise ValueError(f"'{unit}' is no unit: {', '.join(u for u in UNITS if u)}")
@@ -136,7 +135,9 @@ class Numbers(Model):
         try:
             self.format.format(n=0, i="")
         except (LookupError, ValueError):
-            raise ValueError(f"the format {self.format!r} may hold {{n}} and {{i}} and nothing else in braces") from None
+            raise ValueError(
+                f"the format {self.format!r} may hold {{n}} and {{i}} and nothing else in braces"
+            ) from None
         return self
 
 
@@ -234,7 +235,9 @@ class Parameter(Model):
         if self.choices:
             for field in ("key", "label", "code"):
                 said = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
-                seen = [" ".join(word.casefold().split()) for word in said]  # as read_value compares a person's word
+                seen = [
+                    " ".join(word.casefold().split()) for word in said
+                ]  # as read_value compares a person's word
                 if len(set(seen)) != len(seen):
                     raise ValueError(f"two choices share a {field}")
         if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:

@@ -10,7 +10,7 @@ import contextlib
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 from .catalog import Address, Schema, UnknownParameter, read_address
@@ -45,7 +45,7 @@ class Reading:
     is_list: bool
 
 
-@lru_cache(maxsize=None)
+@cache
 def program(expression: str) -> Program:
     """Return a compiled CEL expression; raises ValueError for a syntax error."""
     return compile_expression(expression)
@@ -54,7 +54,9 @@ def program(expression: str) -> Program:
 class Situation:
     """Conditions and states of one file."""
 
-    def __init__(self, schema: Schema, value: Callable[[Address], Value | None], machine: Callable[[], str]) -> None:
+    def __init__(
+        self, schema: Schema, value: Callable[[Address], Value | None], machine: Callable[[], str]
+    ) -> None:
         self.schema, self._value, self._machine = schema, value, machine
         self._canonical: dict[Address, Canonical] = {}
         self._holds: dict[_Asked, bool] = {}
@@ -184,9 +186,9 @@ class Situation:
                     found.update(self.reading(text, address[1], self.scope(address)).addresses)
                 except UnknownParameter:
                     continue
-        if parameter.layouts or any("machine" in self.condition(n).when for n in names):
-            if self.schema.family.machine_parameter:
-                found.add((self.schema.family.machine_parameter, ""))
+        by_machine = parameter.layouts or any("machine" in self.condition(n).when for n in names)
+        if by_machine and self.schema.family.machine_parameter:
+            found.add((self.schema.family.machine_parameter, ""))
         return found
 
     def turns(self, address: Address) -> bool:
@@ -242,6 +244,7 @@ class Situation:
 
     def _nearest(self, claims: list[Address]) -> list[Address]:
         """Return, of parameters that are all hidden, those that the fewest conditions hide."""
+
         def hiding(address: Address) -> int:
             rules = self.schema.parameters[address[0]].states
             return sum(r.state == "hidden" and self._applies(r, address) for r in rules)
@@ -263,7 +266,9 @@ class Situation:
                 self._states.pop(dependent, None)
 
     def _dependents(self, name: str, instance: str) -> Iterable[Address]:
-        return [a for a in self._states if a[1] == instance and name in _state_names(self.schema.parameters[a[0]])]
+        return [
+            a for a in self._states if a[1] == instance and name in _state_names(self.schema.parameters[a[0]])
+        ]
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""

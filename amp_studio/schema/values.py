@@ -96,16 +96,22 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
         return _read_choice(parameter, text)
     if parameter.type == "format":
         return _read_format(parameter, text)
-    if parameter.type in ("bits", "integer") and (hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)):
+    if parameter.type in ("bits", "integer") and (
+        hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
+    ):
         return Value(int(hexadecimal[1], 16), unit)
     number, rest = read_number(text)
     if rest:
         try:
             named = unit_named(rest)
         except UnitError as error:
-            raise ValueFault(f"{error}; {parameter.name} is given in {shown(unit) or 'a bare number'}") from None
+            raise ValueFault(
+                f"{error}; {parameter.name} is given in {shown(unit) or 'a bare number'}"
+            ) from None
         if dimension(named) != dimension(unit):
-            raise ValueFault(f"{parameter.name} is given in {shown(unit) or 'a bare number'}, not in {shown(named)}")
+            raise ValueFault(
+                f"{parameter.name} is given in {shown(unit) or 'a bare number'}, not in {shown(named)}"
+            )
         unit = named
     if parameter.type in ("integer", "bits"):
         if number != int(number):
@@ -120,7 +126,9 @@ def _read_format(parameter: Parameter, text: str) -> Value:
     """Read a word format, digits before and behind the point: 6.0 and 3.10 are no fractions and stay as they are."""
     found = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
     if not found:
-        raise ValueFault(f"'{text}' is not a format: {parameter.name} takes digits before and behind the point, as 3.4")
+        raise ValueFault(
+            f"'{text}' is not a format: {parameter.name} takes digits before and behind the point, as 3.4"
+        )
     return Value(f"{int(found[1])}.{int(found[2])}")
 
 
@@ -183,7 +191,13 @@ def write_value(parameter: Parameter, value: Value | None) -> str:
 def _number_text(parameter: Parameter, value: Value) -> str:
     """Write a number; a word of bits that the control shows in hexadecimal, so."""
     number, storage = value.value, parameter.storage
-    if parameter.type == "bits" and storage and storage.notation == "hex" and isinstance(number, int) and number >= 0:
+    if (
+        parameter.type == "bits"
+        and storage
+        and storage.notation == "hex"
+        and isinstance(number, int)
+        and number >= 0
+    ):
         return f"0x{number:0{(storage.bits or 0) // 4}X}"
     return write_number(float(number) if not isinstance(number, int) else number)
 
@@ -196,7 +210,7 @@ def show_value(parameter: Parameter, value: Value | None) -> str:
         return write_value(parameter, value)
     number = _number_text(parameter, value)
     unit = shown(value.unit)
-    return f"{number}{unit}" if unit in ("°",) else f"{number} {unit}" if unit else number
+    return f"{number}{unit}" if unit == "°" else f"{number} {unit}" if unit else number
 
 
 # -- the bits of a packed word ---------------------------------------------------
@@ -212,7 +226,9 @@ def field_at(parameter: Parameter, bit: int) -> Bit:
     width = parameter.storage.bits if parameter.storage else None
     if width is not None and bit >= width:
         raise ValueFault(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
-    return next((b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True))
+    return next(
+        (b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True)
+    )
 
 
 def field_value(field: Bit, word: int) -> int:

@@ -37,5 +37,9 @@ def simulate(
         return file.situation.canonical((parameter_id, instance))
 
     return SCENARIOS[scenario].run(
-        value, chosen, settings or {}, file.schema.family.family, standard_gains(file.schema.family.family, file.schema.tables)
+        value,
+        chosen,
+        settings or {},
+        file.schema.family.family,
+        standard_gains(file.schema.family.family, file.schema.tables),
     )

@@ -14,7 +14,6 @@ from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import (
     Address,
     Parameter,
-    Schema,
     UnknownParameter,
     Value,
     ValueFault,
@@ -48,7 +47,9 @@ def encode_image(file: ParameterFile) -> bytes:
     for address in values:
         number = schema.number(address, machine)
         shown = "-" if number is None or schema.is_disputed(address[0], machine) else number
-        lines.append(f"{shown}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}")
+        lines.append(
+            f"{shown}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
+        )
     lines.append(f"end {len(values)}")
     return ("\n".join(lines) + "\n").encode("utf-8")
 
@@ -59,9 +60,13 @@ def decode_image(image: bytes) -> ParameterFile:
     try:
         schema = load_schema(head["family"])
     except KeyError:
-        raise ImageFault(f"the control image is for the family '{head['family']}', which is not known here") from None
+        raise ImageFault(
+            f"the control image is for the family '{head['family']}', which is not known here"
+        ) from None
     if head["signature"] != schema.signature:
-        raise ImageFault("the control's parameters are numbered by another schema than this program's; nothing was read")
+        raise ImageFault(
+            "the control's parameters are numbered by another schema than this program's; nothing was read"
+        )
     file = ParameterFile(schema, Header(application=head["application"], revision=head["revision"],
                                         machine="" if schema.family.machine_parameter else head["machine"],
                                         signature=schema.signature))  # fmt: skip
@@ -166,7 +171,7 @@ def _patched(file: ParameterFile, address: Address, parameter: Parameter, value:
     return Value(int(value) if parameter.type == "integer" and value == int(value) else value, unit)
 
 
-def stored_number(schema: Schema, parameter: Parameter, value: Value, turns: bool) -> float | int | None:
+def stored_number(parameter: Parameter, value: Value, turns: bool) -> float | int | None:
     """Return what the control stores for a value (its patch value); None where the manual prints no form."""
     from amp_studio.schema import UnitError, convert
 

@@ -34,10 +34,19 @@ def download_file(
         return str(keep_image(image, folder, stem))
 
     with Session.at(address, family=file.schema.family.family) as session:
-        return download(session, encode_image(file), keep, signature=file.schema.signature, progress=progress, cancel=cancel)
+        return download(
+            session,
+            encode_image(file),
+            keep,
+            signature=file.schema.signature,
+            progress=progress,
+            cancel=cancel,
+        )
 
 
-def fetch_file(address: str, progress: Progress = quiet, cancel: threading.Event | None = None) -> ParameterFile:
+def fetch_file(
+    address: str, progress: Progress = quiet, cancel: threading.Event | None = None
+) -> ParameterFile:
     """Return what the control at ``address`` holds as a parameter file; raises TransferError, ImageFault."""
     with Session.at(address) as session:
         return decode_image(upload(session, progress, cancel))
@@ -45,7 +54,7 @@ def fetch_file(address: str, progress: Progress = quiet, cancel: threading.Event
 
 def keep_image(image: bytes, folder: Path, stem: str) -> Path:
     """Keep an image as a parameter file that can be downloaded again; one that cannot be read is kept as it is."""
-    stamp = datetime.now().strftime("%Y%m%d-%H%M%S")
+    stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
     name = f"{stem}.before-{stamp}"
     number = 1
     while any((folder / f"{name}{ending}").exists() for ending in (ENDING, ".img")):
@@ -71,7 +80,9 @@ def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:
             continue
         said = fault(file.situation, address, value)
         if said:
-            found.append((address, f"{file.schema.label(address, file.machine)} ({written(address)}): {said}"))
+            found.append(
+                (address, f"{file.schema.label(address, file.machine)} ({written(address)}): {said}")
+            )
     return found
 
 
@@ -88,5 +99,7 @@ def emulate(
     with contextlib.ExitStack() as stack:
         folder = state or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-control-")))
         folder.mkdir(parents=True, exist_ok=True)
-        control = Control(folder, identity, encode_image(file), estop=estop, autostart=autostart, accept=decode_image)
+        control = Control(
+            folder, identity, encode_image(file), estop=estop, autostart=autostart, accept=decode_image
+        )
         return serve(listen, control, patch=patch_image)

@@ -57,7 +57,12 @@ class PtyLink:
 class PtyListener:
     """A new pseudo terminal; ``address`` names the port a client opens."""
 
+    address: Address
+    _master: int
+    _slave: int
+
     def __init__(self) -> None:
+        self._link: PtyLink | None = None
         if sys.platform == "win32":
             raise LinkError(
                 "pty:", "this system has no pseudo terminals; use a pair of serial ports or tcp://"
@@ -72,7 +77,6 @@ class PtyListener:
             self.address = Address("serial", device=os.ttyname(self._slave))
         except OSError as error:
             raise LinkError("pty:", str(error)) from None
-        self._link: PtyLink | None = None
 
     def accept(self, timeout: float) -> PtyLink | None:  # noqa: ARG002 -- nothing here is waited for
         """Return the line; while one is in use, None (nobody connects to a serial port)."""
@@ -85,6 +89,9 @@ class PtyListener:
         return self._link
 
     def close(self) -> None:
-        for handle in (self._master, self._slave):
+        if self._link is not None:
+            self._link.close()
+        handles, self._master, self._slave = (self._master, self._slave), -1, -1
+        for handle in handles:  # a handle that is closed twice may be somebody else's by then
             with contextlib.suppress(OSError):
                 os.close(handle)

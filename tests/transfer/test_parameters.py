@@ -148,4 +148,7 @@ def test_only_values_that_exist_for_the_machine_are_walked_through() -> None:
     file.set(("servo.excess_error", "1"), Value(999.0, "mm"))
     file.set(("feedrate.rapid", "1"), Value(-1.0, "mm/min"))
 
-    assert [address for address, _ in out_of_range(file)] == [("feedrate.rapid", "1"), ("feedrate.max_cutting", "1")]
+    assert [address for address, _ in out_of_range(file)] == [
+        ("feedrate.rapid", "1"),
+        ("feedrate.max_cutting", "1"),
+    ]

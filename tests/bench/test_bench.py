@@ -1,0 +1,52 @@
+"""The benchmarks run and say what they measured. How long anything takes is no matter of a test."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TARGETS = {
+    "validate, cold process",
+    "report to PDF, cold process",
+    "first paint of the desktop program, cold process",
+    "open and validate",
+    "re-validate after one edit",
+}
+
+
+@pytest.fixture(scope="module")
+def rows(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """Return the lines that ``bench/run.py --quick`` prints, run from somewhere else."""
+    command = [sys.executable, str(checkout / "bench" / "run.py"), "--quick"]
+    done = subprocess.run(
+        command, cwd=tmp_path_factory.mktemp("bench"), capture_output=True, encoding="utf-8", check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def test_it_prints_one_table_with_every_measure(rows: list[str]) -> None:
+    machine, head, line, *measures = rows
+    assert machine.startswith("Python ")
+    assert head.split() == ["median", "min", "max", "target"]
+    assert set(line) == {"-"}
+    assert len(measures) >= 20
+    time = r"[\d.]+ (?:s|ms|µs)"
+    for measure in measures:
+        assert re.fullmatch(
+            rf" *\S.*?  +{time}  +{time}  +{time}(?:  +< {time}  +(?:pass|over))?", measure
+        ), measure
+
+
+def test_every_target_is_judged(rows: list[str]) -> None:
+    judged = {row.split("  ")[0] for row in rows if row.endswith(("pass", "over"))}
+    assert judged == TARGETS
+
+
+def test_it_leaves_nothing_behind(rows: list[str], checkout: Path) -> None:
+    assert {p.suffix for p in (checkout / "bench").iterdir() if p.is_file()} == {".py"}
+    assert {p.suffix for p in (checkout / "examples").rglob("*") if p.is_file()} == {".amp", ".md", ".yaml"}

@@ -1,0 +1,263 @@
+"""The desktop program without a display, and without a question that nobody answers."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QFileDialog,
+    QInputDialog,
+    QLineEdit,
+    QMessageBox,
+    QWidget,
+)
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import Document, ParameterFile, content_of, new_file, open_file
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.task import ProgressDialog, Task
+from amp_studio.ui.workspace import Workspace
+
+WAIT_MS = 20_000
+"""Far more than anything takes; a test that waits ends as soon as what it waits for is there."""
+
+
+class Person:
+    """Who answers: every question needs an answer given before, every message must be read."""
+
+    def __init__(self) -> None:
+        self._answers: list[str] = []
+        self._paths: list[str] = []
+        self._texts: list[str] = []
+        self.told: list[str] = []
+        self.asked: list[str] = []
+        self.labels: list[str] = []
+
+    def answers(self, *buttons: str) -> None:
+        """Click these buttons in the next questions; ``&`` need not be given."""
+        self._answers.extend(buttons)
+
+    def chooses(self, *paths: Path | str) -> None:
+        """Give these paths to the next file dialogs."""
+        self._paths.extend(str(path) for path in paths)
+
+    def types(self, *texts: str) -> None:
+        """Give these texts to the next input dialogs."""
+        self._texts.extend(texts)
+
+    def reads(self) -> str:
+        """Return the one message that was shown."""
+        assert len(self.told) == 1, self.told
+        return self.told.pop()
+
+    def is_done(self) -> None:
+        """Fail when a message was not read, or an answer not asked for."""
+        assert (self.told, self._answers, self._paths, self._texts) == ([], [], [], [])
+
+    # -- what Qt's dialogs do instead -------------------------------------------
+
+    def exec(self, box: QMessageBox) -> int:
+        buttons = {button.text().replace("&", ""): button for button in box.buttons()}
+        if len(buttons) == 1:
+            self.told.append(box.text())
+        else:
+            self.asked.append(box.text())
+            assert self._answers, f"nobody answers: {box.text()}"
+            box.setProperty("clicked", self._answers.pop(0))
+        return 0
+
+    def clicked(self, box: QMessageBox) -> QAbstractButton | None:
+        wanted = box.property("clicked")
+        buttons = {button.text().replace("&", ""): button for button in box.buttons()}
+        assert wanted in buttons, (wanted, list(buttons))
+        return buttons[wanted]
+
+    def path(self, *_: object, **__: object) -> tuple[str, str]:
+        assert self._paths, "no path is given to a file dialog"
+        return self._paths.pop(0), "All files (*)"
+
+    def text(self, parent: QWidget, title: str, label: str, *_: object, **__: object) -> tuple[str, bool]:
+        self.labels.append(label)
+        assert self._texts, f"nothing is typed: {title}"
+        return self._texts.pop(0), True
+
+
+@pytest.fixture
+def person(monkeypatch: pytest.MonkeyPatch) -> Iterator[Person]:
+    """Return who answers message boxes, file and input dialogs; a question nobody expects fails the test."""
+    who = Person()
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: who.exec(box))
+    monkeypatch.setattr(QMessageBox, "clickedButton", lambda box: who.clicked(box))
+    for name in ("getOpenFileName", "getSaveFileName"):
+        monkeypatch.setattr(QFileDialog, name, who.path)
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_, **__: who.path()[0])
+    for name in ("getItem", "getText"):
+        monkeypatch.setattr(QInputDialog, name, who.text)
+    yield who
+    who.is_done()
+
+
+@pytest.fixture
+def accept(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Return what makes the next dialogs of a class be filled in by ``fill(dialog)`` and accepted, as ``accept()`` does."""
+
+    def arrange(kind: type[QWidget], fill: Callable[..., object] = lambda dialog: None) -> None:
+        def run(dialog: object) -> int:
+            fill(dialog)
+            dialog.accept()  # type: ignore[attr-defined]  # a dialog
+            return int(dialog.result())  # type: ignore[attr-defined]
+
+        monkeypatch.setattr(kind, "exec", run)
+
+    return arrange
+
+
+@pytest.fixture(scope="session")
+def example(checkout: Path) -> bytes:
+    """Return the content of the example mill: five axes, no errors."""
+    return (checkout / "examples" / "mill-1394" / "MILL_1394.amp").read_bytes()
+
+
+@pytest.fixture(scope="session")
+def bare() -> bytes:
+    """Return the content of a new file: five axes at their printed defaults, with its errors."""
+    return content_of(new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"], "bare"))
+
+
+@pytest.fixture
+def path(tmp_path: Path, example: bytes) -> Path:
+    """Return a copy of the example mill in a folder of its own."""
+    folder = tmp_path / "machine"
+    folder.mkdir()
+    path = folder / "mill.amp"
+    path.write_bytes(example)
+    return path
+
+
+@pytest.fixture
+def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWindow]]:
+    """Return what opens a window on a file, or none; it is closed at the end, unsaved work thrown away."""
+    windows: list[MainWindow] = []
+    QSettings("AMP Studio", "AMP Studio").clear()
+
+    def show(path: Path | None = None) -> MainWindow:
+        window = MainWindow()
+        windows.append(window)
+        window.show()
+        qtbot.waitExposed(window)
+        if path is not None:
+            window.open_first(path)
+        return window
+
+    yield show
+    for window in windows:
+        window.may_leave = lambda: True  # type: ignore[method-assign]  # every question has been asked by now
+        window.close()
+        window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    assert not Task.running
+
+
+@pytest.fixture
+def window(open_window: Callable[..., MainWindow], path: Path) -> MainWindow:
+    """Return a window with the example mill open."""
+    return open_window(path)
+
+
+@pytest.fixture
+def workspace(request: pytest.FixtureRequest, qapp: QApplication, path: Path) -> Iterator[Workspace]:
+    """Return the workspace of the window; without a window in the test, one that stands alone."""
+    if "window" in request.fixturenames:
+        window: MainWindow = request.getfixturevalue("window")
+        assert window.workspace is not None
+        yield window.workspace
+    else:
+        alone = Workspace(Document.open(path))
+        yield alone
+        alone.close()
+
+
+@pytest.fixture
+def file(workspace: Workspace) -> ParameterFile:
+    """Return the open file."""
+    return workspace.file
+
+
+@pytest.fixture
+def whole(workspace: Workspace) -> Callable[[], tuple[bytes, object]]:
+    """Return what gives all that a save would write, and the findings: two of them are equal or something is left over."""
+
+    def give() -> tuple[bytes, object]:
+        return content_of(workspace.file), workspace.findings
+
+    return give
+
+
+def on_disk(path: Path) -> ParameterFile:
+    """Return a file as it stands on disk."""
+    return open_file(path).file
+
+
+def editor(window: MainWindow) -> QWidget:
+    """Return the editor that is open in the table."""
+    assert window.table_view is not None
+    fields = [w for w in window.table_view.viewport().findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
+              if w.isVisible() and (isinstance(w, QLineEdit) or hasattr(w, "row_of"))]  # fmt: skip
+    assert len(fields) == 1, fields
+    return fields[0]
+
+
+class Control:
+    """An emulated control in a process of its own."""
+
+    def __init__(self, state: Path, *options: str) -> None:
+        command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--machine", "mill", "--state", str(state),
+                   "--listen", "tcp://127.0.0.1:0", *options]  # fmt: skip
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        assert self._process.stdout is not None
+        lines = (line for line in self._process.stdout if line.startswith("listening on "))
+        self.address = next(lines).removeprefix("listening on ").strip()
+
+    def stop(self) -> None:
+        """End the process."""
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.close()
+        self._process.stdout.close()
+        self._process.terminate()
+        self._process.wait(timeout=10)
+
+
+@pytest.fixture
+def start_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
+    """Return what starts an emulated control; it ends with the test."""
+    controls: list[Control] = []
+
+    def start(*options: str) -> Control:
+        controls.append(Control(tmp_path / f"control-{len(controls)}", *options))
+        return controls[-1]
+
+    yield start
+    for control in controls:
+        control.stop()
+
+
+def during(qtbot: QtBot, act: Callable[[ProgressDialog], object]) -> None:
+    """Do something once, when a progress dialog is next to be seen."""
+    timer = QTimer(QApplication.instance())
+
+    def look() -> None:
+        dialog = QApplication.activeModalWidget()
+        if isinstance(dialog, ProgressDialog) and dialog.isVisible():
+            timer.stop()
+            act(dialog)
+
+    timer.timeout.connect(look)
+    timer.start(5)

@@ -1,0 +1,254 @@
+"""The table: a row a parameter, a column an axis, and editing by keyboard alone."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLineEdit
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.parameter_table import AddressRole, ParameterTable
+from amp_studio.ui.workspace import Workspace
+
+from .conftest import WAIT_MS, editor
+
+EXCESS = ("servo.excess_error", "1")
+LOOP = ("servo.position_loop_type", "1")
+KEY = Qt.Key
+
+
+@pytest.fixture
+def table(workspace: Workspace) -> ParameterTable:
+    """Return a table of all parameters, without a window."""
+    table = ParameterTable(workspace)
+    table.show_parameters(list(workspace.file.schema.parameters.values()))
+    return table
+
+
+def press(window: MainWindow, key: Qt.Key) -> None:
+    """Press a key in the table."""
+    QTest.keyClick(window.table_view, key)
+
+
+# -- what is shown -------------------------------------------------------------
+
+
+def test_a_column_an_axis_and_one_for_the_control(table: ParameterTable) -> None:
+    """Processes have columns of their own: process 1 is not axis 1."""
+    titles = [table.headerData(n, Qt.Orientation.Horizontal) for n in range(table.columnCount())]
+    assert titles == ["Control", "1 X linear", "2 Y linear", "3 Z linear", "4 B rotary", "5 S spindle", "Process 1", "Process 2"]
+
+
+def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: ParameterFile) -> None:
+    shown = {table.address_at(r, c) for r in range(table.rowCount()) for c in range(table.columnCount())} - {None}
+    for address in shown:
+        assert table.index_of(address).data(AddressRole) == address
+    existing = {a for a in file.addresses() if file.situation.state(a).state != "hidden"}
+    unfitted = {a for a in existing if a[1] in "678" and file.situation.scope(a) == "axis"}
+    assert existing - unfitted <= shown
+
+
+def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> None:
+    table = window.table
+    window.groups.tree.setCurrentItem(window.groups._items[0])
+    assert ("axis", "8") not in table.columns
+    hidden, rows = table.hidden_rows, table.rowCount()
+    assert hidden > 0
+    assert f"{hidden} more do not exist" in window.list_title.text()
+
+    window.view.all_axes.trigger()
+    window.view.hidden_too.trigger()
+
+    assert ("axis", "8") in table.columns
+    assert table.rowCount() == rows + hidden
+    assert "more do not exist" not in window.list_title.text()
+
+
+def test_a_row_comes_and_goes_with_what_makes_it_exist(window: MainWindow, workspace: Workspace) -> None:
+    """Mill Type exists on a mill only (page 3-9); the cell that was selected stays selected as long as it exists."""
+    window.groups.tree.setCurrentItem(window.groups._items[0])
+    only_mill = ("control.mill_type", "")
+    assert window.table.index_of(only_mill).isValid()
+    window.go_to(EXCESS)
+
+    workspace.edit("lathe", {("control.type", ""): Value("lathe")})
+    assert not window.table.index_of(only_mill).isValid()
+    assert window.selected() == EXCESS
+
+    workspace.undo_stack.undo()
+    assert window.table.index_of(only_mill).isValid()
+    assert window.selected() == EXCESS
+
+
+def test_what_is_not_for_this_configuration_cannot_be_edited(table: ParameterTable, file: ParameterFile) -> None:
+    hidden = next(a for a in file.addresses() if file.situation.state(a).state == "hidden" and table.index_of(a).isValid())
+    index = table.index_of(hidden)
+    assert index.data() == "·"
+    assert not index.flags() & Qt.ItemFlag.ItemIsEditable
+
+    table.hidden_too = True
+    table.show_again()
+    assert table.index_of(hidden).flags() & Qt.ItemFlag.ItemIsEditable
+
+
+def test_a_finding_colours_its_cells_and_tells_itself(table: ParameterTable, workspace: Workspace) -> None:
+    plain = table.index_of(EXCESS).data(Qt.ItemDataRole.BackgroundRole)
+    workspace.edit("force", {EXCESS: Value(1e9, "mm")}, force="on a day")
+
+    index = table.index_of(EXCESS)
+    assert plain is None
+    assert index.data(Qt.ItemDataRole.BackgroundRole) is not None
+    assert "is outside" in index.data(Qt.ItemDataRole.ToolTipRole)
+    assert "Forced on a day" in index.data(Qt.ItemDataRole.ToolTipRole)
+
+
+def test_a_value_that_differs_from_the_default_is_bold(table: ParameterTable, workspace: Workspace) -> None:
+    default = workspace.file.default(EXCESS)
+    assert table.index_of(EXCESS).data(Qt.ItemDataRole.FontRole).bold()
+    workspace.edit("default", {EXCESS: default})
+    font = table.index_of(EXCESS).data(Qt.ItemDataRole.FontRole)
+    assert font is None or not font.bold()
+
+
+# -- by keyboard ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize("key", [KEY.Key_F2, KEY.Key_Return, KEY.Key_Enter])
+def test_a_key_starts_editing_and_enter_takes_the_value(window: MainWindow, file: ParameterFile, key: Qt.Key) -> None:
+    window.go_to(EXCESS)
+
+    press(window, key)
+    field = editor(window)
+    assert field.text() == "11 mm"
+    assert field.selectedText() == "11 mm"
+    QTest.keyClicks(field, "3,25")
+    QTest.keyClick(field, KEY.Key_Return)
+
+    assert file.get(EXCESS) == Value(3.25, "mm")
+    assert window.selected() == EXCESS
+
+
+def test_typing_starts_editing_and_escape_leaves_the_value(window: MainWindow, file: ParameterFile) -> None:
+    window.go_to(EXCESS)
+    press(window, KEY.Key_7)
+    field = editor(window)
+    assert field.text() == "7"
+
+    QTest.keyClick(field, KEY.Key_Escape)
+
+    assert file.get(EXCESS) == Value(11.0, "mm")
+
+
+def test_the_field_tells_the_range_while_it_is_open(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    press(window, KEY.Key_F2)
+    field = editor(window)
+    assert field.toolTip() == "Allowed here: 0 to 214.1 mm" or field.toolTip().startswith("Allowed here: 0")
+    assert field.placeholderText() in field.toolTip()
+
+
+def test_tab_goes_on_to_the_next_axis(window: MainWindow, file: ParameterFile) -> None:
+    window.go_to(EXCESS)
+    for text in ("4", "5"):
+        if text == "4":
+            press(window, KEY.Key_F2)
+        field = editor(window)
+        QTest.keyClicks(field, text)
+        QTest.keyClick(field, KEY.Key_Tab)
+        QApplication.processEvents()
+
+    assert [file.get(("servo.excess_error", a)) for a in "12"] == [Value(4.0, "mm"), Value(5.0, "mm")]
+    assert window.selected() == ("servo.excess_error", "3")
+
+
+def test_delete_unsets_and_cells_without_a_value_are_skipped(window: MainWindow, file: ParameterFile, qtbot) -> None:
+    window.go_to(EXCESS)
+    window.table_view.setFocus()
+    qtbot.waitUntil(window.table_view.hasFocus, timeout=WAIT_MS)
+    press(window, KEY.Key_Delete)
+    assert file.get(EXCESS) is None
+    assert window.table.index_of(EXCESS).data() == "—"
+
+
+def test_delete_in_a_field_deletes_a_letter(window: MainWindow, file: ParameterFile) -> None:
+    window.go_to(EXCESS)
+    press(window, KEY.Key_F2)
+    field = editor(window)
+    field.home(False)
+    QTest.keyClick(field, KEY.Key_Delete)
+    assert field.text() == "1 mm"
+    assert file.get(EXCESS) == Value(11.0, "mm")
+
+
+def test_a_refused_value_is_asked_once_and_stays_to_be_mended(window: MainWindow, file: ParameterFile, person, qtbot) -> None:
+    """The question takes the focus from the field, which must not commit a second time."""
+    window.go_to(EXCESS)
+    press(window, KEY.Key_F2)
+    field = editor(window)
+    QTest.keyClicks(field, "99999")
+    person.answers("Cancel")
+
+    QTest.keyClick(field, KEY.Key_Return)
+
+    assert len(person.asked) == 1
+    assert file.get(EXCESS) == Value(11.0, "mm")
+    qtbot.waitUntil(lambda: editor(window).text() == "99999", timeout=WAIT_MS)
+
+
+def test_one_key_opens_the_list_of_choices_and_a_letter_chooses(window: MainWindow, file: ParameterFile, qtbot) -> None:
+    window.go_to(LOOP)
+    press(window, KEY.Key_Return)
+    box = editor(window)
+    qtbot.waitUntil(lambda: box.view().isVisible(), timeout=WAIT_MS)
+
+    QTest.keyClick(box.view(), KEY.Key_O)
+    assert box.currentData() == "Open Loop"
+    QTest.keyClick(box.view(), KEY.Key_Return)
+
+    qtbot.waitUntil(lambda: file.get(LOOP) == Value("open"), timeout=WAIT_MS)
+    assert window.selected() == LOOP
+
+
+def test_escape_closes_the_list_and_leaves_the_choice(window: MainWindow, file: ParameterFile, qtbot) -> None:
+    window.go_to(LOOP)
+    press(window, KEY.Key_F2)
+    box = editor(window)
+    qtbot.waitUntil(lambda: box.view().isVisible(), timeout=WAIT_MS)
+
+    QTest.keyClick(box.view(), KEY.Key_Escape)
+
+    qtbot.waitUntil(lambda: not window.table_view.viewport().findChildren(type(box)), timeout=WAIT_MS)
+    assert file.get(LOOP) == Value("closed")
+
+
+def test_typing_a_letter_on_a_choice_opens_the_list_at_it(window: MainWindow, qtbot) -> None:
+    window.go_to(LOOP)
+    press(window, KEY.Key_O)
+    box = editor(window)
+    qtbot.waitUntil(lambda: box.view().isVisible(), timeout=WAIT_MS)
+    assert box.currentData() == "Open Loop"
+    box.hidePopup()
+
+
+def test_a_click_on_a_name_selects_the_row(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    row = window.table.index_of(("servo.lead_screw_pitch", "1")).row()
+    window.table_view.verticalHeader().sectionClicked.emit(row)
+    assert window.selected() == ("servo.lead_screw_pitch", "1")
+
+
+def test_the_text_of_a_choice_that_is_cut_off_is_in_its_tip(table: ParameterTable) -> None:
+    index = table.index_of(("servo.position_feedback_type", "1"))
+    assert index.data() in index.data(Qt.ItemDataRole.ToolTipRole)
+
+
+def test_a_key_that_is_no_letter_goes_through(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    event = QKeyEvent(QEvent.Type.KeyPress, KEY.Key_Down, Qt.KeyboardModifier.NoModifier)
+    window.table_view.keyPressEvent(event)
+    assert window.selected() != EXCESS
+    assert not window.table_view.viewport().findChildren(QLineEdit)
