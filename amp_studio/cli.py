@@ -146,6 +146,9 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--manual-restart", action="store_true", help="do not restart by itself after a download"
     )
+    sub.add_argument(
+        "--faults", default="{}", metavar="JSON", help='what goes wrong, to practise with: {"drop_after_bytes": 9000}'
+    )
     sub = verb("download", _download, "send a file to a control, read it back and compare")
     sub.add_argument("path", type=Path)
     sub.add_argument("--to", required=True, metavar="ADDRESS")
@@ -493,7 +496,7 @@ def _emulate(options: argparse.Namespace) -> int:
 
     _family(options.family)
     return emulate(options.family, options.listen, options.state, machine=options.machine, estop=not options.no_estop,
-                   autostart=not options.manual_restart)  # fmt: skip
+                   autostart=not options.manual_restart, faults=options.faults)  # fmt: skip
 
 
 def _download(options: argparse.Namespace) -> int:

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import contextlib
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from amp_studio.schema import Address, ValueFault, read_address, write_value, written
 
 from .atomic import backup_path, digest_of, write_atomic
-from .lock import EditLock, beside, now, user
+from .lock import EditLock, InUse, beside, now, user
 from .parameter_file import Change, ParameterFile
 from .storage import open_file, read_stored, save_file
 
@@ -50,6 +50,8 @@ class Document:
         self.file, self.path, self.digest = file, path, digest
         self.saved = dict(file.values)
         """The values as they are on disk."""
+        self._saved_rest = (replace(file.header), dict(file.forced))
+        self._only_viewed = False
         self._lock = EditLock(path)
         self._journal_is_ours = False
 
@@ -69,7 +71,9 @@ class Document:
     @classmethod
     def view(cls, path: Path) -> Document:
         """Open a file only to look at it; it cannot be saved in place."""
-        return cls._of(path)
+        document = cls._of(path)
+        document._only_viewed = True
+        return document
 
     @classmethod
     def _of(cls, path: Path) -> Document:
@@ -118,8 +122,9 @@ class Document:
 
     @property
     def is_dirty(self) -> bool:
-        """Whether the values differ from those on disk."""
-        return self.digest is None or self.saved != self.file.values
+        """Whether values, marks or what the file says of itself differ from what is on disk."""
+        rest = (self.file.header, self.file.forced)
+        return self.digest is None or self.saved != self.file.values or self._saved_rest != rest
 
     def unsaved_changes(self) -> list[Change]:
         """Return what a save would change, in the manual's order."""
@@ -129,10 +134,13 @@ class Document:
 
     def save(self, how: str = "edit") -> None:
         """Save in place; the previous file becomes the backup. Raises ChangedOnDisk, SaveFault, InUse."""
+        if self._only_viewed:
+            raise InUse(f"{self.path.name} was opened only to look at it: save it under a new name")
         self._lock.take()
         changes = self.unsaved_changes() if self.digest is not None else []
         self.digest = save_file(self.file, self.path, self.digest)
         self.saved = dict(self.file.values)
+        self._saved_rest = (replace(self.file.header), dict(self.file.forced))
         self._remember(changes, how)
         self._drop_journal()
 

@@ -14,6 +14,7 @@ from amp_studio.schema import Address, fault, written
 from .control import Control
 from .emulator import serve
 from .exchange import Outcome, download, upload
+from .faults import read_faults
 from .image import ImageFault, decode_image, encode_image, patch_image
 from .record import Identity
 from .session import Progress, Session, quiet
@@ -89,10 +90,12 @@ def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:
 def emulate(
     family: str, listen: str, state: Path | None = None, *, machine: str | None = None, estop: bool = True,
     autostart: bool = True,
+    faults: str = "{}",
 ) -> int:  # fmt: skip
     """Run an emulated control until it is told to quit; returns the exit code.
 
-    It is born with the family's printed defaults; its memory lies in ``state``, or in a temporary folder.
+    It is born with the family's printed defaults; its memory lies in ``state``, or in a temporary folder. ``faults``
+    are what goes wrong, to practise with, as one JSON object.
     """
     file = new_file(family, machine)
     identity = Identity(family=family, signature=file.schema.signature, name="CNC_1", revision="emulated")
@@ -102,4 +105,4 @@ def emulate(
         control = Control(
             folder, identity, encode_image(file), estop=estop, autostart=autostart, accept=decode_image
         )
-        return serve(listen, control, patch=patch_image)
+        return serve(listen, control, patch=patch_image, faults=read_faults(faults))

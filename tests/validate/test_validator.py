@@ -1,0 +1,468 @@
+"""Findings of one file: ranges, choices, units, states, and kept up to date whatever is written into it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from amp_studio.files import Change, ParameterFile, retype_axis
+from amp_studio.schema import Address, DatabaseFault, Parameter, Value, load_schema, read_rules, same_value
+from amp_studio.schema.units import UNITS
+from amp_studio.validate import SEVERITIES, Finding, Repair, RuleFault, Validator
+
+RAPID = ("feedrate.rapid", "1")
+CUTTING = ("feedrate.max_cutting", "1")
+EXCESS = ("servo.excess_error", "1")
+
+
+@pytest.fixture
+def mill(machine) -> ParameterFile:
+    """Return a sound mill of its own."""
+    return machine("mill")
+
+
+def found(file: ParameterFile, rule: str) -> list[Finding]:
+    """Return the findings of one rule in a file."""
+    return [finding for finding in Validator(file).run() if finding.rule == rule]
+
+
+def the(file: ParameterFile, rule: str) -> Finding:
+    """Return the only finding of a rule."""
+    (finding,) = found(file, rule)
+    return finding
+
+
+# ------------------------------------------------------------------------------------- ranges and choices
+
+
+def test_a_value_out_of_range_is_an_error_with_its_range_page_and_repair(mill) -> None:
+    mill.set(("home.g28_speed", "1"), Value(10161.0, "mm/min"))
+    assert the(mill, "schema.range") == Finding(
+        rule="schema.range",
+        severity="error",
+        addresses=(("home.g28_speed", "1"),),
+        message="G28 Home Speed 10161 mm/min is outside 0 to 10160 mm/min.",
+        repairs=(Repair(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
+        page="5-16",
+    )
+
+
+def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
+    mill.set(("home.g28_speed", "1"), Value(400.0, "in/min"))
+    assert found(mill, "schema.range") == []
+    mill.set(("home.g28_speed", "1"), Value(400.0001, "in/min"))
+    finding = the(mill, "schema.range")
+    assert finding.message == "G28 Home Speed 400.0001 in/min is outside 0 to 400 in/min."
+    assert finding.repairs == (Repair(("home.g28_speed", "1"), Value(400.0, "in/min")),)
+
+
+def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
+    mill.set(CUTTING, Value(12000.00001, "mm/min"))
+    finding = the(mill, "schema.range")
+    assert finding.message == (
+        "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
+        "(set by 1000 Rapid Feedrate for Positioning)."
+    )
+    assert finding.repairs == (Repair(CUTTING, Value(12000.0, "mm/min")),)
+
+
+def test_a_bound_that_moves_is_noticed(mill) -> None:
+    validator = Validator(mill)
+    validator.run()
+    mill.set(RAPID, Value(5000.0, "mm/min"))
+    assert [f.addresses for f in validator.update([RAPID]) if f.rule == "schema.range"] == [(CUTTING,)]
+
+
+def test_a_code_without_a_choice_is_an_error_repaired_by_the_default(mill) -> None:
+    mill.set(("servo.sercos_baud", ""), Value("raw:999"))
+    assert the(mill, "schema.choice") == Finding(
+        rule="schema.choice",
+        severity="error",
+        addresses=(("servo.sercos_baud", ""),),
+        message="999 is no code of SERCOS Baud Rate.",
+        repairs=(Repair(("servo.sercos_baud", ""), Value("mhz2")),),
+        page="7-3",
+    )
+
+
+def test_a_code_without_a_choice_and_without_a_default_has_no_repair(mill) -> None:
+    mill.set(("axis.integrand_name", "1"), Value("raw:999"))
+    assert the(mill, "schema.choice").repairs == ()
+
+
+@pytest.mark.parametrize(
+    ("address", "value", "said"),
+    [
+        (("servo.sercos_baud", ""), Value("9 MHz"), "9 MHz is no choice of SERCOS Baud Rate."),
+        (("servo.sercos_baud", ""), Value(2.0), "2.0 is no choice of SERCOS Baud Rate."),
+        (("zone.overtravel_used", "1"), Value("yes"), "yes is no choice of Use Software Overtravel."),
+        (EXCESS, Value("much", "mm"), "Excess Error takes a number, not much."),
+        (EXCESS, Value(True), "Excess Error takes a number, not True."),
+        (EXCESS, Value(math.nan, "mm"), "Excess Error takes a number, not nan."),
+        (EXCESS, Value(math.inf, "mm"), "Excess Error takes a number, not inf."),
+        (("servo.sercos_cycle", ""), Value(2.5, "ms"), "Cycle Time for SERCOS takes whole numbers, not 2.5."),
+    ],
+)
+def test_a_value_of_the_wrong_kind_is_an_error(mill, address: Address, value: Value, said: str) -> None:
+    mill.set(address, value)
+    (finding,) = (f for f in Validator(mill).run() if f.rule.startswith("schema.") and f.severity == "error")
+    assert finding.message == said
+    assert [repair.value for repair in finding.repairs] == [mill.default(address)]
+
+
+@pytest.mark.parametrize(
+    ("address", "value", "said", "mended"),
+    [
+        (EXCESS, Value(20.0, "deg"), "Excess Error 20° should be in mm here.", Value(20.0, "mm")),
+        (("servo.excess_error", "4"), Value(20.0, "mm"), "Excess Error 20 mm should be in ° here.", Value(20.0, "deg")),
+        (EXCESS, Value(20.0), "Excess Error 20 should be in mm here.", Value(20.0, "mm")),
+        (("servo.initial_gain", "1"), Value(1.0, "mm"), "Initial Gain of Position Loop 1 mm should be in a bare number here.", Value(1.0)),
+    ],
+)
+def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
+    mill, address: Address, value: Value, said: str, mended: Value
+) -> None:
+    mill.set(address, value)
+    finding = the(mill, "schema.range")
+    assert finding.message == said
+    assert finding.repairs == (Repair(address, mended),), "the control knows the figure only"
+
+
+def test_an_axis_that_turns_wants_degrees(mill) -> None:
+    validator = Validator(mill)
+    validator.run()
+    mill.set(("axis.type", "1"), Value("rotary"))
+    wrong = {f.addresses[0] for f in validator.update([("axis.type", "1")]) if f.rule == "schema.range"}
+    assert EXCESS in wrong
+    assert {address[1] for address in wrong} == {"1"}
+
+
+def test_a_repair_that_would_be_wrong_too_is_not_offered(mill) -> None:
+    positive, negative = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
+    mill.set(negative, Value(2540001.0, "mm"))
+    offered = {f.addresses[0]: [r.value for r in f.repairs] for f in found(mill, "schema.range")}
+    assert offered == {positive: [], negative: [Value(400.0, "mm")]}
+
+
+def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
+    mill.set_many({EXCESS: Value(500.0, "mm")}, force="by J. Fitter on 2026-07-01")
+    assert the(mill, "schema.range").message == (
+        "Excess Error 500 mm is outside 0 to 214.1 mm. It was forced by J. Fitter on 2026-07-01."
+    )
+
+
+# -------------------------------------------------------------------------------- states, unset, unknown
+
+
+@pytest.mark.parametrize(
+    "address",
+    [
+        pytest.param(("servo.max_acceleration", "1"), id="hidden: a digital servo has none"),
+        pytest.param(("servo.feed_forward", "1"), id="ignored: the loop is not ZFE"),
+    ],
+)
+def test_what_the_control_does_not_look_at_is_not_checked_unless_it_was_forced(mill, address: Address) -> None:
+    mill.set(address, Value(10**6, mill.situation.unit(address, "metric")))
+    assert found(mill, "schema.range") == []
+    mill.forced[address] = "by hand"
+    assert [finding.addresses for finding in found(mill, "schema.range")] == [(address,)]
+
+
+def test_what_cannot_be_used_is_still_checked(mill) -> None:
+    address = ("servo.reversal_error", "3")
+    assert mill.situation.state(address).state == "unusable"
+    mill.set(address, Value(10.0, "mm"))
+    assert [finding.addresses for finding in found(mill, "schema.range")] == [(address,)]
+
+
+def test_values_that_are_not_set_are_one_piece_of_advice(mill) -> None:
+    validator = Validator(mill)
+    validator.run()
+    taken = [("home.position", str(axis)) for axis in (3, 2, 1)]
+    for address in taken:
+        mill.set(address, None)
+    (advice,) = (f for f in validator.update(taken) if f.rule == "schema.unset")
+    assert (advice.severity, advice.repairs, advice.page) == ("advice", (), None)
+    assert advice.addresses == (*reversed(taken), ("zone.group_count", "1"), ("zone.group_count", "2"))
+    assert advice.message == (
+        "5 parameters in force have no value here, so the control keeps its own: 1301 Axis Position After Homing, "
+        "2301 Axis Position After Homing, 3301 Axis Position After Homing, "
+        "20020 Number of Limit 2,3 Groups and 1 more."
+    )
+    mill.set(("servo.feed_forward", "1"), None)
+    assert validator.update([("servo.feed_forward", "1")]) == validator.findings()
+    (advice,) = (f for f in validator.findings() if f.rule == "schema.unset")
+    assert ("servo.feed_forward", "1") not in advice.addresses, "it is ignored there"
+
+
+def test_a_file_with_every_value_set_has_no_findings_at_all(mill) -> None:
+    mill.set_many({("zone.group_count", process): Value(2) for process in ("1", "2")})
+    assert Validator(mill).run() == ()
+
+
+def test_entries_of_an_unknown_parameter_are_named(mill) -> None:
+    mill.unknown["servo.nonsense@1"] = "5"
+    finding = the(mill, "schema.unknown")
+    assert (finding.severity, finding.addresses) == ("warning", ())
+    assert finding.message == "servo.nonsense@1 is no parameter of this schema; it is kept as it is."
+
+
+# --------------------------------------------------------------------------------------- cross-parameter
+
+
+def test_a_finding_of_a_rule_has_its_values_page_and_repair(mill) -> None:
+    mill.set(EXCESS, Value(11.0, "mm"))
+    mill.set(("servo.feedrate_suppression", "1"), Value(11.0, "mm"))
+    finding = the(mill, "9pc.servo.excess-below-following-error")
+    assert finding.message == (
+        "At rapid 12000 mm/min the axis trails its command by 12 mm, more than Excess Error 11 mm allows: rapid moves "
+        "end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
+    )
+    assert (finding.page, finding.severity, finding.safe) == ("7-20", "warning", False)
+    assert finding.repairs == (Repair(EXCESS, Value(13.2, "mm")),)
+
+
+def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:
+    mill.header.units = "inch"
+    mill.set(EXCESS, Value(0.4, "in"))
+    finding = the(mill, "9pc.servo.excess-below-following-error")
+    assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in finding.message
+    assert finding.repairs == (Repair(EXCESS, Value(0.51969, "in")),), "five decimals, as the parameter has them"
+
+
+def test_an_axis_that_turns_is_told_in_degrees(mill) -> None:
+    mill.set(("servo.excess_error", "4"), Value(11.0, "deg"))
+    assert "by 12°, more than Excess Error 11° allows" in the(mill, "9pc.servo.excess-below-following-error").message.replace(" °", "°")
+
+
+def test_another_unit_system_is_noticed(mill) -> None:
+    validator = Validator(mill)
+    mill.set(EXCESS, Value(11.0, "mm"))
+    validator.run()
+    mill.header.units = "inch"
+    findings = validator.update([])
+    assert findings == Validator(mill).run()
+    assert any("trails its command by 0.4724409 in" in finding.message for finding in findings)
+
+
+def test_a_repair_that_cannot_change_motion_is_safe(mill) -> None:
+    mill.set(("servo.sercos_transmit", "1"), Value("low"))
+    assert the(mill, "9pc.servo.transmit-level-high").safe
+
+
+def test_a_repair_that_would_not_help_is_not_offered(mill) -> None:
+    """Nine tenths of no suppression point are not below it."""
+    mill.set(("servo.feedrate_suppression", "1"), Value(0.0, "mm"))
+    assert the(mill, "9pc.servo.gain-break-below-suppression").repairs == ()
+
+
+def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:
+    mill.set(("servo.loop_type", "5"), Value("digital"))
+    finding = the(mill, "9pc.axis.more-than-one-1394")
+    assert finding.addresses == tuple(("servo.loop_type", str(axis)) for axis in range(1, 8))
+
+
+def test_the_rules_that_read_a_value_are_known(mill) -> None:
+    rules = [rule.id for rule in Validator(mill).rules_of(("zone.group_count", ""))]
+    assert rules == ["9pc.zone.group-not-checked", "9pc.zone.group-empty"]
+    assert [rule.id for rule in Validator(mill).rules_of(("zone.group_count", "2"))] == ["9pc.zone.group-empty"]
+
+
+# ------------------------------------------------------------------------------------------------- order
+
+
+def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
+    for n, address in enumerate(mill.addresses()):
+        if n % 3 == 0 and address[0] not in ("axis.type", "control.type"):
+            mill.set(address, Value("raw:999"))
+        elif n % 7 == 0:
+            mill.set(address, None)
+    mill.unknown["nonsense"] = ""
+    findings = Validator(mill).run()
+    order = {address: n for n, address in enumerate(mill.addresses())}
+    keys = [
+        (SEVERITIES.index(f.severity), min((order[a] for a in f.addresses), default=-1), f.rule) for f in findings
+    ]
+    assert keys == sorted(keys)
+    assert {finding.severity for finding in findings} == set(SEVERITIES)
+
+
+# ---------------------------------------------------------------------------------- a builder's own rules
+
+OWN_RULE = """
+rules:
+  - id: builder.rapid
+    title: Rapid of this machine
+    severity: warning
+    reads: {{rapid: {parameter}}}
+    check: rapid <= 10000.0
+    message: "Rapid {{rapid}} is more than the screws of this machine bear."
+    fix:
+      - {{set: rapid, value: "10000.0"}}
+    page: "1"
+"""
+
+
+def test_a_machine_builder_adds_rules(mill, tmp_path: Path) -> None:
+    path = tmp_path / "rules.yaml"
+    path.write_text(OWN_RULE.format(parameter="feedrate.rapid"), encoding="utf-8")
+    validator = Validator(mill, read_rules(path))
+    own = [finding for finding in validator.run() if finding.rule == "builder.rapid"]
+    assert len(own) == 7
+    assert own[0].message == "Rapid 12000 mm/min is more than the screws of this machine bear."
+    assert own[0].repairs == (Repair(RAPID, Value(10000.0, "mm/min")),)
+    mill.set(RAPID, Value(10000.0, "mm/min"))
+    assert sum(finding.rule == "builder.rapid" for finding in validator.update([RAPID])) == 6
+    assert found(mill, "builder.rapid") == [], "another validator does not know it"
+
+
+@pytest.mark.parametrize(
+    ("broken", "line", "said"),
+    [
+        ("severity: warning|severity: fatal", 5, "builder.rapid: severity: Input should be"),
+        ("check: |chek: ", 3, "builder.rapid: check: Field required"),
+        ('page: "1"|page: 1', 11, "builder.rapid: page: Input should be a valid string"),
+        ("rules:|rules: [", 11, ""),
+    ],
+)
+def test_a_broken_rule_file_is_told_with_its_line(tmp_path: Path, broken: str, line: int, said: str) -> None:
+    old, new = broken.split("|")
+    path = tmp_path / "rules.yaml"
+    path.write_text(OWN_RULE.format(parameter="feedrate.rapid").replace(old, new), encoding="utf-8")
+    with pytest.raises(DatabaseFault) as caught:
+        read_rules(path)
+    assert (caught.value.path, caught.value.line) == (path, line)
+    assert said in caught.value.what
+
+
+def test_a_rule_about_an_unknown_parameter_is_refused(mill, tmp_path: Path) -> None:
+    path = tmp_path / "rules.yaml"
+    path.write_text(OWN_RULE.format(parameter="feedrate.rapids"), encoding="utf-8")
+    with pytest.raises(RuleFault, match=r"^rule builder.rapid: reads 'feedrate.rapids', which the family does not have$"):
+        Validator(mill, read_rules(path))
+    assert issubclass(RuleFault, ValueError)
+
+
+# ------------------------------------------------------------------- whatever is written, edit by edit
+
+NUMBERS = st.one_of(
+    st.sampled_from([0, -1, 1, 8, 0.5, 1e-300, 5e-324, 1e300, -1e300, 2.0**53, 2**70, math.inf, -math.inf, math.nan]),
+    st.floats(),
+    st.integers(-(10**7), 10**7),
+)
+TEXTS = ["", "raw:999", "raw:", "raw:x", "yes", "none", "s", "spindle", "unfitted", "digital", "3.4", "3.4.5", "∞", "{x}"]
+ANYTHING = st.one_of(
+    st.builds(Value, NUMBERS, st.sampled_from(list(UNITS))),
+    st.builds(Value, st.one_of(st.sampled_from(TEXTS), st.text(max_size=5))),
+    st.builds(Value, st.booleans()),
+)
+SCHEMA = load_schema("9pc")
+OFTEN = [("axis.type", str(axis)) for axis in range(1, 9)] + [
+    (name, str(axis))
+    for name in ("servo.loop_type", "servo.hardware_type", "servo.position_loop_type", "axis.name", "servo.amplifier_rack")
+    for axis in (1, 4, 7)
+]  # what the most depends on
+ADDRESSES = st.one_of(
+    st.sampled_from(SCHEMA.addresses("mill")), st.sampled_from(OFTEN), st.sampled_from([("control.type", ""), ("zone.group_count", "")])
+)
+
+
+def fitting(file: ParameterFile, address: Address, draw: Callable[..., object]) -> Value | None:
+    """Draw a value that the parameter takes, or that is at least near to it."""
+    parameter = SCHEMA.parameters[address[0]]
+    if parameter.type == "boolean":
+        return Value(draw(st.booleans()))
+    if parameter.choices:
+        return Value(draw(st.sampled_from([choice.key for choice in parameter.choices])))
+    unit = draw(st.sampled_from(SCHEMA.units_of(parameter)))
+    ranges = [bound for pair in (parameter.ranges or {}).values() for bound in pair if isinstance(bound, float)]
+    number = draw(st.one_of(st.sampled_from(ranges or [0.0]), st.floats(0, 1000).map(lambda x: round(x, 3))))
+    return Value(int(number) if parameter.type == "integer" else number, unit)
+
+
+def edit(file: ParameterFile, history: list[Change], draw: Callable[..., object]) -> None:
+    """Make one edit of any kind."""
+    kind = draw(st.sampled_from(["any", "any", "fit", "fit", "fit", "unset", "undo", "retype", "force", "units"]))
+    address = draw(ADDRESSES)
+    if kind == "any":
+        file.set(address, draw(ANYTHING))
+    elif kind == "fit":
+        file.set(address, fitting(file, address, draw))
+    elif kind == "unset":
+        file.set(address, None)
+    elif kind == "undo" and history:
+        file.apply(history.pop().reversed())
+    elif kind == "retype":
+        retype_axis(file, draw(st.sampled_from("12345678")), draw(st.sampled_from(["linear", "rotary", "spindle", "unfitted"])))
+    elif kind == "force":
+        file.set_many({address: fitting(file, address, draw)}, force="by a test")
+    elif kind == "units":
+        file.header.units = draw(st.sampled_from(["metric", "inch"]))
+
+
+def alike(a: Iterable[Finding], b: Iterable[Finding]) -> bool:
+    """Compare findings; texts that are the same show not-a-number as equal, which it is not to itself."""
+    return list(map(repr, a)) == list(map(repr, b))
+
+
+@given(data=st.data(), name=st.sampled_from(["mill", "lathe", "router"]))
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(data, name: str, stands) -> None:
+    file = stands(name).file.copy()
+    validator = Validator(file)
+    validator.run()
+    history: list[Change] = []
+    changed: list[Address] = []
+    file.listen(lambda change: changed.append(change.address))
+    file.listen(history.append)
+    for _ in range(data.draw(st.integers(1, 10))):
+        for _ in range(data.draw(st.integers(1, 8))):
+            edit(file, history, data.draw)
+        after = validator.update(changed)
+        changed.clear()
+    assert after == validator.findings()
+    assert alike(after, Validator(file).run())
+    assert alike(after, Validator(file.copy()).run()), "and with nothing remembered of how it came about"
+
+
+def nasty(parameter: Parameter) -> list[Value]:
+    """Return values that nobody should write into a parameter."""
+    numbers = [0, -1, 2**70, 1e300, -1e300, 5e-324, 0.1, math.inf, -math.inf, math.nan]
+    units = {"", "mm", "in/min", "deg", "%", *SCHEMA.units_of(parameter)}
+    return [
+        *(Value(number, unit) for number in numbers for unit in sorted(units)),
+        *(Value(text) for text in TEXTS),
+        Value(True),
+        Value(False),
+    ]
+
+
+@pytest.mark.parametrize("name", ["mill", "lathe"])
+def test_no_value_whatever_makes_it_raise(name: str, stands) -> None:
+    stand = stands(name)
+    instances = {address[0]: address for address in reversed(stand.file.addresses()) if address[1] in ("", "1", "4")}
+    for address in instances.values():
+        with stand.recorded():
+            for value in nasty(SCHEMA.parameters[address[0]]):
+                stand.file.set(address, value)
+                for finding in stand.validator.update([address]):
+                    assert finding.message
+
+
+def test_a_repair_of_a_range_is_allowed_itself(stands) -> None:
+    stand = stands("mill")
+    for address in stand.file.addresses():
+        with stand.recorded():
+            for value in (Value(1e9, unit) for unit in SCHEMA.units_of(SCHEMA.parameters[address[0]])):
+                stand.file.set(address, value)
+                said = [f for f in stand.validator.update([address]) if f.rule.startswith("schema.") and f.addresses == (address,)]
+                for repair in (repair for finding in said for repair in finding.repairs):
+                    assert not same_value(repair.value, value)
+                    stand.file.set(repair.address, repair.value)
+                    left = stand.validator.update([address])
+                    assert not [f for f in left if f.rule in ("schema.range", "schema.choice") and f.addresses == (address,)]
