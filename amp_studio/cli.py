@@ -281,6 +281,8 @@ def _set(options: argparse.Namespace) -> int:
             raise UsageFault(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
+        if not changes:
+            _note("nothing changed: every value was so already")
         for change in changes:
             parameter = file.schema.parameters[change.address[0]]
             print(f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "

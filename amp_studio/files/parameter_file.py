@@ -77,8 +77,7 @@ class ParameterFile:
         family = self.schema.family
         if family.machine_parameter:
             value = self.values.get((family.machine_parameter, ""))
-            known = {m.key for m in family.machines}
-            if value is not None and value.value in known:
+            if value is not None and value.value in self.schema.machines:
                 return str(value.value)
             return family.default_machine
         return self.header.machine or family.default_machine

@@ -8,6 +8,7 @@ off. Comments and keys that this program does not know survive every save.
 from __future__ import annotations
 
 import io
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -88,35 +89,39 @@ def read_content(path: Path, content: bytes) -> ParameterFile:
 
 
 def _parse(path: Path, text: str) -> dict[str, Any]:
-    from ruamel.yaml import YAML
-    from ruamel.yaml.constructor import DuplicateKeyError
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
+    from .yaml_text import TextFault, read_texts
+
     try:
-        data = YAML(typ="safe").load(text)
-    except DuplicateKeyError as error:
-        line = error.problem_mark.line + 1
-        key = text.splitlines()[line - 1].split(":")[0].strip() if line <= text.count("\n") + 1 else ""
-        raise FileFault(path, line, f"'{key}' stands twice") from None
+        data = read_texts(text)
+    except TextFault as error:
+        raise FileFault(path, error.line, str(error)) from None
     except MarkedYAMLError as error:
+        if "amp_studio" in text and not text.rstrip().endswith("\n..."):
+            raise _cut_off(path, text) from None
         mark = error.problem_mark
         raise FileFault(path, mark.line + 1 if mark else None, f"is not readable: {error.problem}") from None
-    except (YAMLError, ValueError, RecursionError) as error:  # ValueError: a date on the 32nd
+    except (YAMLError, ValueError, RecursionError) as error:
         raise FileFault(path, None, f"is not readable: {str(error).splitlines()[0]}") from None
     if not isinstance(data, dict) or "amp_studio" not in data:
         raise FileFault(path, None, "is not an AMP Studio parameter file")
     version = data["amp_studio"]
-    if not isinstance(version, int) or isinstance(version, bool):
+    if not isinstance(version, str) or not re.fullmatch(r"[0-9]{1,9}", version):
         raise FileFault(path, _line(text, "amp_studio:"), f"'{version}' is no version of the file format")
-    if version > FORMAT:
+    if int(version) > FORMAT:
         raise FileFault(
             path,
             _line(text, "amp_studio:"),
             f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})",
         )
     if not text.rstrip().endswith("\n..."):
-        raise FileFault(path, text.count("\n") + 1, "ends without its end mark '...': it has been cut off")
+        raise _cut_off(path, text)
     return data
+
+
+def _cut_off(path: Path, text: str) -> FileFault:
+    return FileFault(path, text.count("\n") + 1, "ends without its end mark '...': it has been cut off")
 
 
 def _family(path: Path, data: dict[str, Any]) -> Schema:
@@ -129,7 +134,7 @@ def _family(path: Path, data: dict[str, Any]) -> Schema:
 
 
 def _header(path: Path, text: str, schema: Schema, data: dict[str, Any]) -> Header:
-    header = Header(extra={k: v for k, v in data.items() if k not in _KNOWN})
+    header = Header(extra=_extra(text, data))
     for key in _HEADER:
         if data.get(key) is not None:
             setattr(header, key, str(data[key]))
@@ -140,6 +145,15 @@ def _header(path: Path, text: str, schema: Schema, data: dict[str, Any]) -> Head
                 path, _line(text, f"{key}:"), f"{key} is '{said}'; known here: {', '.join(known)}"
             )
     return header
+
+
+def _extra(text: str, data: dict[str, Any]) -> dict[str, object]:
+    """Return the keys this program does not know with their values as YAML means them, so that a save keeps their kind."""
+    if not set(data) - _KNOWN:
+        return {}
+    from ruamel.yaml import YAML
+
+    return {k: v for k, v in YAML(typ="safe").load(text).items() if k not in _KNOWN}
 
 
 def _read_entries(path: Path, text: str, file: ParameterFile, entries: dict[Any, Any]) -> None:

@@ -255,7 +255,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
 
 def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding in a line or two for the terminal."""
-    names = ", ".join(_named(file, a) for a in finding.addresses[:4])
+    names = ", ".join(_named(file, a) for a in finding.addresses[:8])
     page = f" (page {finding.page})" if finding.page else ""
     lines = [f"{finding.severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
     if finding.repairs:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 from .load import Compiled, load_compiled
-from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Table
+from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, StateRule, Table
 from .units import angular
 
 Address = tuple[str, str]
@@ -41,6 +41,13 @@ class Schema:
 
     def layout(self, parameter: Parameter, machine: str) -> Layout | None:
         """Return scope, instances and numbers on this machine type; None where it does not exist there."""
+        key = (parameter.id, machine)
+        if key not in self._layouts:
+            self._layouts[key] = self._layout(parameter, machine)
+        return self._layouts[key]
+
+    @staticmethod
+    def _layout(parameter: Parameter, machine: str) -> Layout | None:
         if parameter.layouts is None:
             return Layout(scope=parameter.scope, numbers=parameter.numbers, instances=parameter.instances)
         for layout in parameter.layouts:
@@ -103,6 +110,21 @@ class Schema:
                 (p.id, i): n for p in self.parameters.values() for i, n in self.numbers(p, machine).items()
             }
         return self._number_tables[machine]
+
+    @cached_property
+    def machines(self) -> frozenset[str]:
+        """The keys of the machine types."""
+        return frozenset(m.key for m in self.family.machines)
+
+    @cached_property
+    def states_alike(self) -> dict[str, int]:
+        """Parameter id -> a number that is the same for parameters with the same state rules."""
+        kinds: dict[tuple[StateRule, ...], int] = {}
+        return {p.id: kinds.setdefault(p.states, len(kinds)) for p in self.parameters.values()}
+
+    @cached_property
+    def _layouts(self) -> dict[tuple[str, str], Layout | None]:
+        return {}
 
     @cached_property
     def _addresses(self) -> dict[str, tuple[Address, ...]]:

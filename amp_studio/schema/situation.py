@@ -61,6 +61,8 @@ class Situation:
         self._canonical: dict[Address, Canonical] = {}
         self._holds: dict[_Asked, bool] = {}
         self._states: dict[Address, StateInfo] = {}
+        self._states_alike: dict[tuple[int, str, str | None], StateInfo] = {}
+        """The state of all parameters of an instance that have the same state rules."""
         self._readers: dict[Address, set[_Asked]] = {}
         self._readings: dict[_Asked, Reading] = {}
 
@@ -162,6 +164,13 @@ class Situation:
 
     def _state(self, address: Address) -> StateInfo:
         parameter = self.schema.parameters[address[0]]
+        alike = (self.schema.states_alike[address[0]], address[1], self.scope(address))
+        found = self._states_alike.get(alike)
+        if found is None:
+            found = self._states_alike[alike] = self._worked_out(parameter, address)
+        return found
+
+    def _worked_out(self, parameter: Parameter, address: Address) -> StateInfo:
         for rule in parameter.states:
             if self._applies(rule, address):
                 condition = self.condition(rule.when or rule.unless or "")
@@ -260,7 +269,10 @@ class Situation:
         if address == (self.schema.family.machine_parameter, ""):
             self.forget()
             return
-        for key in self._readers.pop(address, ()):
+        readers = self._readers.pop(address, ())
+        if readers:
+            self._states_alike.clear()
+        for key in readers:
             self._holds.pop(key, None)
             for dependent in self._dependents(key[0], key[1]):
                 self._states.pop(dependent, None)
@@ -272,7 +284,14 @@ class Situation:
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""
-        for memory in (self._canonical, self._holds, self._states, self._readers, self._readings):
+        for memory in (
+            self._canonical,
+            self._holds,
+            self._states,
+            self._states_alike,
+            self._readers,
+            self._readings,
+        ):
             memory.clear()
 
 

@@ -61,11 +61,9 @@ class ChoiceBox(QComboBox):
             super().keyPressEvent(event)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Select by letter in the open list too."""
+        """Select by letter in the open list too, and notice when it closes: there are ways past ``hidePopup``."""
         if event.type() == QEvent.Type.KeyPress and self._select(event):
             return True
+        if event.type() == QEvent.Type.Hide:
+            self.left.emit()
         return super().eventFilter(watched, event)
-
-    def hidePopup(self) -> None:
-        super().hidePopup()
-        self.left.emit()

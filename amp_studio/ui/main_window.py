@@ -114,6 +114,8 @@ class MainWindow(QMainWindow):
 
     def guarded(self, act: Callable[[], object], title: str = "AMP Studio") -> object:
         """Run an action; what it refuses is told in one sentence, and nothing is changed."""
+        if self.table_view is not None and not self.table_view.finish():
+            return None
         try:
             return act()
         except (OSError, ValueError, KeyError, RuntimeError) as error:
@@ -194,6 +196,7 @@ class MainWindow(QMainWindow):
         self.findings.activated.connect(self._show_finding)
         self.findings.repaired.connect(self._repair)
         workspace.changed.connect(self.enable)
+        workspace.undo_stack.indexChanged.connect(self.enable)  # a step is on the stack only after it was made
         workspace.saved.connect(self.enable)
         self.watch.follow(workspace)
         self.view.follow(workspace)
@@ -356,7 +359,7 @@ class MainWindow(QMainWindow):
         return self.save_or_tell() if answer == "&Save" else answer == "&Discard"
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        if not self.may_leave():
+        if (self.table_view is not None and not self.table_view.finish()) or not self.may_leave():
             event.ignore()
             return
         self.settings.setValue("geometry", self.saveGeometry())

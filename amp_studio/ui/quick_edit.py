@@ -77,6 +77,7 @@ class QuickEdit(QDialog):
             line.selectAll()
             self.editor = line
         self._form.addRow("&Value", self.editor)
+        self.editor.show()  # the layout would show it later, and what is not to be seen takes no focus
         self.editor.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -92,7 +93,10 @@ class QuickEdit(QDialog):
         """Take the value and ask for the next number; one that is refused stays to be mended."""
         if self._address is None or self.editor is None:
             return
-        text = self.editor.currentData() if isinstance(self.editor, ChoiceBox) else self.editor.text()
+        if isinstance(self.editor, ChoiceBox):
+            text = self.editor.currentData()
+        else:  # what was only looked at, perhaps rounded in another unit, is not written
+            text = self.editor.text() if self.editor.isModified() else None
         if text is None or self._commit(self._address, str(text)):
             self._offer(None)
             self.name.setText(

@@ -45,6 +45,8 @@ class ValueDelegate(QStyledItemDelegate):
         super().__init__(parent)
         self._workspace, self._commit = workspace, commit
         self._asking = False
+        self.to_mend: tuple[Address, str] | None = None
+        """A text that was refused; the next editor of its address begins with it."""
 
     def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: Index) -> QWidget:
         address: Address = index.data(AddressRole)
@@ -77,7 +79,9 @@ class ValueDelegate(QStyledItemDelegate):
 
     def setEditorData(self, editor: QWidget, index: Index) -> None:
         if isinstance(editor, QLineEdit):
-            editor.setText(str(index.data(Qt.ItemDataRole.EditRole) or ""))
+            refused, self.to_mend = self.to_mend, None
+            is_refused = refused is not None and refused[0] == index.data(AddressRole)
+            editor.setText(refused[1] if refused and is_refused else str(index.data(Qt.ItemDataRole.EditRole) or ""))
             editor.selectAll()
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
@@ -103,6 +107,8 @@ class ValueDelegate(QStyledItemDelegate):
                 self._commit(address, editor.text())
         finally:
             self._asking = False
+        self.to_mend: tuple[Address, str] | None = None
+        """A text that was refused; the next editor of its address begins with it."""
 
     def eventFilter(self, editor: QObject, event: QEvent) -> bool:
         if (

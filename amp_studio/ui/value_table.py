@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from PySide6.QtCore import QModelIndex, Qt, Signal
+from PySide6.QtCore import QModelIndex, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QFontMetrics, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
 
@@ -34,10 +34,12 @@ class ValueTable(QTableView):
     ) -> None:
         super().__init__(parent)
         self._table = model
-        self._is_fitting = self._is_dragged = False
+        self._is_fitting = self._is_dragged = self._refused = False
         self.last: Address | None = None
         self.setModel(model)
-        self.setItemDelegate(ValueDelegate(model.workspace, commit, self))
+        self._take = commit
+        self._delegate = ValueDelegate(model.workspace, self._commit, self)
+        self.setItemDelegate(self._delegate)
         self.setAlternatingRowColors(True)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
@@ -70,6 +72,31 @@ class ValueTable(QTableView):
         if address is not None:
             self.last = address
             self.selected.emit(address)
+
+    def finish(self) -> bool:
+        """Take what stands in an open editor; tells whether it was taken, or there was none."""
+        editor = self.indexWidget(self.currentIndex())
+        if editor is None:
+            return True
+        self._refused = False
+        self.commitData(editor)
+        self.closeEditor(editor, ValueDelegate.EndEditHint.NoHint)
+        return not self._refused
+
+    def _commit(self, address: Address, text: str) -> bool:
+        if self._take(address, text):
+            return True
+        self._refused = True
+        QTimer.singleShot(0, self, lambda: self._mend(address, text))
+        return False
+
+    def _mend(self, address: Address, text: str) -> None:
+        """Open the editor again on a text that was refused."""
+        index = self._table.index_of(address)
+        if index.isValid() and not self._table.rows[index.row()].choices:
+            self.setCurrentIndex(index)
+            self._delegate.to_mend = (address, text)
+            self.edit(index)
 
     def _select_row(self, row: int) -> None:
         here = self._table.index(row, self.currentIndex().column())

@@ -75,6 +75,7 @@ class ViewActions:
     def _fill(
         self, menu: QMenu, entries: list[tuple[str, str]], present: str, choose: Callable[[str], None]
     ) -> QActionGroup:
+        menu.clear()
         group = QActionGroup(menu)
         for key, name in entries:
             action = QAction(name, group)

@@ -69,20 +69,25 @@ class ValueChecks:
         said = _wrong_kind(facts, value)
         if said is not None:
             return self._finding(address, value, said, self._file.default(address))
-        if not self._within(facts, address, value):
-            said = fault(self._file.situation, address, value)
-            if said is not None:
-                known = facts.parameter.choices is not None
-                mended = self._file.default(address) if known else clip(self._file.situation, address, value)
-                return self._finding(address, value, said, mended)
+        if not self._measures_right(facts, address, value):
+            unit = self._file.situation.unit(address, self._file.header.units)
+            written = show_value(facts.parameter, value)
+            said = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
+            return self._finding(address, value, said, Value(value.value, unit))  # the control knows the figure only
+        if self._within(facts, address, value):
+            return None
+        said = fault(self._file.situation, address, value)
+        if said is None:
+            return None
+        mended = self._file.default(address) if facts.keys else clip(self._file.situation, address, value)
+        return self._finding(address, value, said, mended)
+
+    def _measures_right(self, facts: _Facts, address: Address, value: Value) -> bool:
+        """Tell whether a number is in degrees where the axis turns, in a length where it does not, and so on."""
         if isinstance(value.value, (str, bool)):
-            return None
-        measures = facts.measures if facts.turning is None or not self._turns(address) else facts.turning
-        if dimension(value.unit) in measures:
-            return None
-        unit = self._file.situation.unit(address, self._file.header.units)
-        said = f"{facts.parameter.name} {show_value(facts.parameter, value)} should be in {shown(unit) or 'a bare number'} here"
-        return self._finding(address, value, said, Value(value.value, unit))
+            return True
+        turns = facts.turning is not None and self._turns(address)
+        return dimension(value.unit) in (facts.turning if turns and facts.turning else facts.measures)
 
     def _turns(self, address: Address) -> bool:
         return self._angular is not None and self._file.situation.holds(self._angular, address[1], "axis")

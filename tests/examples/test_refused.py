@@ -17,7 +17,7 @@ REFUSED = {
     "another-kind-of-file": ": is not an AMP Studio parameter file",
     "bad-indent": ", line 7: is not readable: did not find expected key",
     "cut-off-after-a-line": ", line 8: ends without its end mark '...': it has been cut off",
-    "cut-off-in-a-key": ", line 9: is not readable: could not find expected ':'",
+    "cut-off-in-a-key": ", line 8: ends without its end mark '...': it has been cut off",
     "cut-off-in-a-value": ", line 8: ends without its end mark '...': it has been cut off",
     "cut-off-to-nothing": ": is not an AMP Studio parameter file",
     "key-twice": ", line 9: 'home.calibration@1' stands twice",

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
@@ -22,6 +23,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, ParameterFile, content_of, new_file, open_file
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.palette import commands
 from amp_studio.ui.task import ProgressDialog, Task
 from amp_studio.ui.workspace import Workspace
 
@@ -151,7 +153,8 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
         window = MainWindow()
         windows.append(window)
         window.show()
-        qtbot.waitExposed(window)
+        with qtbot.waitActive(window, timeout=WAIT_MS):
+            window.activateWindow()
         if path is not None:
             window.open_first(path)
         return window
@@ -203,6 +206,13 @@ def whole(workspace: Workspace) -> Callable[[], tuple[bytes, object]]:
 def on_disk(path: Path) -> ParameterFile:
     """Return a file as it stands on disk."""
     return open_file(path).file
+
+
+def action(window: MainWindow, name: str) -> QAction:
+    """Return a command of the menus by its name."""
+    found = [a for path, a in commands(window.menuBar()) if path.split(" › ")[-1] == name]
+    assert len(found) == 1, name
+    return found[0]
 
 
 def editor(window: MainWindow) -> QWidget:

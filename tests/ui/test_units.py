@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.parameter_table import ParameterTable
 from amp_studio.ui.workspace import Workspace
+
+from .conftest import editor
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -50,7 +54,7 @@ def test_a_bare_number_has_the_unit_that_is_shown(window: MainWindow, workspace:
     assert workspace.file.get(EXCESS) == Value(0.3, "in")
 
     window.view.switch.trigger()
-    assert window.table.index_of(EXCESS).data() == "7.62 mm"
+    assert window.table.shown_value(EXCESS) == "7.62 mm"
     assert window.edits.commit(EXCESS, "8")
     assert workspace.file.get(EXCESS) == Value(8.0, "mm")
 
@@ -83,11 +87,6 @@ def test_an_editor_that_is_left_as_it_was_changes_nothing(window: MainWindow, wo
     """What is shown in inches is rounded; taking it over would change the value."""
     window.view.switch.trigger()
     window.go_to(EXCESS)
-    from PySide6.QtCore import Qt
-    from PySide6.QtTest import QTest
-
-    from .conftest import editor
-
     QTest.keyClick(window.table_view, Qt.Key.Key_F2)
     assert editor(window).text() == "0.433070866 in"
     QTest.keyClick(editor(window), Qt.Key.Key_Return)
@@ -96,8 +95,6 @@ def test_an_editor_that_is_left_as_it_was_changes_nothing(window: MainWindow, wo
 
 def test_a_converted_value_tells_what_was_entered(table: ParameterTable, workspace: Workspace) -> None:
     workspace.edit("inch", {EXCESS: Value(0.3, "in")})
-    from PySide6.QtCore import Qt
-
     index = table.index_of(EXCESS)
     assert index.data() == "7.62 mm"
     assert "Entered as 0.3 in" in index.data(Qt.ItemDataRole.ToolTipRole)

@@ -1,0 +1,93 @@
+"""The axis menu: name, configure type and servo, copy, delete; each one step."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.schema import Value
+from amp_studio.ui.axis_dialogs import AxisDialog
+from amp_studio.ui.main_window import MainWindow
+
+from .conftest import Person, action
+
+
+def choose(dialog: AxisDialog, axis: str, **labels: str) -> None:
+    """Choose an axis and, by the last word of a parameter's id, its choices."""
+    dialog.axis_box.setCurrentIndex(dialog.axis_box.findData(axis))
+    for parameter_id, box in dialog._fields.items():
+        label = labels.get(parameter_id.rpartition(".")[2])
+        if label:
+            box.setCurrentIndex(box.findData(label))
+
+
+def test_a_dialog_begins_with_the_selected_axis(window: MainWindow) -> None:
+    window.go_to(("home.calibration", "3"))
+    assert window.axes._dialog("Name axis").axis() == "3"
+    window.go_to(("zone.group_count", "2"))
+    assert window.axes._dialog("Name axis").axis() == "1", "a process is no axis"
+
+
+def test_name(window: MainWindow, file: ParameterFile, accept) -> None:
+    accept(AxisDialog, lambda d: choose(d, "1", name="U"))
+    action(window, "Name Axis").trigger()
+    assert file.get(("axis.name", "1")) == Value("U")
+    assert window.table.column_title(("axis", "1")) == "1 U linear"
+
+
+def test_configure_type_takes_the_units_along_as_one_step(window: MainWindow, file: ParameterFile, accept) -> None:
+    before = dict(file.values)
+    accept(AxisDialog, lambda d: choose(d, "2", type="rotary"))
+    action(window, "Configure Axis Type").trigger()
+
+    assert file.get(("axis.type", "2")) == Value("rotary")
+    assert file.get(("servo.excess_error", "2")).unit == "deg"
+    assert window.workspace.undo_stack.count() == 1
+    window.edits.undo.trigger()
+    assert file.values == before
+
+
+def test_configure_servo(window: MainWindow, file: ParameterFile, accept) -> None:
+    accept(AxisDialog, lambda d: choose(d, "1", hardware_type="SERCOS Interface", loop_type="Position or Analog Spindle"))
+    action(window, "Configure Servo").trigger()
+    assert file.get(("servo.loop_type", "1")) == Value("analog")
+
+
+def test_copy(window: MainWindow, file: ParameterFile, accept) -> None:
+    window.edits.commit(("servo.excess_error", "1"), "3 mm")
+    accept(AxisDialog, lambda d: choose(d, "1"))
+    action(window, "Copy Axis").trigger()
+    assert file.get(("servo.excess_error", "2")) == Value(3.0, "mm")
+    assert file.get(("axis.name", "2")) == Value("Y")
+    assert "Copy axis 1 to 2" in window.edits.undo.text()
+
+
+def test_axes_of_two_types_are_not_copied(window: MainWindow, file: ParameterFile, monkeypatch, person: Person) -> None:
+    before = dict(file.values)
+
+    def run(dialog: AxisDialog) -> int:
+        choose(dialog, "1")
+        dialog._form.itemAt(1, dialog._form.ItemRole.FieldRole).widget().setCurrentIndex(3)
+        return 1
+
+    monkeypatch.setattr(AxisDialog, "exec", run)
+    action(window, "Copy Axis").trigger()
+    assert "only axes of the same type can be copied" in person.reads()
+    assert file.values == before
+
+
+def test_delete(window: MainWindow, file: ParameterFile, accept) -> None:
+    before = dict(file.values)
+    accept(AxisDialog, lambda d: choose(d, "5"))
+    action(window, "Delete Axis").trigger()
+    assert fitted_axes(file) == ("1", "2", "3", "4")
+    assert ("axis", "5") not in window.table.columns
+    window.edits.undo.trigger()
+    assert file.values == before
+    assert ("axis", "5") in window.table.columns
+
+
+@pytest.mark.parametrize("machine", ["Lathe", "Mill"])
+def test_control_type_is_in_the_options(window: MainWindow, file: ParameterFile, machine: str) -> None:
+    action(window, machine).trigger()
+    assert file.machine == machine.casefold()

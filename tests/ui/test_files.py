@@ -1,0 +1,400 @@
+"""Open, save, recover: nothing is lost, and two programs on one file notice each other."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import Document, backup_path, content_of, open_file
+from amp_studio.schema import Value
+from amp_studio.ui import file_dialogs
+from amp_studio.ui.main_window import MainWindow
+
+from .conftest import WAIT_MS, Person, action, on_disk
+
+EXCESS = ("servo.excess_error", "1")
+EDITED = Value(3.0, "mm")
+
+OTHER_PROGRAM = """
+import sys
+from pathlib import Path
+from amp_studio.files import Document
+from amp_studio.schema import Value
+document = Document.open(Path(sys.argv[1]))
+if "edit" in sys.argv:
+    document.file.set(("servo.excess_error", "1"), Value(3.0, "mm"))
+    document.file.set(("home.calibration", "2"), None)
+    document.keep_unsaved()
+print("ready", flush=True)
+sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def other_program(path: Path) -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Return what starts another program on the file; it holds the lock until it is killed."""
+    started: list[subprocess.Popen[str]] = []
+
+    def start(*options: str) -> subprocess.Popen[str]:
+        command = [sys.executable, "-c", OTHER_PROGRAM, str(path), *options]
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        started.append(process)
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        return process
+
+    yield start
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+def edit(window: MainWindow) -> None:
+    """Make one unsaved change."""
+    window.edits.commit(EXCESS, "3 mm")
+
+
+# -- saving --------------------------------------------------------------------
+
+
+def test_save_writes_the_file_and_keeps_the_one_before(window: MainWindow, path: Path, example: bytes) -> None:
+    edit(window)
+    assert window.isWindowModified()
+
+    action(window, "Save").trigger()
+
+    assert on_disk(path).get(EXCESS) == EDITED
+    assert backup_path(path).read_bytes() == example
+    assert not window.isWindowModified()
+    assert "saved" in window.file_status.text()
+
+
+def test_undo_after_a_save_is_unsaved_again(window: MainWindow) -> None:
+    edit(window)
+    assert window.save_or_tell()
+    window.edits.undo.trigger()
+    assert window.isWindowModified()
+    window.edits.redo.trigger()
+    assert not window.isWindowModified()
+
+
+def test_a_file_changed_on_disk_is_not_overwritten(window: MainWindow, path: Path, person: Person, qtbot) -> None:
+    edit(window)
+    window.watch.follow(None)  # save before the watch has told
+    path.write_bytes(path.read_bytes() + b"# touched\n")
+    touched = path.read_bytes()
+
+    assert not window.save_or_tell()
+
+    assert "has been changed by another program" in person.reads()
+    assert path.read_bytes() == touched
+    assert window.workspace.file.get(EXCESS) == EDITED
+
+
+@pytest.mark.parametrize("replace", [True, False], ids=["renamed over", "written in place"])
+def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
+    window: MainWindow, path: Path, person: Person, qtbot, replace: bool
+) -> None:
+    window.go_to(("home.calibration", "2"))
+    person.answers("Load again")
+    changed = open_file(path).file
+    changed.set(EXCESS, EDITED)
+    if replace:
+        beside = path.with_name("beside")
+        beside.write_bytes(content_of(changed))
+        beside.replace(path)
+    else:
+        path.write_bytes(content_of(changed))
+
+    qtbot.waitUntil(lambda: bool(window.workspace) and window.workspace.file.get(EXCESS) == EDITED, timeout=WAIT_MS)
+
+    assert len(person.asked) == 1
+    assert window.selected() == ("home.calibration", "2")
+    assert window.workspace.may_edit
+
+
+def test_a_file_that_was_broken_on_disk_leaves_the_work_open(window: MainWindow, path: Path, person: Person, qtbot) -> None:
+    edit(window)
+    person.answers("Load again")
+    path.write_bytes(b"amp_studio: 1\n")
+
+    qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
+
+    person.reads()
+    assert window.workspace.file.get(EXCESS) == EDITED
+    assert window.workspace.may_edit
+
+
+def test_a_removed_file_is_told_and_can_be_saved_elsewhere(window: MainWindow, path: Path, person: Person, qtbot) -> None:
+    path.unlink()
+    qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
+    assert "has been removed" in person.reads()
+    person.chooses(path.with_name("again"))
+    window.files.save_as()
+    assert on_disk(path.with_name("again.amp")).get(EXCESS) == Value(11.0, "mm")
+
+
+def test_our_own_save_is_no_change_by_another_program(window: MainWindow, person: Person, qtbot) -> None:
+    edit(window)
+    assert window.save_or_tell()
+    qtbot.wait(600)
+    assert person.asked == []
+
+
+def test_a_full_disk_leaves_the_work_open(window: MainWindow, person: Person, monkeypatch: pytest.MonkeyPatch) -> None:
+    edit(window)
+
+    def fail(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", fail)
+    assert not window.save_or_tell()
+    monkeypatch.undo()
+
+    assert "No space left on device" in person.told.pop()
+    assert window.workspace.is_dirty
+    assert window.workspace._journal.isActive()
+
+
+def test_save_as_leaves_the_original_and_goes_on_with_the_copy(window: MainWindow, path: Path, person: Person) -> None:
+    window.go_to(EXCESS)
+    edit(window)
+    person.chooses(path.with_name("copy"))
+
+    window.files.save_as()
+
+    assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
+    assert on_disk(path.with_name("copy.amp")).get(EXCESS) == EDITED
+    assert window.workspace.path.name == "copy.amp"
+    assert window.workspace.file.header.name == "copy"
+    assert window.selected() == EXCESS
+    Document.open(path).close()  # its lock is free
+
+
+def test_save_as_over_a_file_asks_and_keeps_it_as_backup(window: MainWindow, path: Path, person: Person) -> None:
+    other = path.with_name("other.amp")
+    other.write_bytes(path.read_bytes())
+    before = other.read_bytes()
+    edit(window)
+    person.chooses(other, other)
+    person.answers("Cancel", "Replace")
+
+    window.files.save_as()
+    assert other.read_bytes() == before
+    window.files.save_as()
+
+    assert on_disk(other).get(EXCESS) == EDITED
+    assert backup_path(other).read_bytes() == before
+
+
+def test_save_as_over_a_file_another_program_edits_is_refused(
+    window: MainWindow, path: Path, person: Person
+) -> None:
+    other = path.with_name("other.amp")
+    other.write_bytes(path.read_bytes())
+    before = other.read_bytes()
+    person.chooses(other)
+    person.answers("Replace")
+    with Document.open(other):
+        window.guarded(window.files.save_as)
+
+    assert "is open in another program" in person.reads()
+    assert other.read_bytes() == before
+    assert window.workspace.path == path
+
+
+# -- opening -------------------------------------------------------------------
+
+
+def test_a_file_that_is_none_is_told_and_the_open_one_stays(window: MainWindow, tmp_path: Path, person: Person) -> None:
+    bad = tmp_path / "bad.amp"
+    bad.write_text("nonsense")
+    person.chooses(bad)
+
+    action(window, "Open").trigger()
+
+    assert "bad.amp" in person.reads()
+    assert window.workspace.may_edit
+
+
+def test_unsaved_changes_are_asked_about_before_another_file(window: MainWindow, path: Path, person: Person) -> None:
+    other = path.with_name("other.amp")
+    other.write_bytes(path.read_bytes())
+    edit(window)
+    person.answers("Cancel", "Discard")
+
+    window.files.open_path(other)
+    assert window.workspace.path == path
+    window.files.open_path(other)
+    assert window.workspace.path == other
+    assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
+
+
+def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, person: Person, other_program) -> None:
+    other_program()
+    person.answers("Look at it")
+
+    window = open_window(path)
+
+    assert "is open in another program" in person.asked[0]
+    assert "[read only]" in window.windowTitle()
+    assert not action(window, "Save").isEnabled()
+    assert not action(window, "Delete Axis").isEnabled()
+    assert not action(window, "Unset").isEnabled()
+    assert action(window, "Save As").isEnabled()
+    index = window.table.index_of(("control.type", ""))
+    from PySide6.QtCore import Qt
+
+    assert not index.flags() & Qt.ItemFlag.ItemIsEditable
+    person.chooses(path.with_name("mine"))
+    window.files.save_as()
+    assert window.workspace.may_edit
+
+
+def test_a_file_in_use_need_not_be_opened(open_window, path: Path, person: Person, other_program) -> None:
+    other_program()
+    person.answers("Cancel")
+    assert open_window(path).workspace is None
+
+
+def test_the_work_of_a_killed_program_is_offered_and_can_be_undone(
+    open_window, path: Path, person: Person, other_program
+) -> None:
+    killed = other_program("edit")
+    killed.send_signal(signal.SIGKILL)
+    killed.wait()
+    person.answers("Take it back")
+
+    window = open_window(path)
+
+    assert "2 changes" in person.asked[0]
+    assert window.workspace.file.get(EXCESS) == EDITED
+    assert window.workspace.file.get(("home.calibration", "2")) is None
+    assert window.workspace.is_dirty
+    window.edits.undo.trigger()
+    assert window.workspace.file.values == on_disk(path).values
+
+
+def test_the_work_of_a_killed_program_can_be_thrown_away_or_left(
+    open_window, path: Path, person: Person, other_program
+) -> None:
+    killed = other_program("edit")
+    killed.kill()
+    killed.wait()
+    person.answers("Decide later", "Throw it away")
+
+    window = open_window(path)
+    assert window.workspace is None
+    window.open_first(path)
+    assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
+    window.open_first(path)
+    assert len(person.asked) == 2
+
+
+def test_unsaved_work_is_kept_beside_the_file_while_one_types(window: MainWindow, path: Path, qtbot) -> None:
+    """Also by who never pauses: the next edit does not put it off."""
+    journal = window.workspace.document.journal_path
+    edit(window)
+    deadline = window.workspace._journal.remainingTime()
+    window.edits.commit(EXCESS, "4 mm")
+    assert window.workspace._journal.remainingTime() <= deadline
+    qtbot.waitUntil(journal.exists, timeout=WAIT_MS)
+    assert window.save_or_tell()
+    assert not journal.exists()
+
+
+# -- new, recover, facts, close ------------------------------------------------
+
+
+def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, person: Person, accept) -> None:
+    window = open_window()
+
+    def fill(dialog: file_dialogs.NewFileDialog) -> None:
+        dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
+        dialog.axes.setText("X, Z, S")
+
+    accept(file_dialogs.NewFileDialog, fill)
+    person.chooses(tmp_path / "new")
+
+    action(window, "New").trigger()
+
+    assert [window.table.column_title(c) for c in window.table.columns] == ["Control", "1 X linear", "2 Z linear", "3 S spindle"]
+    assert on_disk(tmp_path / "new.amp").machine == "mill"
+
+
+def test_an_axis_name_that_is_not_offered_is_told_and_asks_again(open_window, person: Person) -> None:
+    dialog = file_dialogs.NewFileDialog(open_window())
+    dialog.axes.setText("X, Q")
+    dialog.accept()
+    assert "'Q'" in person.reads()
+    assert not dialog.result()
+
+
+def test_recover_backup_asks_and_says_what_is_lost(window: MainWindow, path: Path, person: Person, example: bytes) -> None:
+    window.guarded(window.files.recover)
+    assert "has no backup yet" in person.reads()
+
+    edit(window)
+    assert window.save_or_tell()
+    window.edits.commit(EXCESS, "4 mm")
+    person.answers("Cancel", "Replace")
+    window.files.recover()
+    assert "Your unsaved changes are lost" in person.asked[-1]
+    assert window.workspace.file.get(EXCESS) == Value(4.0, "mm")
+    window.files.recover()
+
+    assert path.read_bytes() == example
+    assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
+    assert window.workspace.may_edit
+
+
+def test_machine_facts_are_a_step_and_save_nothing_by_themselves(window: MainWindow, path: Path, example: bytes, accept) -> None:
+    edit(window)
+    accept(file_dialogs.FactsDialog, lambda d: d.notes.setPlainText("checked by two"))
+
+    window.files.facts()
+
+    assert window.workspace.file.header.notes == "checked by two"
+    assert path.read_bytes() == example
+    assert window.isWindowModified()
+    window.edits.undo.trigger()
+    assert window.workspace.file.header.notes != "checked by two"
+
+
+def test_close_shows_the_welcome_page_with_the_file(window: MainWindow, path: Path) -> None:
+    window.files.close()
+    assert window.workspace is None
+    assert window.windowTitle() == "AMP Studio"
+    assert window.files.recent() == [path]
+    page = window.centralWidget()
+    page.list.itemActivated.emit(page.list.item(0))
+    assert window.workspace.path == path
+
+
+def test_own_rules_beside_the_file_are_checked(open_window, path: Path) -> None:
+    """A machine builder's own rules stand in the same form beside his files."""
+    path.with_name("rules.yaml").write_text(
+        "rules:\n"
+        "  - id: own.calibration\n"
+        "    title: Calibration is never zero here\n"
+        "    severity: warning\n"
+        '    page: "1"\n'
+        "    reads: {calibration: home.calibration}\n"
+        "    check: calibration != 0.0\n"
+        "    message: the calibration of axis {instance} is zero\n"
+    )
+    window = open_window(path)
+    assert any(f.rule == "own.calibration" for f in window.workspace.findings)
+
+
+def test_own_rules_that_cannot_be_read_are_told(open_window, path: Path, person: Person) -> None:
+    path.with_name("rules.yaml").write_text("rules:\n  - nonsense\n")
+    window = open_window(path)
+    assert "The file is checked without the rules" in person.reads()
+    assert window.workspace is not None

@@ -1,0 +1,164 @@
+"""The files of a project: open, copy (also from another project), rename, delete, recover."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import Document, Project, ProjectInfo
+from amp_studio.schema import Value
+from amp_studio.ui import file_dialogs
+from amp_studio.ui.main_window import MainWindow
+
+from .conftest import Person, action, on_disk
+
+EXCESS = ("servo.excess_error", "1")
+
+
+@pytest.fixture
+def project(path: Path) -> Project:
+    """Return a project round the file, with a second file in it."""
+    project = Project.create(path.parent, ProjectInfo(name="Mill", family="9pc", machine="mill", control="tcp://127.0.0.1:9"))
+    project.copy(path, "second")
+    return project
+
+
+@pytest.fixture
+def window(open_window, project: Project, path: Path) -> MainWindow:
+    """Return a window with the project's first file open."""
+    return open_window(path)
+
+
+def test_opening_a_file_opens_its_project(window: MainWindow) -> None:
+    assert window.projects.project.info.name == "Mill"
+    assert "Mill" in window.windowTitle()
+    assert action(window, "Rename File").isEnabled()
+
+
+def test_without_a_project_its_commands_are_off(open_window) -> None:
+    window = open_window()
+    assert not action(window, "Rename File").isEnabled()
+    assert action(window, "Open Project").isEnabled()
+
+
+def test_open_a_project_and_one_of_its_files(open_window, project: Project, person: Person) -> None:
+    window = open_window()
+    person.chooses(project.folder)
+    person.types("second")
+    action(window, "Open Project").trigger()
+    assert window.workspace.path.stem == "second"
+
+
+def test_copy_opens_the_copy(window: MainWindow, project: Project, person: Person) -> None:
+    person.types("mill", "third")
+    action(window, "Copy File").trigger()
+    assert window.workspace.path == project.path("third")
+    assert on_disk(project.path("third")).values == on_disk(project.path("mill")).values
+
+
+def test_copy_from_another_project(window: MainWindow, project: Project, person: Person, tmp_path: Path) -> None:
+    other = Project.create(tmp_path / "other", ProjectInfo(name="Other", family="9pc", machine="mill"))
+    theirs = other.copy(project.path("mill"), "theirs")
+    person.chooses(theirs)
+    person.types("ours")
+    action(window, "Copy from Another Project").trigger()
+    assert window.workspace.path == project.path("ours")
+    assert theirs.exists()
+
+
+def test_a_name_that_is_taken_is_told(window: MainWindow, person: Person) -> None:
+    person.types("mill", "SECOND")
+    action(window, "Copy File").trigger()
+    assert "there is a file 'second' already" in person.reads().lower()
+
+
+def test_rename_a_file_that_is_not_open(window: MainWindow, project: Project, path: Path, person: Person) -> None:
+    person.types("second", "renamed")
+    action(window, "Rename File").trigger()
+    assert {p.stem for p in project.files()} == {"mill", "renamed"}
+    assert window.workspace.path == path
+
+
+def test_rename_the_open_file_keeps_it_open(window: MainWindow, project: Project, person: Person) -> None:
+    window.edits.commit(EXCESS, "3 mm")
+    person.types("mill", "renamed")
+    person.answers("Save")
+    action(window, "Rename File").trigger()
+    assert {p.stem for p in project.files()} == {"renamed", "second"}
+    assert window.workspace.path == project.path("renamed")
+    assert window.workspace.may_edit
+    assert window.workspace.file.get(EXCESS) == Value(3.0, "mm")
+
+
+def test_a_rename_that_fails_leaves_the_file_open(window: MainWindow, project: Project, person: Person) -> None:
+    person.types("mill", "second")
+    action(window, "Rename File").trigger()
+    assert "already" in person.reads()
+    assert window.workspace.path == project.path("mill")
+    assert window.workspace.may_edit
+
+
+def test_delete_asks_and_can_be_recovered(window: MainWindow, project: Project, person: Person) -> None:
+    person.types("second", "second", "second")
+    person.answers("Cancel", "Delete")
+    action(window, "Delete File").trigger()
+    assert project.path("second").exists()
+    action(window, "Delete File").trigger()
+    assert not project.path("second").exists()
+
+    action(window, "Recover a Deleted or Older File").trigger()
+    assert window.workspace.path == project.path("second")
+
+
+def test_deleting_the_open_file_closes_it(window: MainWindow, project: Project, person: Person) -> None:
+    person.types("mill")
+    person.answers("Delete")
+    action(window, "Delete File").trigger()
+    assert window.workspace is None
+    assert not project.path("mill").exists()
+
+
+def test_a_file_in_use_elsewhere_is_not_deleted(window: MainWindow, project: Project, person: Person) -> None:
+    person.types("second")
+    person.answers("Delete")
+    with Document.open(project.path("second")):
+        action(window, "Delete File").trigger()
+    assert "is open in another program" in person.reads()
+    assert project.path("second").exists()
+
+
+def test_a_new_file_goes_into_the_project(window: MainWindow, project: Project, accept, person: Person) -> None:
+    accept(file_dialogs.NewFileDialog, lambda d: d.name.setText("fresh"))
+    action(window, "New").trigger()
+    assert window.workspace.path == project.path("fresh")
+
+    accept(file_dialogs.NewFileDialog, lambda d: d.name.setText("mill"))
+    action(window, "New").trigger()
+    assert person.reads() == "The project has a file 'mill' already."
+
+
+def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, person: Person) -> None:
+    window = open_window()
+    accept(file_dialogs.ProjectDialog, lambda d: d.name.setText("Lathe"))
+    person.chooses(tmp_path)
+    action(window, "New Project").trigger()
+    assert Project.open(tmp_path).info.name == "Lathe"
+
+    accept(file_dialogs.ProjectDialog, lambda d: d.control.setText("tcp://10.0.0.1:9600"))
+    action(window, "Project Information").trigger()
+    assert Project.open(tmp_path).info.control == "tcp://10.0.0.1:9600"
+
+
+def test_a_project_needs_a_name(open_window, person: Person) -> None:
+    dialog = file_dialogs.ProjectDialog(None, open_window())
+    dialog.accept()
+    assert "needs a name" in person.reads()
+    assert not dialog.result()
+
+
+def test_a_broken_project_file_keeps_nobody_from_the_parameters(open_window, path: Path) -> None:
+    (path.parent / "project.yaml").write_text("nonsense: [")
+    window = open_window(path)
+    assert window.workspace is not None
+    assert window.projects.project is None

@@ -1,0 +1,59 @@
+"""The printed report, written by a worker."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtGui import QDesktopServices
+
+from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.main_window import MainWindow
+
+from .conftest import Person, action
+
+
+@pytest.mark.parametrize(("ending", "begins"), [("pdf", b"%PDF"), ("html", b"<!"), ("csv", b""), ("txt", b"")])
+def test_a_report_in_each_format(window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes) -> None:
+    path = tmp_path / f"report.{ending}"
+    accept(ReportDialog, lambda d: d.path.setText(str(path)))
+
+    action(window, "Report").trigger()
+
+    assert path.read_bytes().startswith(begins)
+    assert path.stat().st_size > 1000
+    assert str(path) in window.statusBar().currentMessage()
+
+
+def test_the_report_holds_what_is_edited_and_not_what_is_saved(window: MainWindow, tmp_path: Path, accept) -> None:
+    path = tmp_path / "report.csv"
+    window.edits.commit(("servo.excess_error", "1"), "3.75 mm")
+    accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.changed.setChecked(True)))
+    action(window, "Report").trigger()
+    assert "3.75" in path.read_text(encoding="utf-8")
+
+
+def test_an_unknown_ending_is_told_and_nothing_is_written(window: MainWindow, tmp_path: Path, accept, person: Person) -> None:
+    accept(ReportDialog, lambda d: d.path.setText(str(tmp_path / "report.doc")))
+    action(window, "Report").trigger()
+    assert "as its ending says" in person.reads()
+    assert not (tmp_path / "report.doc").exists()
+
+
+def test_the_report_is_opened_when_wanted(window: MainWindow, tmp_path: Path, accept, monkeypatch) -> None:
+    opened = []
+    monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(Path(url.toLocalFile())))
+    path = tmp_path / "report.txt"
+    accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.show_it.setChecked(True)))
+    action(window, "Report").trigger()
+    assert opened == [path]
+
+
+def test_browsing_gives_the_ending_that_was_chosen(window: MainWindow, tmp_path: Path, monkeypatch) -> None:
+    from PySide6.QtWidgets import QFileDialog
+
+    dialog = ReportDialog(tmp_path / "mill.amp", window)
+    assert dialog.path.text() == str(tmp_path / "mill.pdf")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "named"), "HTML (*.html)"))
+    dialog._browse()
+    assert dialog.path.text() == str(tmp_path / "named.html")
