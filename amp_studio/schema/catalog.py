@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 from .load import Compiled, load_compiled
-from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, StateRule, Table
+from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Scope, StateRule, Table
 from .units import angular
 
 Address = tuple[str, str]
@@ -54,6 +54,13 @@ class Schema:
             if layout.machines is None or machine in layout.machines:
                 return layout
         return None
+
+    def scopes(self, machine: str) -> dict[str, Scope | None]:
+        """Return parameter id -> what its instances are on this machine type; None where it does not exist there."""
+        if machine not in self._scopes:
+            layouts = ((p.id, self.layout(p, machine)) for p in self.parameters.values())
+            self._scopes[machine] = {parameter_id: layout.scope if layout else None for parameter_id, layout in layouts}
+        return self._scopes[machine]
 
     def instances(self, parameter: Parameter, machine: str) -> tuple[str, ...]:
         """Return the instances a parameter has on this machine type."""
@@ -121,6 +128,10 @@ class Schema:
         """Parameter id -> a number that is the same for parameters with the same state rules."""
         kinds: dict[tuple[StateRule, ...], int] = {}
         return {p.id: kinds.setdefault(p.states, len(kinds)) for p in self.parameters.values()}
+
+    @cached_property
+    def _scopes(self) -> dict[str, dict[str, Scope | None]]:
+        return {}
 
     @cached_property
     def _layouts(self) -> dict[tuple[str, str], Layout | None]:

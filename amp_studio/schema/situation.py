@@ -83,8 +83,7 @@ class Situation:
 
     def scope(self, address: Address) -> Scope | None:
         """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""
-        layout = self.schema.layout(self.schema.parameters[address[0]], self.machine)
-        return layout.scope if layout else None
+        return self.schema.scopes(self.machine)[address[0]]
 
     def reading(self, text: str, instance: str, scope: str | None = None) -> Reading:
         """Resolve one entry of ``reads`` for an instance; raises UnknownParameter.

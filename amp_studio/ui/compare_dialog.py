@@ -73,8 +73,8 @@ class DifferenceList(QTreeWidget):
 def counts(found: Comparison, other: str) -> str:
     """Return the counts of a comparison in a sentence."""
     different = len(found.differences) - found.absent_in_a - found.absent_in_b
-    return (f"{different} values are different, {found.same} the same; {found.absent_in_a} are absent in this file and "
-            f"{found.absent_in_b} in {other}.")  # fmt: skip
+    absent = f"{found.absent_in_a} absent in this file, {found.absent_in_b} absent in {other}"
+    return f"{different} different, {found.same} the same, {absent}."
 
 
 class CompareDialog(QDialog):

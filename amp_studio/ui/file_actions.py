@@ -78,10 +78,15 @@ class FileActions:
         self._recent_menu.setEnabled(True)
 
     def _fill_recent(self) -> None:
+        paths = self.recent()
+        if paths == [action.data() for action in self._recent_menu.actions()]:
+            return
         self._recent_menu.clear()
-        for n, path in enumerate(self.recent(), 1):
-            action = self._recent_menu.addAction(f"&{n} {path.name}  ({path.parent})")
+        for n, path in enumerate(paths, 1):
+            action = QAction(f"&{n} {path.name.replace('&', '&&')}  ({path.parent})", self._recent_menu)
+            action.setData(path)
             action.triggered.connect(lambda *_, path=path: self.window.open_first(path))
+            self._recent_menu.addAction(action)
 
     # -- opening ---------------------------------------------------------------
 

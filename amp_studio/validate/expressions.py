@@ -18,7 +18,20 @@ from amp_studio.schema.units import UNITS
 ALWAYS_THERE = ("machine", "instance")
 """Names that a rule need not read: the machine type and the instance it runs for."""
 
-_TYPES = {"int", "uint", "double", "string", "bytes", "bool", "list", "map", "null_type", "type", "timestamp", "duration"}
+_TYPES = {
+    "int",
+    "uint",
+    "double",
+    "string",
+    "bytes",
+    "bool",
+    "list",
+    "map",
+    "null_type",
+    "type",
+    "timestamp",
+    "duration",
+}
 _FUNCTIONS = {"size", "contains", "startsWith", "endsWith", "matches", "int", "uint", "double", "string", "bytes", "type",
               "dyn", "timestamp", "duration"}  # fmt: skip
 """Functions of the language itself; those of dates are left out, no parameter is one."""
@@ -106,10 +119,14 @@ def _check_names(rule: Rule) -> None:
             raise RuleFault(rule.id, f"'{unit}' is no unit")
     known = {*rule.reads, *rule.values, *ALWAYS_THERE}
     try:
-        fields = [(name, form, how) for _, name, form, how in Formatter().parse(rule.message) if name is not None]
+        fields = [
+            (name, form, how) for _, name, form, how in Formatter().parse(rule.message) if name is not None
+        ]
     except ValueError as error:
         raise RuleFault(rule.id, f"message: {error}") from None
     for name, form, how in fields:
         if name not in known or form or how:
             written = f"{name}{f'!{how}' if how else ''}{f':{form}' if form else ''}"
-            raise RuleFault(rule.id, f"the message shows '{{{written}}}', which is neither read nor among its values")
+            raise RuleFault(
+                rule.id, f"the message shows '{{{written}}}', which is neither read nor among its values"
+            )

@@ -3,18 +3,31 @@
 from __future__ import annotations
 
 import inspect
+import logging
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache
 from importlib import import_module
 from typing import Any
 
 # Families with formulas of their own, and the module of this room that holds them.
 FAMILY_MODULES = {"9pc": "ninepc"}
 
+# A function that makes no sense of its arguments ends the expression, and that is all there is to say; CEL also logs
+# it, which without a handler would come out on standard error.
+logging.getLogger("cel").addHandler(logging.NullHandler())
+
 
 def _mod(a: float, b: float) -> float:
     return math.fmod(a, b) if b else math.nan
+
+
+def _floor(a: float) -> float:
+    return float(math.floor(a))
+
+
+def _ceil(a: float) -> float:
+    return float(math.ceil(a))
 
 
 def _min(a: float, b: float) -> float:
@@ -31,16 +44,16 @@ def _round(a: float, digits: float) -> float:
 
 GENERAL: dict[str, Callable[..., Any]] = {
     "mod": _mod,
-    "floor": lambda a: float(math.floor(a)),
-    "ceil": lambda a: float(math.ceil(a)),
-    "abs": lambda a: abs(a),
+    "floor": _floor,
+    "ceil": _ceil,
+    "abs": abs,
     "round": _round,
     "min": _min,
     "max": _max,
 }
 
 
-@lru_cache(maxsize=None)
+@cache
 def formulas(family: str) -> dict[str, Callable[..., Any]]:
     """Return name -> function of a family's published formulas."""
     if family not in FAMILY_MODULES:

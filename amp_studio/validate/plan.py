@@ -39,6 +39,8 @@ class RuleCheck:
     expressions: Expressions
     singles: tuple[Single, ...]
     lists: tuple[tuple[str, tuple[Address, ...]], ...]
+    names: tuple[str, ...]
+    """Of the single values, then of the lists."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:
@@ -132,7 +134,8 @@ def checks_of(situation: Situation, rules: tuple[Rule, ...]) -> tuple[RuleCheck,
                 if not reading.is_list
             )
             lists = tuple((name, reading.addresses) for name, reading in readings.items() if reading.is_list)
-            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists))
+            names = (*(single.name for single in singles), *(name for name, _ in lists))
+            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists, names))
     return tuple(checks)
 
 
@@ -174,7 +177,9 @@ def _runs_for(situation: Situation, rule: Rule) -> tuple[str | None, tuple[str, 
         parameter_id, which = read_address(text)
         if which in ("", "<", ">"):
             own[parameter_id] = own.get(parameter_id, False) or which == ""
-    instances = {p: situation.schema.instances(situation.schema.parameters[p], situation.machine) for p in own}
+    instances = {
+        p: situation.schema.instances(situation.schema.parameters[p], situation.machine) for p in own
+    }
     scopes = {p: situation.scope((p, "")) for p in own}
     if not all(instances.values()):
         return None, ()

@@ -8,7 +8,18 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Parameter, Schema, Value, clip, dimension, fault, limits, show_value, shown
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    Schema,
+    Value,
+    clip,
+    dimension,
+    fault,
+    limits,
+    show_value,
+    shown,
+)
 from amp_studio.schema.model import BoundRef
 
 from .finding import Finding, Repair
@@ -40,7 +51,8 @@ def _facts(schema: Schema, machine: str) -> dict[str, _Facts]:
             continue
         systems = tuple(schema.family.units) or ("",)
         measures, turning = (
-            frozenset(dimension(schema.unit(parameter, system, turns)) for system in systems) for turns in (False, True)
+            frozenset(dimension(schema.unit(parameter, system, turns)) for system in systems)
+            for turns in (False, True)
         )
         bounds = [bound for pair in (parameter.ranges or {}).values() for bound in pair]
         found[parameter.id] = _Facts(
@@ -73,7 +85,9 @@ class ValueChecks:
             unit = self._file.situation.unit(address, self._file.header.units)
             written = show_value(facts.parameter, value)
             said = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
-            return self._finding(address, value, said, Value(value.value, unit))  # the control knows the figure only
+            return self._finding(
+                address, value, said, Value(value.value, unit)
+            )  # the control knows the figure only
         if self._within(facts, address, value):
             return None
         said = fault(self._file.situation, address, value)
@@ -129,7 +143,11 @@ def _wrong_kind(facts: _Facts, value: Value) -> str | None:
         return None if isinstance(found, str) else f"{parameter.name} takes a text, not {found}"
     if parameter.type == "format":
         fits = isinstance(found, str) and _FORMAT.fullmatch(found)
-        return None if fits else f"{parameter.name} takes digits before and behind the point, as 3.4, not {found}"
+        return (
+            None
+            if fits
+            else f"{parameter.name} takes digits before and behind the point, as 3.4, not {found}"
+        )
     if isinstance(found, (str, bool)) or not math.isfinite(found):
         return f"{parameter.name} takes a number, not {found}"
     if parameter.type != "real" and found != int(found):

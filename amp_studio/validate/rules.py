@@ -30,18 +30,42 @@ EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, Looku
 """What CEL raises for a value of a kind that an expression does not speak of."""
 
 
-class RuleChecks:
-    """The rules of one plan over the values of one file.
+class _Given:
+    """The context of one check, with the values it was given and what came of them.
 
-    Giving values to CEL costs ten times as much as an expression, so each check
-    keeps its own context and is given only values that are no longer the same.
+    Giving values to CEL costs ten times as much as an expression, so a context is kept, and is given only values
+    that are no longer the same object: to be equal is not enough, for Python takes 1 and True for equal.
     """
+
+    __slots__ = ("broken", "context", "values")
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.values: list[Any] | None = None
+        self.broken = False
+
+    def take(self, names: tuple[str, ...], values: list[Any]) -> bool:
+        """Take the present values; tells whether any of them is new."""
+        before = self.values
+        if before is None:
+            self.context.update(dict(zip(names, values, strict=True)))
+        elif all(map(is_, values, before)):
+            return False
+        else:
+            every = zip(names, values, before, strict=True)
+            self.context.update({name: value for name, value, old in every if value is not old})
+        self.values = values
+        return True
+
+
+class RuleChecks:
+    """The rules of one plan over the values of one file."""
 
     def __init__(self, file: ParameterFile, machine: str) -> None:
         self._file, self._machine = file, machine
         self._functions = rule_functions(file.schema.family.family)
-        self._contexts: dict[int, tuple[Context, list[Any]]] = {}
-        """Place of a check -> its context, and the values it was given."""
+        self._given: dict[int, _Given] = {}
+        """Place of a check -> what it was given."""
         self._seen: dict[Address, Canonical] = {}
         self._lists: dict[tuple[Address, ...], list[Canonical]] = {}
         self._lists_before: dict[tuple[Address, ...], list[Canonical]] = {}
@@ -54,22 +78,27 @@ class RuleChecks:
 
     def finding(self, check: RuleCheck) -> Finding | None:
         """Return what is wrong if the rule is broken; None too where what it needs is unset or out of force."""
-        context = self._context(check)
-        if context is None:
+        values = self._values(check)
+        if values is None:
             return None
-        try:
-            if check.expressions.broken.execute(context) is not True:
-                return None
-        except EVALUATION_FAULTS:
-            return None  # a value of a kind the rule does not speak of; its own range check says what is wrong
-        return self._finding(check, context)
+        given = self._given.get(check.place)
+        if given is None:
+            given = self._given[check.place] = _Given(self._new_context(check))
+        if given.take(check.names, values):
+            try:
+                given.broken = check.expressions.broken.execute(given.context) is True
+            except EVALUATION_FAULTS:
+                given.broken = (
+                    False  # a value of a kind the rule does not speak of; its own check says what is wrong
+                )
+        return self._finding(check, given) if given.broken else None
 
     # -- values ----------------------------------------------------------------
 
-    def _context(self, check: RuleCheck) -> Context | None:
-        """Return a context with the values the rule reads; None when one it needs is not there."""
-        values: list[Any] = []
-        seen = self._seen
+    def _values(self, check: RuleCheck) -> list[Canonical | list[Canonical]] | None:
+        """Return the values of a check's names; None when one it needs is not there."""
+        values: list[Canonical | list[Canonical]] = []
+        seen, lists = self._seen, self._lists
         for single in check.singles:
             address = single.address
             found = seen[address] if address in seen else self._see(address)
@@ -79,16 +108,8 @@ class RuleChecks:
                 return None
             values.append(found)
         for _, addresses in check.lists:
-            values.append(self._lists[addresses] if addresses in self._lists else self._list(addresses))
-        kept = self._contexts.get(check.place)
-        if kept is None:
-            kept = self._contexts[check.place] = self._new_context(check), values
-        elif len(values) == len(kept[1]) and all(map(is_, values, kept[1])):
-            return kept[0]
-        names = [*(s.name for s in check.singles), *(name for name, _ in check.lists)]
-        kept[0].update(dict(zip(names, values, strict=True)))
-        kept[1][:] = values
-        return kept[0]
+            values.append(lists[addresses] if addresses in lists else self._list(addresses))
+        return values
 
     def _new_context(self, check: RuleCheck) -> Context:
         context = Context()
@@ -119,7 +140,7 @@ class RuleChecks:
 
     # -- what is said ----------------------------------------------------------
 
-    def _finding(self, check: RuleCheck, context: Context) -> Finding:
+    def _finding(self, check: RuleCheck, given: _Given) -> Finding:
         rule, situation = check.rule, self._file.situation
         texts = {"instance": check.instance, "machine": self._machine}
         for single in check.singles:
@@ -129,13 +150,15 @@ class RuleChecks:
         own = tuple(single.address for single in check.singles)
         turns = any(situation.turns(address) for address in own)
         for name, expression in check.expressions.values:
-            texts[name] = self._text(expression, context, rule.units.get(name, ""), turns)
+            texts[name] = self._text(expression, given.context, rule.units.get(name, ""), turns)
         about = own or tuple(
             a for _, addresses in check.lists for a in addresses if situation.state(a).state == "in-force"
         )
-        repairs = self._repairs(check, context)
+        repairs = self._repairs(check, given)
         safe = bool(repairs) and all(fix.safe for fix in rule.fix)
-        return Finding(rule.id, rule.severity, about, rule.message.format_map(texts), repairs, rule.page, safe)
+        return Finding(
+            rule.id, rule.severity, about, rule.message.format_map(texts), repairs, rule.page, safe
+        )
 
     def _shown(self, address: Address) -> str:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
@@ -154,39 +177,34 @@ class RuleChecks:
                 found, unit = convert(float(found), unit, inch), inch
         return f"{write_number(float(f'{found:.7g}'))} {shown(unit)}".rstrip()
 
-    def _repairs(self, check: RuleCheck, context: Context) -> tuple[Repair, ...]:
+    def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Repair, ...]:
         """Return what the rule would change; nothing if a part of it is not allowed, or if it would not help."""
         repairs = []
         for name, expression in check.expressions.fixes:
             address = check.address_of(name)
-            value = self._mended(address, expression, context)
+            value = self._mended(address, expression, given.context)
             if value is None or value == self._file.values.get(address):
                 continue
             if fault(self._file.situation, address, value):
                 return ()
             repairs.append(Repair(address, value))
-        return tuple(repairs) if repairs and self._mends(check, context, repairs) else ()
+        return tuple(repairs) if repairs and self._mends(check, given, repairs) else ()
 
-    def _mends(self, check: RuleCheck, context: Context, repairs: list[Repair]) -> bool:
+    def _mends(self, check: RuleCheck, given: _Given, repairs: list[Repair]) -> bool:
         """Tell whether the rule holds with its own repairs, which were rounded as the parameter wants it."""
         mended = {repair.address: canonical_value(repair.value) for repair in repairs}
-        given = iter(self._contexts[check.place][1])
-        before: dict[str, Any] = {}
-        after: dict[str, Any] = {}
-        for single, found in zip(check.singles, given):
-            if single.address in mended:
-                before[single.name], after[single.name] = found, mended[single.address]
-        for (name, addresses), found in zip(check.lists, given):
+        before = dict(zip(check.names, given.values or (), strict=True))
+        after: dict[str, Any] = {s.name: mended[s.address] for s in check.singles if s.address in mended}
+        for name, addresses in check.lists:
             if not mended.keys().isdisjoint(addresses):
-                before[name] = found
-                after[name] = [mended.get(a, value) for a, value in zip(addresses, found, strict=True)]
-        context.update(after)
+                after[name] = [mended.get(a, value) for a, value in zip(addresses, before[name], strict=True)]
+        given.context.update(after)
         try:
-            return check.expressions.broken.execute(context) is not True
+            return check.expressions.broken.execute(given.context) is not True
         except EVALUATION_FAULTS:
             return False
         finally:
-            context.update(before)
+            given.context.update({name: before[name] for name in after})
 
     def _mended(self, address: Address, expression: Program, context: Context) -> Value | None:
         """Return a part of a repair in the unit of the value it replaces; None where there is none."""

@@ -70,7 +70,9 @@ class Validator:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return the present findings, errors first, in the manual's order."""
-        found = sorted((*self._ranges.values(), *self._rules.values(), *self._general()), key=lambda filed: filed[0])
+        found = sorted(
+            (*self._ranges.values(), *self._rules.values(), *self._general()), key=lambda filed: filed[0]
+        )
         return tuple(finding for _, finding in found)
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:

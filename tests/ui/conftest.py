@@ -259,13 +259,13 @@ def start_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
         control.stop()
 
 
-def during(qtbot: QtBot, act: Callable[[ProgressDialog], object]) -> None:
-    """Do something once, when a progress dialog is next to be seen."""
+def during(act: Callable[[ProgressDialog], object], when: Callable[[], bool] = lambda: True) -> None:
+    """Do something once while a progress dialog is to be seen and ``when`` says so."""
     timer = QTimer(QApplication.instance())
 
     def look() -> None:
         dialog = QApplication.activeModalWidget()
-        if isinstance(dialog, ProgressDialog) and dialog.isVisible():
+        if isinstance(dialog, ProgressDialog) and dialog.isVisible() and when():
             timer.stop()
             act(dialog)
 

@@ -31,7 +31,7 @@ def test_a_dialog_begins_with_the_selected_axis(window: MainWindow) -> None:
 def test_name(window: MainWindow, file: ParameterFile, accept) -> None:
     accept(AxisDialog, lambda d: choose(d, "1", name="U"))
     action(window, "Name Axis").trigger()
-    assert file.get(("axis.name", "1")) == Value("U")
+    assert file.get(("axis.name", "1")) == Value("u")
     assert window.table.column_title(("axis", "1")) == "1 U linear"
 
 
@@ -58,7 +58,7 @@ def test_copy(window: MainWindow, file: ParameterFile, accept) -> None:
     accept(AxisDialog, lambda d: choose(d, "1"))
     action(window, "Copy Axis").trigger()
     assert file.get(("servo.excess_error", "2")) == Value(3.0, "mm")
-    assert file.get(("axis.name", "2")) == Value("Y")
+    assert file.get(("axis.name", "2")) == Value("y")
     assert "Copy axis 1 to 2" in window.edits.undo.text()
 
 

@@ -46,9 +46,7 @@ def test_differences_by_kind_with_their_counts(dialog: CompareDialog, window: Ma
     assert rows["1300"] == ["Axis 1", "absent there", "0 mm", "—"]
     assert [row for row in rows.values() if row[1] == "absent here"]
     same = len(window.workspace.file.values) - len(rows) + 1
-    assert dialog.text.text() == (
-        f"1 values are different, {same} the same; 1 are absent in this file and 1 in other.amp."
-    )
+    assert dialog.text.text() == f"1 different, {same} the same, 1 absent in this file, 1 absent in other.amp."
 
 
 def test_what_is_ticked_is_taken_as_one_step(dialog: CompareDialog, window: MainWindow) -> None:

@@ -291,3 +291,11 @@ def test_closing_asks_about_what_stands_in_an_open_field(window: MainWindow, pat
     assert window.close()
 
     assert on_disk(path).get(EXCESS) == Value(3.5, "mm")
+
+
+def test_closing_with_an_open_list_ends_well(window: MainWindow, file: ParameterFile, qtbot) -> None:
+    window.go_to(LOOP)
+    press(window, KEY.Key_F2)
+    box = editor(window)
+    qtbot.waitUntil(lambda: box.view().isVisible(), timeout=WAIT_MS)
+    assert window.close()

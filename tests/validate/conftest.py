@@ -135,7 +135,13 @@ def connected(output: str, position: str, velocity: str = "none") -> dict[str, s
 
 MILL = (
     ("X", MOVING | DIGITAL | connected("mod1", "j1", "j1") | {"axis.integrand_name": "i"}),
-    ("Y", MOVING | DIGITAL | connected("mod2", "j2", "j2") | {"axis.integrand_name": "j", "servo.position_loop_type": "zfe"}),
+    (
+        "Y",
+        MOVING
+        | DIGITAL
+        | connected("mod2", "j2", "j2")
+        | {"axis.integrand_name": "j", "servo.position_loop_type": "zfe"},
+    ),
     ("Z", MOVING | DIGITAL | connected("mod3", "j9", "j3") | {"axis.integrand_name": "k"} | SCALE),
     ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | {"axis.rollover": "360"}),
     ("U", MOVING | ANALOG | DIGITAL | connected("mod1", "j1", "j1") | SERCOS | {"axis.integrand_name": "i"}),
@@ -146,9 +152,27 @@ MILL = (
 table), a drive of another make on the ring, an analog slide and an analog spindle."""
 
 LATHE = (
-    ("X", MOVING | DIGITAL | connected("mod1", "j1", "j1") | {"axis.incremental_name": "u", "axis.integrand_name": "i"}),
-    ("Z", MOVING | DIGITAL | connected("mod2", "j2", "j2") | {"axis.incremental_name": "w", "axis.integrand_name": "k"}),
-    ("C", MOVING | DIGITAL | connected("mod3", "j3", "j3") | {"axis.incremental_name": "none", "axis.rollover": "360"}),
+    (
+        "X",
+        MOVING
+        | DIGITAL
+        | connected("mod1", "j1", "j1")
+        | {"axis.incremental_name": "u", "axis.integrand_name": "i"},
+    ),
+    (
+        "Z",
+        MOVING
+        | DIGITAL
+        | connected("mod2", "j2", "j2")
+        | {"axis.incremental_name": "w", "axis.integrand_name": "k"},
+    ),
+    (
+        "C",
+        MOVING
+        | DIGITAL
+        | connected("mod3", "j3", "j3")
+        | {"axis.incremental_name": "none", "axis.rollover": "360"},
+    ),
     ("S", MOVING | DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
     ("S", MOVING | ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
 )
@@ -177,9 +201,8 @@ def change(file: ParameterFile, texts: Change) -> list[Address]:
     wanted: dict[Address, Value | None] = {}
     for name, text in texts.items():
         address = file.find(name)
-        if text is not None and file.situation.turns(address):
-            text = str(text).replace("mm", "deg")
-        wanted[address] = None if text is None else file.read(address, str(text))
+        written = str(text).replace("mm", "deg") if file.situation.turns(address) else str(text)
+        wanted[address] = None if text is None else file.read(address, written)
     file.set_many(wanted, force="by a test")
     return list(wanted)
 
@@ -189,7 +212,9 @@ def sound(name: str) -> ParameterFile:
     machine, control, axes = MACHINES[name]
     file = new_file("9pc", machine, [axis for axis, _ in axes])
     change(file, control)
-    change(file, {f"{name}@{n}": text for n, (_, texts) in enumerate(axes, 1) for name, text in texts.items()})
+    change(
+        file, {f"{name}@{n}": text for n, (_, texts) in enumerate(axes, 1) for name, text in texts.items()}
+    )
     return file
 
 
@@ -218,7 +243,9 @@ class Stand:
         try:
             yield
         finally:
-            touched = {a for a in values.keys() | self.file.values.keys() if values.get(a) != self.file.values.get(a)}
+            touched = {
+                a for a in values.keys() | self.file.values.keys() if values.get(a) != self.file.values.get(a)
+            }
             for address in touched:
                 self.file.set(address, values.get(address))
             marks = forced.keys() ^ self.file.forced.keys()

@@ -63,7 +63,13 @@ def small(tmp_path_factory) -> Schema:
 
 def rule(reads: dict[str, str], check: str = "true", **more: object) -> Rule:
     """Return a rule with nothing in it that a test does not name."""
-    plain = {"id": "own.rule", "title": "Ours", "severity": "warning", "message": "It is broken.", "page": "1"}
+    plain = {
+        "id": "own.rule",
+        "title": "Ours",
+        "severity": "warning",
+        "message": "It is broken.",
+        "page": "1",
+    }
     return Rule.model_validate({**plain, "reads": reads, "check": check, **more})
 
 
@@ -113,7 +119,9 @@ def test_before_and_after_are_those_of_the_axis_at_hand(small) -> None:
 
 
 def test_one_instance_can_be_named(small) -> None:
-    assert seen(small, {"second": "axis.length@2", "groups": "process.groups@1"}) == {"": {"second": "2", "groups": "1"}}
+    assert seen(small, {"second": "axis.length@2", "groups": "process.groups@1"}) == {
+        "": {"second": "2", "groups": "1"}
+    }
 
 
 def test_a_rule_does_not_run_where_what_it_reads_does_not_exist(small) -> None:
@@ -123,7 +131,9 @@ def test_a_rule_does_not_run_where_what_it_reads_does_not_exist(small) -> None:
 
 
 def test_scopes_that_do_not_go_together_are_a_fault(small) -> None:
-    with pytest.raises(RuleFault, match=r"rule own.rule: reads axis.length and spindle.speed, whose instances"):
+    with pytest.raises(
+        RuleFault, match=r"rule own.rule: reads axis.length and spindle.speed, whose instances"
+    ):
         seen(small, {"length": "axis.length", "speed": "spindle.speed"})
 
 
@@ -146,7 +156,9 @@ def test_every_rule_of_the_family_runs_somewhere() -> None:
 
 def test_a_check_runs_again_for_what_it_reads_and_what_decides_its_state(small) -> None:
     plan = make_plan(small, "mill", (rule({"length": "axis.length"}, "length > 1.0"),))
-    readers = {address for address, checks in plan.rule_readers.items() if any(c.instance == "2" for c in checks)}
+    readers = {
+        address for address, checks in plan.rule_readers.items() if any(c.instance == "2" for c in checks)
+    }
     assert readers == {("axis.length", "2"), ("axis.kind", "2")}
 
 
@@ -163,7 +175,9 @@ def test_a_repair_is_looked_at_again_when_its_bound_moves(small) -> None:
     validator.run()
     file.set(("axis.length", "1"), Value(1.0, "mm"))
     file.set(("axis.room", "1"), Value(2.0, "mm"))
-    (finding,) = (f for f in validator.update([("axis.length", "1"), ("axis.room", "1")]) if f.rule == "own.rule")
+    (finding,) = (
+        f for f in validator.update([("axis.length", "1"), ("axis.room", "1")]) if f.rule == "own.rule"
+    )
     assert finding.repairs == (), "5 mm is more than its room"
     file.set(("axis.room", "1"), Value(6.0, "mm"))
     (finding,) = (f for f in validator.update([("axis.room", "1")]) if f.rule == "own.rule")
@@ -188,16 +202,34 @@ LENGTH = {"length": "axis.length"}
         (rule(LENGTH, "lenght > 1.0"), "check speaks of 'lenght', which it does not read"),
         (rule(LENGTH, when="kind == 'moving'"), "when speaks of 'kind', which it does not read"),
         (rule(LENGTH, "maximum(length, 1.0) > 1.0"), "check calls 'maximum', which is no function"),
-        (rule(LENGTH, values={"twice": "size * 2.0"}), "value twice speaks of 'size', which it does not read"),
-        (rule(LENGTH, fix=[{"set": "length", "value": "other"}]), "fix of length speaks of 'other', which it does not read"),
-        (rule(LENGTH, fix=[{"set": "room", "value": "1.0"}]), "the fix sets 'room', which is no single value it reads"),
-        (rule({"all": "axis.length@*"}, fix=[{"set": "all", "value": "1.0"}]), "the fix sets 'all', which is no single value"),
+        (
+            rule(LENGTH, values={"twice": "size * 2.0"}),
+            "value twice speaks of 'size', which it does not read",
+        ),
+        (
+            rule(LENGTH, fix=[{"set": "length", "value": "other"}]),
+            "fix of length speaks of 'other', which it does not read",
+        ),
+        (
+            rule(LENGTH, fix=[{"set": "room", "value": "1.0"}]),
+            "the fix sets 'room', which is no single value it reads",
+        ),
+        (
+            rule({"all": "axis.length@*"}, fix=[{"set": "all", "value": "1.0"}]),
+            "the fix sets 'all', which is no single value",
+        ),
         (rule(LENGTH, optional=["room"]), "optional names 'room', which it does not read"),
         (rule(LENGTH, any_state=["room"]), "any_state names 'room', which it does not read"),
         (rule(LENGTH, units={"twice": "mm"}), "units names 'twice', which is none of its values"),
         (rule(LENGTH, values={"twice": "length * 2.0"}, units={"twice": "ell"}), "'ell' is no unit"),
-        (rule(LENGTH, message="{lenght} is short."), "the message shows '{lenght}', which is neither read nor"),
-        (rule(LENGTH, message="{length:.2f} is short."), "the message shows '{length:.2f}', which is neither"),
+        (
+            rule(LENGTH, message="{lenght} is short."),
+            "the message shows '{lenght}', which is neither read nor",
+        ),
+        (
+            rule(LENGTH, message="{length:.2f} is short."),
+            "the message shows '{length:.2f}', which is neither",
+        ),
         (rule(LENGTH, message="{length is short."), "message: expected '}' before end of string"),
         (rule(LENGTH, message="{} is short."), "the message shows '{}', which is neither"),
     ],

@@ -134,7 +134,9 @@ def test_no_mutant_of_a_rule_passes_the_table(rule_cases, stands) -> None:
                         campaign.expect(stand.file, case.rule, times)
     alive = [mutant for left in campaign.alive.values() for mutant in left]
     unknown = [f"{mutant.rule.id}: {mutant.change}" for mutant in alive if not says_the_same(mutant)]
-    assert unknown == [], f"{len(unknown)} of {campaign.total} mutants pass: add a case that tells them from the rule"
+    assert unknown == [], (
+        f"{len(unknown)} of {campaign.total} mutants pass: add a case that tells them from the rule"
+    )
 
 
 @pytest.mark.parametrize("rule", THE_SAME)

@@ -143,4 +143,6 @@ def test_a_comparison_turns_exactly_at_its_bound(rule_id: str, rule_cases, stand
                 findings = stand.validator.update([address])
                 applies = program(rule.when).execute(context_of(stand.file, check))
             said = any(finding.addresses == about for finding in of_rule(findings, rule_id))
-            assert said is (applies and not OPERATORS[sign](number, bound)), f"{left} = {number!r} at {bound!r}"
+            assert said is (applies and not OPERATORS[sign](number, bound)), (
+                f"{left} = {number!r} at {bound!r}"
+            )

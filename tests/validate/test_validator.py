@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import os
 import struct
@@ -121,9 +122,19 @@ def test_a_value_of_the_wrong_kind_is_an_error(mill, address: Address, value: Va
     ("address", "value", "said", "mended"),
     [
         (EXCESS, Value(20.0, "deg"), "Excess Error 20° should be in mm here.", Value(20.0, "mm")),
-        (("servo.excess_error", "4"), Value(20.0, "mm"), "Excess Error 20 mm should be in ° here.", Value(20.0, "deg")),
+        (
+            ("servo.excess_error", "4"),
+            Value(20.0, "mm"),
+            "Excess Error 20 mm should be in ° here.",
+            Value(20.0, "deg"),
+        ),
         (EXCESS, Value(20.0), "Excess Error 20 should be in mm here.", Value(20.0, "mm")),
-        (("servo.initial_gain", "1"), Value(1.0, "mm"), "Initial Gain of Position Loop 1 mm should be in a bare number here.", Value(1.0)),
+        (
+            ("servo.initial_gain", "1"),
+            Value(1.0, "mm"),
+            "Initial Gain of Position Loop 1 mm should be in a bare number here.",
+            Value(1.0),
+        ),
     ],
 )
 def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
@@ -168,7 +179,9 @@ def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
         pytest.param(("servo.feed_forward", "1"), id="ignored: the loop is not ZFE"),
     ],
 )
-def test_what_the_control_does_not_look_at_is_not_checked_unless_it_was_forced(mill, address: Address) -> None:
+def test_what_the_control_does_not_look_at_is_not_checked_unless_it_was_forced(
+    mill, address: Address
+) -> None:
     mill.set(address, Value(10**6, mill.situation.unit(address, "metric")))
     assert found(mill, "schema.range") == []
     mill.forced[address] = "by hand"
@@ -234,12 +247,16 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     mill.set(EXCESS, Value(0.4, "in"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
     assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in finding.message
-    assert finding.repairs == (Repair(EXCESS, Value(0.51969, "in")),), "five decimals, as the parameter has them"
+    assert finding.repairs == (Repair(EXCESS, Value(0.51969, "in")),), (
+        "five decimals, as the parameter has them"
+    )
 
 
 def test_an_axis_that_turns_is_told_in_degrees(mill) -> None:
     mill.set(("servo.excess_error", "4"), Value(11.0, "deg"))
-    assert "by 12°, more than Excess Error 11° allows" in the(mill, "9pc.servo.excess-below-following-error").message.replace(" °", "°")
+    assert "by 12°, more than Excess Error 11° allows" in the(
+        mill, "9pc.servo.excess-below-following-error"
+    ).message.replace(" °", "°")
 
 
 def test_another_unit_system_is_noticed(mill) -> None:
@@ -269,10 +286,30 @@ def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:
     assert finding.addresses == tuple(("servo.loop_type", str(axis)) for axis in range(1, 8))
 
 
+def test_a_formula_that_makes_no_sense_of_a_value_says_nothing(mill) -> None:
+    """The remainder of an infinite turn; CEL logs that, and without a handler it would be on standard error."""
+    mill.set(("axis.rollover", "4"), Value(math.inf, "deg"))
+    assert [finding.rule for finding in Validator(mill).run()] == ["schema.range", "schema.unset"]
+    assert any(isinstance(handler, logging.NullHandler) for handler in logging.getLogger("cel").handlers)
+
+
+def test_a_number_in_the_place_of_a_yes_is_noticed(mill) -> None:
+    """Python takes 1 and True for equal; a rule does not."""
+    used, loop = ("zone.overtravel_used", "6"), ("servo.position_loop_type", "6")
+    validator = Validator(mill)
+    mill.set(loop, Value("open"))
+    assert "9pc.zone.overtravel-never-homed" in {finding.rule for finding in validator.run()}
+    mill.set(used, None)
+    mill.set(used, Value(1.0))
+    assert "9pc.zone.overtravel-never-homed" not in {finding.rule for finding in validator.update([used])}
+
+
 def test_the_rules_that_read_a_value_are_known(mill) -> None:
     rules = [rule.id for rule in Validator(mill).rules_of(("zone.group_count", ""))]
     assert rules == ["9pc.zone.group-not-checked", "9pc.zone.group-empty"]
-    assert [rule.id for rule in Validator(mill).rules_of(("zone.group_count", "2"))] == ["9pc.zone.group-empty"]
+    assert [rule.id for rule in Validator(mill).rules_of(("zone.group_count", "2"))] == [
+        "9pc.zone.group-empty"
+    ]
 
 
 # ------------------------------------------------------------------------------------------------- order
@@ -288,7 +325,8 @@ def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
     findings = Validator(mill).run()
     order = {address: n for n, address in enumerate(mill.addresses())}
     keys = [
-        (SEVERITIES.index(f.severity), min((order[a] for a in f.addresses), default=-1), f.rule) for f in findings
+        (SEVERITIES.index(f.severity), min((order[a] for a in f.addresses), default=-1), f.rule)
+        for f in findings
     ]
     assert keys == sorted(keys)
     assert {finding.severity for finding in findings} == set(SEVERITIES)
@@ -345,7 +383,9 @@ def test_a_broken_rule_file_is_told_with_its_line(tmp_path: Path, broken: str, l
 def test_a_rule_about_an_unknown_parameter_is_refused(mill, tmp_path: Path) -> None:
     path = tmp_path / "rules.yaml"
     path.write_text(OWN_RULE.format(parameter="feedrate.rapids"), encoding="utf-8")
-    with pytest.raises(RuleFault, match=r"^rule builder.rapid: reads 'feedrate.rapids', which the family does not have$"):
+    with pytest.raises(
+        RuleFault, match=r"^rule builder.rapid: reads 'feedrate.rapids', which the family does not have$"
+    ):
         Validator(mill, read_rules(path))
     assert issubclass(RuleFault, ValueError)
 
@@ -355,7 +395,22 @@ def test_a_rule_about_an_unknown_parameter_is_refused(mill, tmp_path: Path) -> N
 EVERY_EDIT = os.environ.get("AMP_STUDIO_FULL") == "1"
 SCHEMA = load_schema("9pc")
 NUMBERS = [0, -1, 1, 8, 0.5, 1e-300, 5e-324, 1e300, -1e300, 2.0**53, 2**70, math.inf, -math.inf]
-TEXTS = ["", "raw:999", "raw:", "raw:x", "yes", "none", "s", "spindle", "unfitted", "digital", "3.4", "3.4.5", "∞", "{x}"]
+TEXTS = [
+    "",
+    "raw:999",
+    "raw:",
+    "raw:x",
+    "yes",
+    "none",
+    "s",
+    "spindle",
+    "unfitted",
+    "digital",
+    "3.4",
+    "3.4.5",
+    "∞",
+    "{x}",
+]
 OFTEN = [
     (name, str(axis))
     for name in ("axis.type", "axis.name", "servo.loop_type", "servo.hardware_type", "servo.amplifier_rack")
@@ -372,7 +427,9 @@ def anything(random: Random) -> Value:
     if kind == 1:
         return Value(random.random() < 0.5)
     (double,) = struct.unpack("d", random.getrandbits(64).to_bytes(8, "little"))
-    number = random.choice([*NUMBERS, double if math.isfinite(double) else 0.0, random.randrange(-(10**7), 10**7)])
+    number = random.choice(
+        [*NUMBERS, double if math.isfinite(double) else 0.0, random.randrange(-(10**7), 10**7)]
+    )
     return Value(number, random.choice(list(UNITS)))
 
 
@@ -382,7 +439,9 @@ def fitting(parameter: Parameter, random: Random) -> Value:
         return Value(random.random() < 0.5)
     if parameter.choices:
         return Value(random.choice([choice.key for choice in parameter.choices]))
-    bounds = [bound for pair in (parameter.ranges or {}).values() for bound in pair if isinstance(bound, float)]
+    bounds = [
+        bound for pair in (parameter.ranges or {}).values() for bound in pair if isinstance(bound, float)
+    ]
     number = random.choice([*bounds, round(random.uniform(0, 20), 3), round(random.uniform(0, 10000), 1)])
     unit = random.choice(SCHEMA.units_of(parameter))
     return Value(int(number) if parameter.type == "integer" else number, unit)
@@ -392,7 +451,9 @@ def edit(file: ParameterFile, history: list[Change], random: Random) -> None:
     """Make one edit of any kind."""
     address = random.choice([random.choice(SCHEMA.addresses("mill")), random.choice(OFTEN)])
     parameter = SCHEMA.parameters[address[0]]
-    match random.choice(["any", "any", "fit", "fit", "fit", "fit", "unset", "undo", "retype", "force", "units"]):
+    match random.choice(
+        ["any", "any", "fit", "fit", "fit", "fit", "unset", "undo", "retype", "force", "units"]
+    ):
         case "any":
             file.set(address, anything(random))
         case "fit":
@@ -402,7 +463,9 @@ def edit(file: ParameterFile, history: list[Change], random: Random) -> None:
         case "undo" if history:
             file.apply(history.pop().reversed())
         case "retype":
-            retype_axis(file, random.choice("12345678"), random.choice(["linear", "rotary", "spindle", "unfitted"]))
+            retype_axis(
+                file, random.choice("12345678"), random.choice(["linear", "rotary", "spindle", "unfitted"])
+            )
         case "force":
             file.set_many({address: fitting(parameter, random)}, force="by a test")
         case "units":
@@ -437,7 +500,10 @@ class Edited:
 
 
 @given(random=st.randoms(use_true_random=False), name=st.sampled_from(["mill", "lathe", "router"]))
-@settings(max_examples=400 if EVERY_EDIT else 30, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@settings(
+    max_examples=400 if EVERY_EDIT else 30,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
 def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, name: str, stands) -> None:
     edited = Edited(stands(name).file.copy())
     for _ in range(random.randint(1, 4)):
@@ -469,7 +535,9 @@ def nasty(parameter: Parameter) -> list[Value]:
 @pytest.mark.parametrize("name", ["mill", "lathe"])
 def test_no_value_whatever_makes_it_raise(name: str, stands) -> None:
     stand = stands(name)
-    instances = {address[0]: address for address in reversed(stand.file.addresses()) if address[1] in ("", "1", "4")}
+    instances = {
+        address[0]: address for address in reversed(stand.file.addresses()) if address[1] in ("", "1", "4")
+    }
     for address in instances.values():
         with stand.recorded():
             for value in nasty(SCHEMA.parameters[address[0]]):
@@ -484,9 +552,17 @@ def test_a_repair_of_a_range_is_allowed_itself(stands) -> None:
         with stand.recorded():
             for value in (Value(1e9, unit) for unit in SCHEMA.units_of(SCHEMA.parameters[address[0]])):
                 stand.file.set(address, value)
-                said = [f for f in stand.validator.update([address]) if f.rule.startswith("schema.") and f.addresses == (address,)]
+                said = [
+                    f
+                    for f in stand.validator.update([address])
+                    if f.rule.startswith("schema.") and f.addresses == (address,)
+                ]
                 for repair in (repair for finding in said for repair in finding.repairs):
                     assert not same_value(repair.value, value)
                     stand.file.set(repair.address, repair.value)
                     left = stand.validator.update([address])
-                    assert not [f for f in left if f.rule in ("schema.range", "schema.choice") and f.addresses == (address,)]
+                    assert not [
+                        f
+                        for f in left
+                        if f.rule in ("schema.range", "schema.choice") and f.addresses == (address,)
+                    ]

@@ -1,0 +1,140 @@
+"""Every command is in a menu, has a name and a key, and is found and run by the command palette."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMenu
+
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.palette import CommandPalette, commands
+
+from .conftest import action
+
+
+def menus(window: MainWindow) -> list[QMenu]:
+    """Return every menu, with those inside of menus."""
+    found = [a.menu() for a in window.menuBar().actions()]
+    for menu in found:
+        menu.aboutToShow.emit()
+        found.extend(a.menu() for a in menu.actions() if a.menu())
+    return found
+
+
+def mnemonic(text: str) -> str:
+    """Return the letter that is underlined in a menu."""
+    at = text.replace("&&", "  ").find("&")
+    return text[at + 1].casefold() if at >= 0 else ""
+
+
+def test_every_action_of_the_window_is_in_a_menu_and_has_a_name(window: MainWindow) -> None:
+    in_menus = {a for _, a in commands(window.menuBar())}
+    assert set(window.actions()) <= in_menus
+    assert all(a.text() for a in in_menus)
+
+
+def test_every_command_has_a_keyboard_route(window: MainWindow) -> None:
+    """A letter underlined in its menu, which no other of that menu has."""
+    for menu in [window.menuBar(), *menus(window)]:
+        letters = Counter(mnemonic(a.text()) for a in menu.actions() if not a.isSeparator())
+        assert [letter for letter, n in letters.items() if not letter or n > 1] == [], [a.text() for a in menu.actions()]
+
+
+def test_no_key_means_two_things(window: MainWindow) -> None:
+    keys = Counter(a.shortcut().toString() for _, a in commands(window.menuBar()) if not a.shortcut().isEmpty())
+    assert [key for key, n in keys.items() if n > 1] == []
+
+
+def test_toolbar_buttons_have_an_icon_a_text_and_a_tip_with_the_key(window: MainWindow) -> None:
+    buttons = [a for a in window.findChild(type(window.addToolBar("x")), "main-toolbar").actions() if not a.isSeparator()]
+    assert len(buttons) > 8
+    for button in buttons:
+        assert not button.icon().isNull(), button.text()
+        assert button.iconText()
+        assert len(button.iconText()) < 15
+        if not button.shortcut().isEmpty():
+            assert button.shortcut().toString() in button.toolTip()
+
+
+def test_the_palette_lists_every_enabled_command_and_no_other(window: MainWindow) -> None:
+    palette = CommandPalette(window.menuBar(), window)
+    listed = {item.data(0, Qt.ItemDataRole.UserRole) for item in palette._items}
+    assert listed == {a for _, a in commands(window.menuBar()) if a.isEnabled()}
+    assert window.edits.undo not in listed
+    assert any(item.text(0) == "File › Save" and item.text(1) == "Ctrl+S" for item in palette._items)
+    assert any(item.text(0) == "✓ Options › Units › Metric" for item in palette._items)
+
+
+def test_the_palette_lists_nothing_twice_after_another_file(window: MainWindow, path) -> None:
+    other = path.with_name("other.amp")
+    other.write_bytes(path.read_bytes())
+    window.files.open_path(other)
+    names = [name for name, _ in commands(window.menuBar())]
+    assert len(names) == len(set(names))
+
+
+def test_the_palette_runs_every_command_it_lists(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is chosen is triggered once, and only when the palette has gone."""
+    triggered, wanted = [], ""
+    listed = CommandPalette(window.menuBar(), window)._actions
+    for name, command in listed:
+        command.triggered.disconnect()
+        command.triggered.connect(lambda *_, name=name: triggered.append(name))
+
+    def choose(palette: CommandPalette) -> None:
+        names = [name for name, _ in palette._actions]
+        palette.list.setCurrentItem(palette._items[names.index(wanted)])
+        palette._choose()
+        assert wanted not in triggered
+
+    monkeypatch.setattr(CommandPalette, "exec", choose)
+    for wanted, _ in listed:  # noqa: B007  # read by choose
+        window.palette_of_commands()
+    assert triggered == [name for name, _ in listed]
+
+
+def test_the_palette_is_driven_from_its_search_field(window: MainWindow) -> None:
+    palette = CommandPalette(window.menuBar(), window)
+    palette.search.setText("axis conf")
+    assert [i.text(0) for i in palette._items] == ["Axis › Configure Axis Type", "Axis › Configure Servo"]
+    QTest.keyClick(palette.search, Qt.Key.Key_Down)
+    QTest.keyClick(palette.search, Qt.Key.Key_Return)
+    assert palette.chosen is action(window, "Configure Servo")
+
+    palette.search.setText("marzipan")
+    palette.chosen = None
+    QTest.keyClick(palette.search, Qt.Key.Key_Down)
+    QTest.keyClick(palette.search, Qt.Key.Key_Return)
+    assert palette.chosen is None
+
+
+def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> None:
+    for name, part in (("Groups", window.groups.tree), ("Findings", window.findings.view), ("Table", window.table_view)):
+        action(window, name).trigger()
+        assert part.hasFocus(), name
+    dock = window.findings.parent()
+    dock.close()
+    assert not window.findings.isVisible()
+    action(window, "Findings").trigger()
+    assert window.findings.isVisible()
+
+
+def test_find_from_anywhere(window: MainWindow) -> None:
+    window.show_panel("Findings")
+    action(window, "Find Parameter").trigger()
+    assert window.groups.search.hasFocus()
+
+
+def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
+    window = open_window()
+    enabled = {name for name, a in commands(window.menuBar()) if a.isEnabled()}
+    assert {"File › New", "File › Open", "Control › Upload From Control", "Help › Commands"} <= enabled
+    assert not {"File › Save", "Edit › Unset", "Axis › Copy Axis", "Options › Step Response"} & enabled
+
+
+def test_what_an_action_refuses_is_told_in_one_sentence(window: MainWindow, person) -> None:
+    window.guarded(lambda: (_ for _ in ()).throw(KeyError("no such thing")), "Test")
+    assert person.reads() == "no such thing"

@@ -1,0 +1,138 @@
+"""Start and end of the program: quick, with nothing heavy loaded, nothing lost and nothing left running."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.task import ProgressDialog, Task
+
+from .conftest import Person, during, on_disk
+
+EXCESS = ("servo.excess_error", "1")
+
+LATE = ("pyqtgraph", "numpy", "numba", "typst", "serial", "jinja2", "amp_studio.sim", "amp_studio.transfer")
+"""What a start must not wait for."""
+
+STARTED = f"""
+import sys
+from pathlib import Path
+from PySide6.QtWidgets import QApplication
+from amp_studio.ui.main_window import MainWindow
+application = QApplication([])
+window = MainWindow()
+window.show()
+window.open_first(Path(sys.argv[1]))
+application.processEvents()
+assert window.workspace is not None
+print([name for name in {LATE!r} if name in sys.modules])
+window.close()
+"""
+
+
+def test_a_start_loads_nothing_that_it_does_not_show(path: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", STARTED, str(path)], capture_output=True, text=True, timeout=60, check=False)
+    assert done.stdout.strip() == "[]", done.stderr
+
+
+def test_the_program_ends_without_a_word_of_complaint(path: Path) -> None:
+    """No thread is destroyed while it runs, no timer is stopped from another thread, no exception is lost."""
+    code = STARTED.replace("window.close()", "window.view.step_action.trigger()\nwindow.close()")
+    done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code, str(path)], capture_output=True, text=True,
+                          timeout=60, check=False)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert [line for line in done.stderr.splitlines() if "plugin does not support" not in line] == []
+
+
+def test_a_fault_of_the_program_itself_is_told_in_a_sentence(path: Path) -> None:
+    code = """
+import sys
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication, QMessageBox
+from amp_studio.ui import main
+application = QApplication([])
+def told(box):
+    print(box.text().splitlines()[0])
+    application.exit(0)
+QMessageBox.exec = told
+QTimer.singleShot(0, lambda: 1 / 0)
+main([])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False,
+                          env=os.environ)  # fmt: skip
+    assert done.stdout.startswith("Something went wrong in the program itself: ZeroDivisionError"), done.stderr
+    assert "Traceback" in done.stderr
+
+
+def test_closing_asks_about_unsaved_changes(window: MainWindow, path: Path, person: Person) -> None:
+    window.edits.commit(EXCESS, "3 mm")
+    person.answers("Cancel", "Save")
+    assert not window.close()
+    assert window.isVisible()
+    assert window.close()
+    assert on_disk(path).get(EXCESS) == Value(3.0, "mm")
+
+
+def test_discarded_work_is_not_offered_again(window: MainWindow, path: Path, person: Person, open_window) -> None:
+    window.edits.commit(EXCESS, "3 mm")
+    window.workspace._keep_unsaved()
+    assert window.workspace.document.journal_path.exists()
+    person.answers("Discard")
+    assert window.close()
+    assert [p.name for p in path.parent.iterdir()] == ["mill.amp"]
+    assert open_window(path).workspace.file.get(EXCESS) == Value(11.0, "mm")
+
+
+def test_closing_without_changes_asks_nothing(window: MainWindow, person: Person) -> None:
+    window.edits.commit(EXCESS, "3 mm")
+    window.edits.undo.trigger()
+    assert window.close()
+    assert person.asked == []
+
+
+def test_a_save_that_fails_at_the_end_keeps_the_program_open(window: MainWindow, path: Path, person: Person) -> None:
+    window.edits.commit(EXCESS, "3 mm")
+    window.watch.follow(None)
+    path.write_bytes(path.read_bytes() + b"# touched\n")
+    person.answers("Save")
+    assert not window.close()
+    person.reads()
+
+
+def test_the_layout_is_remembered(window: MainWindow, path: Path) -> None:
+    window.findings.parent().close()
+    window.files.close()
+    window.files.open_path(path)
+    assert not window.findings.isVisible()
+
+
+def test_escape_cancels_a_task_and_waits_for_its_end(window: MainWindow) -> None:
+    def work(progress, cancel):  # type: ignore[no-untyped-def]
+        progress("begun", 1, 2)
+        assert cancel.wait(20)
+        return "ended"
+
+    during(lambda dialog: dialog.reject())
+    assert ProgressDialog("Work", work, window).run() == "ended"
+    assert not Task.running
+
+
+def test_what_goes_wrong_in_a_task_is_raised_to_whoever_waits(window: MainWindow, person: Person) -> None:
+    def work(progress, cancel):  # type: ignore[no-untyped-def]
+        raise OSError("the disk is on fire")
+
+    window.guarded(lambda: ProgressDialog("Work", work, window).run())
+    assert person.reads() == "the disk is on fire"
+
+
+def test_a_task_that_cannot_be_cancelled_ignores_escape(window: MainWindow) -> None:
+    def work(progress, cancel):  # type: ignore[no-untyped-def]
+        assert not cancel.wait(0.2)
+        return "whole"
+
+    during(lambda dialog: dialog.reject())
+    assert ProgressDialog("Work", work, window, cancellable=False).run() == "whole"
