@@ -147,7 +147,10 @@ def _parser() -> argparse.ArgumentParser:
         "--manual-restart", action="store_true", help="do not restart by itself after a download"
     )
     sub.add_argument(
-        "--faults", default="{}", metavar="JSON", help='what goes wrong, to practise with: {"drop_after_bytes": 9000}'
+        "--faults",
+        default="{}",
+        metavar="JSON",
+        help='what goes wrong, to practise with: {"drop_after_bytes": 9000}',
     )
     sub = verb("download", _download, "send a file to a control, read it back and compare")
     sub.add_argument("path", type=Path)
@@ -353,11 +356,7 @@ def _get(options: argparse.Namespace) -> int:
         plain = None if value is None else value.value
         if isinstance(plain, (str, bool)):
             plain = write_value(parameter, value)
-        raw = (
-            None
-            if value is None
-            else stored_number(parameter, value, file.situation.turns(address))
-        )
+        raw = None if value is None else stored_number(parameter, value, file.situation.turns(address))
         rows.append({
             "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
             "value": plain, "unit": value.unit if value else file.situation.unit(address, file.header.units), "raw": raw,

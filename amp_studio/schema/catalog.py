@@ -59,7 +59,9 @@ class Schema:
         """Return parameter id -> what its instances are on this machine type; None where it does not exist there."""
         if machine not in self._scopes:
             layouts = ((p.id, self.layout(p, machine)) for p in self.parameters.values())
-            self._scopes[machine] = {parameter_id: layout.scope if layout else None for parameter_id, layout in layouts}
+            self._scopes[machine] = {
+                parameter_id: layout.scope if layout else None for parameter_id, layout in layouts
+            }
         return self._scopes[machine]
 
     def instances(self, parameter: Parameter, machine: str) -> tuple[str, ...]:

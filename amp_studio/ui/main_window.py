@@ -196,7 +196,9 @@ class MainWindow(QMainWindow):
         self.findings.activated.connect(self._show_finding)
         self.findings.repaired.connect(self._repair)
         workspace.changed.connect(self.enable)
-        workspace.undo_stack.indexChanged.connect(self.enable)  # a step is on the stack only after it was made
+        workspace.undo_stack.indexChanged.connect(
+            self.enable
+        )  # a step is on the stack only after it was made
         workspace.saved.connect(self.enable)
         self.watch.follow(workspace)
         self.view.follow(workspace)

@@ -81,7 +81,9 @@ class ValueDelegate(QStyledItemDelegate):
         if isinstance(editor, QLineEdit):
             refused, self.to_mend = self.to_mend, None
             is_refused = refused is not None and refused[0] == index.data(AddressRole)
-            editor.setText(refused[1] if refused and is_refused else str(index.data(Qt.ItemDataRole.EditRole) or ""))
+            editor.setText(
+                refused[1] if refused and is_refused else str(index.data(Qt.ItemDataRole.EditRole) or "")
+            )
             editor.selectAll()
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
@@ -107,8 +109,6 @@ class ValueDelegate(QStyledItemDelegate):
                 self._commit(address, editor.text())
         finally:
             self._asking = False
-        self.to_mend: tuple[Address, str] | None = None
-        """A text that was refused; the next editor of its address begins with it."""
 
     def eventFilter(self, editor: QObject, event: QEvent) -> bool:
         if (

@@ -75,7 +75,7 @@ class ValueTable(QTableView):
 
     def finish(self) -> bool:
         """Take what stands in an open editor; tells whether it was taken, or there was none."""
-        editor = self.indexWidget(self.currentIndex())
+        editor: QWidget | None = self.indexWidget(self.currentIndex())
         if editor is None:
             return True
         self._refused = False

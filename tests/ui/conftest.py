@@ -95,8 +95,8 @@ class Person:
 def person(monkeypatch: pytest.MonkeyPatch) -> Iterator[Person]:
     """Return who answers message boxes, file and input dialogs; a question nobody expects fails the test."""
     who = Person()
-    monkeypatch.setattr(QMessageBox, "exec", lambda box: who.exec(box))
-    monkeypatch.setattr(QMessageBox, "clickedButton", lambda box: who.clicked(box))
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: who.exec(box))  # noqa: PLW0108  # a bound method would not be given the box
+    monkeypatch.setattr(QMessageBox, "clickedButton", lambda box: who.clicked(box))  # noqa: PLW0108  # likewise
     for name in ("getOpenFileName", "getSaveFileName"):
         monkeypatch.setattr(QFileDialog, name, who.path)
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_, **__: who.path()[0])

@@ -35,7 +35,9 @@ def test_name(window: MainWindow, file: ParameterFile, accept) -> None:
     assert window.table.column_title(("axis", "1")) == "1 U linear"
 
 
-def test_configure_type_takes_the_units_along_as_one_step(window: MainWindow, file: ParameterFile, accept) -> None:
+def test_configure_type_takes_the_units_along_as_one_step(
+    window: MainWindow, file: ParameterFile, accept
+) -> None:
     before = dict(file.values)
     accept(AxisDialog, lambda d: choose(d, "2", type="rotary"))
     action(window, "Configure Axis Type").trigger()
@@ -48,7 +50,10 @@ def test_configure_type_takes_the_units_along_as_one_step(window: MainWindow, fi
 
 
 def test_configure_servo(window: MainWindow, file: ParameterFile, accept) -> None:
-    accept(AxisDialog, lambda d: choose(d, "1", hardware_type="SERCOS Interface", loop_type="Position or Analog Spindle"))
+    accept(
+        AxisDialog,
+        lambda d: choose(d, "1", hardware_type="SERCOS Interface", loop_type="Position or Analog Spindle"),
+    )
     action(window, "Configure Servo").trigger()
     assert file.get(("servo.loop_type", "1")) == Value("analog")
 
@@ -62,7 +67,9 @@ def test_copy(window: MainWindow, file: ParameterFile, accept) -> None:
     assert "Copy axis 1 to 2" in window.edits.undo.text()
 
 
-def test_axes_of_two_types_are_not_copied(window: MainWindow, file: ParameterFile, monkeypatch, person: Person) -> None:
+def test_axes_of_two_types_are_not_copied(
+    window: MainWindow, file: ParameterFile, monkeypatch, person: Person
+) -> None:
     before = dict(file.values)
 
     def run(dialog: AxisDialog) -> int:

@@ -40,16 +40,24 @@ def test_every_command_has_a_keyboard_route(window: MainWindow) -> None:
     """A letter underlined in its menu, which no other of that menu has."""
     for menu in [window.menuBar(), *menus(window)]:
         letters = Counter(mnemonic(a.text()) for a in menu.actions() if not a.isSeparator())
-        assert [letter for letter, n in letters.items() if not letter or n > 1] == [], [a.text() for a in menu.actions()]
+        assert [letter for letter, n in letters.items() if not letter or n > 1] == [], [
+            a.text() for a in menu.actions()
+        ]
 
 
 def test_no_key_means_two_things(window: MainWindow) -> None:
-    keys = Counter(a.shortcut().toString() for _, a in commands(window.menuBar()) if not a.shortcut().isEmpty())
+    keys = Counter(
+        a.shortcut().toString() for _, a in commands(window.menuBar()) if not a.shortcut().isEmpty()
+    )
     assert [key for key, n in keys.items() if n > 1] == []
 
 
 def test_toolbar_buttons_have_an_icon_a_text_and_a_tip_with_the_key(window: MainWindow) -> None:
-    buttons = [a for a in window.findChild(type(window.addToolBar("x")), "main-toolbar").actions() if not a.isSeparator()]
+    buttons = [
+        a
+        for a in window.findChild(type(window.addToolBar("x")), "main-toolbar").actions()
+        if not a.isSeparator()
+    ]
     assert len(buttons) > 8
     for button in buttons:
         assert not button.icon().isNull(), button.text()
@@ -112,7 +120,11 @@ def test_the_palette_is_driven_from_its_search_field(window: MainWindow) -> None
 
 
 def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> None:
-    for name, part in (("Groups", window.groups.tree), ("Findings", window.findings.view), ("Table", window.table_view)):
+    for name, part in (
+        ("Groups", window.groups.tree),
+        ("Findings", window.findings.view),
+        ("Table", window.table_view),
+    ):
         action(window, name).trigger()
         assert part.hasFocus(), name
     dock = window.findings.parent()

@@ -46,7 +46,9 @@ def test_differences_by_kind_with_their_counts(dialog: CompareDialog, window: Ma
     assert rows["1300"] == ["Axis 1", "absent there", "0 mm", "—"]
     assert [row for row in rows.values() if row[1] == "absent here"]
     same = len(window.workspace.file.values) - len(rows) + 1
-    assert dialog.text.text() == f"1 different, {same} the same, 1 absent in this file, 1 absent in other.amp."
+    assert (
+        dialog.text.text() == f"1 different, {same} the same, 1 absent in this file, 1 absent in other.amp."
+    )
 
 
 def test_what_is_ticked_is_taken_as_one_step(dialog: CompareDialog, window: MainWindow) -> None:
@@ -68,7 +70,7 @@ def test_what_is_ticked_is_taken_as_one_step(dialog: CompareDialog, window: Main
 def test_ticks_stay_when_the_file_is_edited(dialog: CompareDialog, window: MainWindow) -> None:
     dialog.every.click()
     window.edits.commit(("home.calibration", "2"), "1 mm")
-    assert [d.address for d in dialog.list.ticked()][0] is not None
+    assert next(d.address for d in dialog.list.ticked()) is not None
     assert len(dialog.list.ticked()) == 3
     assert len(dialog.list.items) == 4
 

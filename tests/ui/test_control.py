@@ -30,7 +30,9 @@ def download(window: MainWindow, person: Person, control: Control) -> str:
     return person.reads()
 
 
-def test_download_verify_upload(window: MainWindow, start_control: Start, person: Person, accept, tmp_path: Path) -> None:
+def test_download_verify_upload(
+    window: MainWindow, start_control: Start, person: Person, accept, tmp_path: Path
+) -> None:
     """What a control gives back is what it was given, and what it held before is kept beside the file."""
     control = start_control()
     previews = []
@@ -83,12 +85,16 @@ def test_differences_to_the_control_are_listed_and_shown_beside_the_value(
     action(window, "Verify With Control").trigger()
 
     dialog = window.findChild(CompareDialog)
-    assert [[i.text(n) for n in range(3)] for i in dialog.list.items] == [["1750 Excess Error", "Axis 1", "different"]]
+    assert [[i.text(n) for n in range(3)] for i in dialog.list.items] == [
+        ["1750 Excess Error", "Axis 1", "different"]
+    ]
     window.go_to(EXCESS)
     assert "11 mm in the control" in window.detail.pages["Help"].toPlainText()
 
 
-def test_not_in_e_stop_gives_the_one_sentence(window: MainWindow, start_control: Start, person: Person, accept) -> None:
+def test_not_in_e_stop_gives_the_one_sentence(
+    window: MainWindow, start_control: Start, person: Person, accept
+) -> None:
     control = start_control("--no-estop")
     held = parameters.fetch_file(control.address).values
     accept(DownloadPreview)
@@ -133,7 +139,9 @@ def test_cancel_in_the_middle_leaves_the_control_as_it_was(
     assert parameters.fetch_file(control.address).values == held
 
 
-def test_errors_are_asked_about_before_a_download(open_window, path: Path, bare: bytes, person: Person) -> None:
+def test_errors_are_asked_about_before_a_download(
+    open_window, path: Path, bare: bytes, person: Person
+) -> None:
     path.write_bytes(bare)
     window = open_window(path)
     person.answers("Cancel")
@@ -208,7 +216,9 @@ def test_an_upload_is_not_lost_when_it_cannot_be_written(
     assert window.workspace.path == tmp_path / "there.amp"
 
 
-def test_the_emulated_control_starts_and_ends_with_the_program(window: MainWindow, qtbot: QtBot, person: Person, accept) -> None:
+def test_the_emulated_control_starts_and_ends_with_the_program(
+    window: MainWindow, qtbot: QtBot, person: Person, accept
+) -> None:
     emulated = window.control.emulated
     with qtbot.waitSignal(emulated.ready, timeout=WAIT_MS):
         action(window, "Start Emulated Control").trigger()
@@ -246,7 +256,9 @@ def test_the_project_names_its_control(window: MainWindow, person: Person, path:
 
     from amp_studio.files import Project, ProjectInfo
 
-    Project.create(path.parent, ProjectInfo(name="Mill", family="9pc", machine="mill", control="tcp://10.1.2.3:9600"))
+    Project.create(
+        path.parent, ProjectInfo(name="Mill", family="9pc", machine="mill", control="tcp://10.1.2.3:9600")
+    )
     window.projects.notice(path.parent)
     offered = []
     monkeypatch.setattr(QInputDialog, "getItem", lambda *a: (offered.extend(a[3]), ("", False))[1])

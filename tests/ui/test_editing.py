@@ -85,7 +85,9 @@ def test_undo_gives_exactly_the_file_before_and_redo_the_file_after(
         assert whole() == after
 
 
-def test_an_axis_that_turns_takes_its_figures_along_in_degrees(workspace: Workspace, file: ParameterFile) -> None:
+def test_an_axis_that_turns_takes_its_figures_along_in_degrees(
+    workspace: Workspace, file: ParameterFile
+) -> None:
     pitch = ("servo.lead_screw_pitch", "2")
     figure = file.values[pitch].value
 
@@ -122,7 +124,9 @@ def test_out_of_range_is_refused_unless_it_is_forced(workspace: Workspace, whole
     assert whole() == before
 
 
-def test_out_of_range_asks_and_nothing_is_the_answer(window: MainWindow, workspace: Workspace, person, whole: Whole) -> None:
+def test_out_of_range_asks_and_nothing_is_the_answer(
+    window: MainWindow, workspace: Workspace, person, whole: Whole
+) -> None:
     before = whole()
     person.answers("Cancel")
 
@@ -132,7 +136,9 @@ def test_out_of_range_asks_and_nothing_is_the_answer(window: MainWindow, workspa
     assert whole() == before
 
 
-def test_forcing_takes_the_value_and_marks_it(window: MainWindow, file: ParameterFile, workspace: Workspace, person) -> None:
+def test_forcing_takes_the_value_and_marks_it(
+    window: MainWindow, file: ParameterFile, workspace: Workspace, person
+) -> None:
     person.answers("Force and mark it")
 
     assert window.edits.commit(CALIBRATION, "99999999")
@@ -166,7 +172,9 @@ def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, 
     window.edits.unset()
     assert file.get(EXCESS) is None
 
-    no_default = next(a for a in file.addresses() if file.default(a) is None and file.situation.state(a).state == "in-force")
+    no_default = next(
+        a for a in file.addresses() if file.default(a) is None and file.situation.state(a).state == "in-force"
+    )
     before = file.get(no_default)
     window.go_to(no_default)
     window.guarded(window.edits.to_default)

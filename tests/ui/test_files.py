@@ -63,7 +63,9 @@ def edit(window: MainWindow) -> None:
 # -- saving --------------------------------------------------------------------
 
 
-def test_save_writes_the_file_and_keeps_the_one_before(window: MainWindow, path: Path, example: bytes) -> None:
+def test_save_writes_the_file_and_keeps_the_one_before(
+    window: MainWindow, path: Path, example: bytes
+) -> None:
     edit(window)
     assert window.isWindowModified()
 
@@ -84,7 +86,9 @@ def test_undo_after_a_save_is_unsaved_again(window: MainWindow) -> None:
     assert not window.isWindowModified()
 
 
-def test_a_file_changed_on_disk_is_not_overwritten(window: MainWindow, path: Path, person: Person, qtbot) -> None:
+def test_a_file_changed_on_disk_is_not_overwritten(
+    window: MainWindow, path: Path, person: Person, qtbot
+) -> None:
     edit(window)
     window.watch.follow(None)  # save before the watch has told
     path.write_bytes(path.read_bytes() + b"# touched\n")
@@ -112,14 +116,18 @@ def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
     else:
         path.write_bytes(content_of(changed))
 
-    qtbot.waitUntil(lambda: bool(window.workspace) and window.workspace.file.get(EXCESS) == EDITED, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: bool(window.workspace) and window.workspace.file.get(EXCESS) == EDITED, timeout=WAIT_MS
+    )
 
     assert len(person.asked) == 1
     assert window.selected() == ("home.calibration", "2")
     assert window.workspace.may_edit
 
 
-def test_a_file_that_was_broken_on_disk_leaves_the_work_open(window: MainWindow, path: Path, person: Person, qtbot) -> None:
+def test_a_file_that_was_broken_on_disk_leaves_the_work_open(
+    window: MainWindow, path: Path, person: Person, qtbot
+) -> None:
     edit(window)
     person.answers("Load again")
     path.write_bytes(b"amp_studio: 1\n")
@@ -131,7 +139,9 @@ def test_a_file_that_was_broken_on_disk_leaves_the_work_open(window: MainWindow,
     assert window.workspace.may_edit
 
 
-def test_a_removed_file_is_told_and_can_be_saved_elsewhere(window: MainWindow, path: Path, person: Person, qtbot) -> None:
+def test_a_removed_file_is_told_and_can_be_saved_elsewhere(
+    window: MainWindow, path: Path, person: Person, qtbot
+) -> None:
     path.unlink()
     qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
     assert "has been removed" in person.reads()
@@ -147,7 +157,9 @@ def test_our_own_save_is_no_change_by_another_program(window: MainWindow, person
     assert person.asked == []
 
 
-def test_a_full_disk_leaves_the_work_open(window: MainWindow, person: Person, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_leaves_the_work_open(
+    window: MainWindow, person: Person, monkeypatch: pytest.MonkeyPatch
+) -> None:
     edit(window)
 
     def fail(*_: object) -> None:
@@ -162,7 +174,9 @@ def test_a_full_disk_leaves_the_work_open(window: MainWindow, person: Person, mo
     assert window.workspace._journal.isActive()
 
 
-def test_save_as_leaves_the_original_and_goes_on_with_the_copy(window: MainWindow, path: Path, person: Person) -> None:
+def test_save_as_leaves_the_original_and_goes_on_with_the_copy(
+    window: MainWindow, path: Path, person: Person
+) -> None:
     window.go_to(EXCESS)
     edit(window)
     person.chooses(path.with_name("copy"))
@@ -177,7 +191,9 @@ def test_save_as_leaves_the_original_and_goes_on_with_the_copy(window: MainWindo
     Document.open(path).close()  # its lock is free
 
 
-def test_save_as_over_a_file_asks_and_keeps_it_as_backup(window: MainWindow, path: Path, person: Person) -> None:
+def test_save_as_over_a_file_asks_and_keeps_it_as_backup(
+    window: MainWindow, path: Path, person: Person
+) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
     before = other.read_bytes()
@@ -212,7 +228,9 @@ def test_save_as_over_a_file_another_program_edits_is_refused(
 # -- opening -------------------------------------------------------------------
 
 
-def test_a_file_that_is_none_is_told_and_the_open_one_stays(window: MainWindow, tmp_path: Path, person: Person) -> None:
+def test_a_file_that_is_none_is_told_and_the_open_one_stays(
+    window: MainWindow, tmp_path: Path, person: Person
+) -> None:
     bad = tmp_path / "bad.amp"
     bad.write_text("nonsense")
     person.chooses(bad)
@@ -223,7 +241,9 @@ def test_a_file_that_is_none_is_told_and_the_open_one_stays(window: MainWindow, 
     assert window.workspace.may_edit
 
 
-def test_unsaved_changes_are_asked_about_before_another_file(window: MainWindow, path: Path, person: Person) -> None:
+def test_unsaved_changes_are_asked_about_before_another_file(
+    window: MainWindow, path: Path, person: Person
+) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
     edit(window)
@@ -324,7 +344,12 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
 
     action(window, "New").trigger()
 
-    assert [window.table.column_title(c) for c in window.table.columns] == ["Control", "1 X linear", "2 Z linear", "3 S spindle"]
+    assert [window.table.column_title(c) for c in window.table.columns] == [
+        "Control",
+        "1 X linear",
+        "2 Z linear",
+        "3 S spindle",
+    ]
     assert on_disk(tmp_path / "new.amp").machine == "mill"
 
 
@@ -336,7 +361,9 @@ def test_an_axis_name_that_is_not_offered_is_told_and_asks_again(open_window, pe
     assert not dialog.result()
 
 
-def test_recover_backup_asks_and_says_what_is_lost(window: MainWindow, path: Path, person: Person, example: bytes) -> None:
+def test_recover_backup_asks_and_says_what_is_lost(
+    window: MainWindow, path: Path, person: Person, example: bytes
+) -> None:
     window.guarded(window.files.recover)
     assert "has no backup yet" in person.reads()
 
@@ -354,7 +381,9 @@ def test_recover_backup_asks_and_says_what_is_lost(window: MainWindow, path: Pat
     assert window.workspace.may_edit
 
 
-def test_machine_facts_are_a_step_and_save_nothing_by_themselves(window: MainWindow, path: Path, example: bytes, accept) -> None:
+def test_machine_facts_are_a_step_and_save_nothing_by_themselves(
+    window: MainWindow, path: Path, example: bytes, accept
+) -> None:
     edit(window)
     accept(file_dialogs.FactsDialog, lambda d: d.notes.setPlainText("checked by two"))
 

@@ -87,7 +87,8 @@ def test_rows_are_as_high_as_their_words_need(wrong: MainWindow, qtbot) -> None:
     for width in (1700, 900, 1300):
         wrong.resize(width, 900)
         qtbot.waitUntil(
-            lambda: [view.rowHeight(n) for n in rows] == [view.sizeHintForRow(n) for n in rows], timeout=WAIT_MS
+            lambda: [view.rowHeight(n) for n in rows] == [view.sizeHintForRow(n) for n in rows],
+            timeout=WAIT_MS,
         )
 
 

@@ -35,7 +35,9 @@ window.close()
 
 
 def test_a_start_loads_nothing_that_it_does_not_show(path: Path) -> None:
-    done = subprocess.run([sys.executable, "-c", STARTED, str(path)], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", STARTED, str(path)], capture_output=True, text=True, timeout=60, check=False
+    )
     assert done.stdout.strip() == "[]", done.stderr
 
 
@@ -64,7 +66,9 @@ main([])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False,
                           env=os.environ)  # fmt: skip
-    assert done.stdout.startswith("Something went wrong in the program itself: ZeroDivisionError"), done.stderr
+    assert done.stdout.startswith("Something went wrong in the program itself: ZeroDivisionError"), (
+        done.stderr
+    )
     assert "Traceback" in done.stderr
 
 
@@ -77,7 +81,9 @@ def test_closing_asks_about_unsaved_changes(window: MainWindow, path: Path, pers
     assert on_disk(path).get(EXCESS) == Value(3.0, "mm")
 
 
-def test_discarded_work_is_not_offered_again(window: MainWindow, path: Path, person: Person, open_window) -> None:
+def test_discarded_work_is_not_offered_again(
+    window: MainWindow, path: Path, person: Person, open_window
+) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.workspace._keep_unsaved()
     assert window.workspace.document.journal_path.exists()
@@ -94,7 +100,9 @@ def test_closing_without_changes_asks_nothing(window: MainWindow, person: Person
     assert person.asked == []
 
 
-def test_a_save_that_fails_at_the_end_keeps_the_program_open(window: MainWindow, path: Path, person: Person) -> None:
+def test_a_save_that_fails_at_the_end_keeps_the_program_open(
+    window: MainWindow, path: Path, person: Person
+) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.watch.follow(None)
     path.write_bytes(path.read_bytes() + b"# touched\n")

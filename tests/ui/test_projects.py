@@ -19,7 +19,9 @@ EXCESS = ("servo.excess_error", "1")
 @pytest.fixture
 def project(path: Path) -> Project:
     """Return a project round the file, with a second file in it."""
-    project = Project.create(path.parent, ProjectInfo(name="Mill", family="9pc", machine="mill", control="tcp://127.0.0.1:9"))
+    project = Project.create(
+        path.parent, ProjectInfo(name="Mill", family="9pc", machine="mill", control="tcp://127.0.0.1:9")
+    )
     project.copy(path, "second")
     return project
 
@@ -57,7 +59,9 @@ def test_copy_opens_the_copy(window: MainWindow, project: Project, person: Perso
     assert on_disk(project.path("third")).values == on_disk(project.path("mill")).values
 
 
-def test_copy_from_another_project(window: MainWindow, project: Project, person: Person, tmp_path: Path) -> None:
+def test_copy_from_another_project(
+    window: MainWindow, project: Project, person: Person, tmp_path: Path
+) -> None:
     other = Project.create(tmp_path / "other", ProjectInfo(name="Other", family="9pc", machine="mill"))
     theirs = other.copy(project.path("mill"), "theirs")
     person.chooses(theirs)
@@ -73,7 +77,9 @@ def test_a_name_that_is_taken_is_told(window: MainWindow, person: Person) -> Non
     assert "there is a file 'second' already" in person.reads().lower()
 
 
-def test_rename_a_file_that_is_not_open(window: MainWindow, project: Project, path: Path, person: Person) -> None:
+def test_rename_a_file_that_is_not_open(
+    window: MainWindow, project: Project, path: Path, person: Person
+) -> None:
     person.types("second", "renamed")
     action(window, "Rename File").trigger()
     assert {p.stem for p in project.files()} == {"mill", "renamed"}
@@ -91,7 +97,9 @@ def test_rename_the_open_file_keeps_it_open(window: MainWindow, project: Project
     assert window.workspace.file.get(EXCESS) == Value(3.0, "mm")
 
 
-def test_a_rename_that_fails_leaves_the_file_open(window: MainWindow, project: Project, person: Person) -> None:
+def test_a_rename_that_fails_leaves_the_file_open(
+    window: MainWindow, project: Project, person: Person
+) -> None:
     person.types("mill", "second")
     action(window, "Rename File").trigger()
     assert "already" in person.reads()
@@ -128,7 +136,9 @@ def test_a_file_in_use_elsewhere_is_not_deleted(window: MainWindow, project: Pro
     assert project.path("second").exists()
 
 
-def test_a_new_file_goes_into_the_project(window: MainWindow, project: Project, accept, person: Person) -> None:
+def test_a_new_file_goes_into_the_project(
+    window: MainWindow, project: Project, accept, person: Person
+) -> None:
     accept(file_dialogs.NewFileDialog, lambda d: d.name.setText("fresh"))
     action(window, "New").trigger()
     assert window.workspace.path == project.path("fresh")

@@ -33,7 +33,9 @@ def enter(quick: QuickEdit, text: str = "") -> None:
     QTest.keyClick(field, ENTER)
 
 
-def test_number_value_number_value_without_the_mouse(quick: QuickEdit, window: MainWindow, file: ParameterFile) -> None:
+def test_number_value_number_value_without_the_mouse(
+    quick: QuickEdit, window: MainWindow, file: ParameterFile
+) -> None:
     enter(quick, "1750")
     assert quick.editor.text() == "11 mm"
     assert "1750 Excess Error, Axis 1\nAllowed here: 0 to" in quick.name.text()
@@ -74,7 +76,9 @@ def test_a_shared_number_means_what_exists_for_this_axis(quick: QuickEdit) -> No
     assert "Spindle" in quick.name.text() or "Motor" in quick.name.text()
 
 
-def test_a_shared_number_follows_the_type_of_the_axis(quick: QuickEdit, window: MainWindow, file: ParameterFile) -> None:
+def test_a_shared_number_follows_the_type_of_the_axis(
+    quick: QuickEdit, window: MainWindow, file: ParameterFile
+) -> None:
     enter(quick, "1013")
     assert window.selected() == ("servo.velocity_gear_teeth", "1")
     enter(quick)

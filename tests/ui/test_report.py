@@ -13,8 +13,12 @@ from amp_studio.ui.main_window import MainWindow
 from .conftest import Person, action
 
 
-@pytest.mark.parametrize(("ending", "begins"), [("pdf", b"%PDF"), ("html", b"<!"), ("csv", b""), ("txt", b"")])
-def test_a_report_in_each_format(window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes) -> None:
+@pytest.mark.parametrize(
+    ("ending", "begins"), [("pdf", b"%PDF"), ("html", b"<!"), ("csv", b""), ("txt", b"")]
+)
+def test_a_report_in_each_format(
+    window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes
+) -> None:
     path = tmp_path / f"report.{ending}"
     accept(ReportDialog, lambda d: d.path.setText(str(path)))
 
@@ -25,7 +29,9 @@ def test_a_report_in_each_format(window: MainWindow, tmp_path: Path, accept, end
     assert str(path) in window.statusBar().currentMessage()
 
 
-def test_the_report_holds_what_is_edited_and_not_what_is_saved(window: MainWindow, tmp_path: Path, accept) -> None:
+def test_the_report_holds_what_is_edited_and_not_what_is_saved(
+    window: MainWindow, tmp_path: Path, accept
+) -> None:
     path = tmp_path / "report.csv"
     window.edits.commit(("servo.excess_error", "1"), "3.75 mm")
     accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.changed.setChecked(True)))
@@ -33,7 +39,9 @@ def test_the_report_holds_what_is_edited_and_not_what_is_saved(window: MainWindo
     assert "3.75" in path.read_text(encoding="utf-8")
 
 
-def test_an_unknown_ending_is_told_and_nothing_is_written(window: MainWindow, tmp_path: Path, accept, person: Person) -> None:
+def test_an_unknown_ending_is_told_and_nothing_is_written(
+    window: MainWindow, tmp_path: Path, accept, person: Person
+) -> None:
     accept(ReportDialog, lambda d: d.path.setText(str(tmp_path / "report.doc")))
     action(window, "Report").trigger()
     assert "as its ending says" in person.reads()

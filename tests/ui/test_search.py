@@ -99,7 +99,9 @@ def test_a_group_counts_its_findings_once(workspace: Workspace, groups: GroupLis
     assert count >= 1
 
 
-def test_what_was_changed_from_the_default_is_a_list_that_follows(window: MainWindow, workspace: Workspace, qtbot) -> None:
+def test_what_was_changed_from_the_default_is_a_list_that_follows(
+    window: MainWindow, workspace: Workspace, qtbot
+) -> None:
     window.groups.tree.setCurrentItem(window.groups._items[1])
     rows = {p.id for p in window.table.rows}
     changed = next(a for a in workspace.file.values if a[0] in rows)

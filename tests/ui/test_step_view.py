@@ -40,7 +40,9 @@ def test_it_begins_with_the_selected_axis_and_draws_a_trace(view: StepView) -> N
     assert view.save_button.isEnabled()
 
 
-def test_it_draws_anew_after_an_edit_and_after_its_undo(view: StepView, window: MainWindow, qtbot: QtBot) -> None:
+def test_it_draws_anew_after_an_edit_and_after_its_undo(
+    view: StepView, window: MainWindow, qtbot: QtBot
+) -> None:
     """The lower the gain, the larger the following error."""
     before = view.trace.result["steady_following_error"][0]
     old = view.trace
@@ -64,7 +66,9 @@ def test_edits_while_it_runs_end_with_the_last(view: StepView, window: MainWindo
     assert view.trace.result["steady_following_error"][0] == once
 
 
-def test_distance_and_feedrate_take_units_and_a_decimal_comma(view: StepView, window: MainWindow, qtbot: QtBot) -> None:
+def test_distance_and_feedrate_take_units_and_a_decimal_comma(
+    view: StepView, window: MainWindow, qtbot: QtBot
+) -> None:
     view.distance.setText("2 in")
     view.feedrate.setText("1500,5")
     view.run()
@@ -91,7 +95,9 @@ def test_a_wrong_unit_is_told_in_place(view: StepView, qtbot: QtBot) -> None:
     assert view.trace.result["distance"][0] == 90.0
 
 
-def test_an_axis_that_is_deleted_is_no_longer_offered(view: StepView, window: MainWindow, qtbot: QtBot) -> None:
+def test_an_axis_that_is_deleted_is_no_longer_offered(
+    view: StepView, window: MainWindow, qtbot: QtBot
+) -> None:
     window.workspace.edit("type", {("axis.type", "2"): Value("unfitted")})
     settled(view, qtbot)
     assert view.axis.findData("2") == -1
@@ -106,7 +112,9 @@ def test_what_cannot_be_simulated_is_told_in_place(view: StepView, window: MainW
 @pytest.mark.parametrize("ending", ["svg", "csv", "png"])
 def test_the_trace_is_saved(view: StepView, tmp_path: Path, monkeypatch, ending: str) -> None:
     path = tmp_path / f"step.{ending}"
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), f"({ending.upper()} (*.{ending})"))
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *_: (str(path), f"({ending.upper()} (*.{ending})")
+    )
     view.save()
     assert path.stat().st_size > 500
 

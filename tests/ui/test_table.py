@@ -41,11 +41,22 @@ def press(window: MainWindow, key: Qt.Key) -> None:
 def test_a_column_an_axis_and_one_for_the_control(table: ParameterTable) -> None:
     """Processes have columns of their own: process 1 is not axis 1."""
     titles = [table.headerData(n, Qt.Orientation.Horizontal) for n in range(table.columnCount())]
-    assert titles == ["Control", "1 X linear", "2 Y linear", "3 Z linear", "4 B rotary", "5 S spindle", "Process 1", "Process 2"]
+    assert titles == [
+        "Control",
+        "1 X linear",
+        "2 Y linear",
+        "3 Z linear",
+        "4 B rotary",
+        "5 S spindle",
+        "Process 1",
+        "Process 2",
+    ]
 
 
 def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: ParameterFile) -> None:
-    shown = {table.address_at(r, c) for r in range(table.rowCount()) for c in range(table.columnCount())} - {None}
+    shown = {table.address_at(r, c) for r in range(table.rowCount()) for c in range(table.columnCount())} - {
+        None
+    }
     for address in shown:
         assert table.index_of(address).data(AddressRole) == address
     existing = {a for a in file.addresses() if file.situation.state(a).state != "hidden"}
@@ -85,8 +96,14 @@ def test_a_row_comes_and_goes_with_what_makes_it_exist(window: MainWindow, works
     assert window.selected() == EXCESS
 
 
-def test_what_is_not_for_this_configuration_cannot_be_edited(table: ParameterTable, file: ParameterFile) -> None:
-    hidden = next(a for a in file.addresses() if file.situation.state(a).state == "hidden" and table.index_of(a).isValid())
+def test_what_is_not_for_this_configuration_cannot_be_edited(
+    table: ParameterTable, file: ParameterFile
+) -> None:
+    hidden = next(
+        a
+        for a in file.addresses()
+        if file.situation.state(a).state == "hidden" and table.index_of(a).isValid()
+    )
     index = table.index_of(hidden)
     assert index.data() == "·"
     assert not index.flags() & Qt.ItemFlag.ItemIsEditable
@@ -119,7 +136,9 @@ def test_a_value_that_differs_from_the_default_is_bold(table: ParameterTable, wo
 
 
 @pytest.mark.parametrize("key", [KEY.Key_F2, KEY.Key_Return, KEY.Key_Enter])
-def test_a_key_starts_editing_and_enter_takes_the_value(window: MainWindow, file: ParameterFile, key: Qt.Key, qtbot) -> None:
+def test_a_key_starts_editing_and_enter_takes_the_value(
+    window: MainWindow, file: ParameterFile, key: Qt.Key, qtbot
+) -> None:
     window.go_to(EXCESS)
 
     press(window, key)
@@ -184,7 +203,9 @@ def test_delete_in_a_field_deletes_a_letter(window: MainWindow, file: ParameterF
     assert file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_a_refused_value_is_asked_once_and_stays_to_be_mended(window: MainWindow, file: ParameterFile, person, qtbot) -> None:
+def test_a_refused_value_is_asked_once_and_stays_to_be_mended(
+    window: MainWindow, file: ParameterFile, person, qtbot
+) -> None:
     """The question takes the focus from the field, which must not commit a second time."""
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
@@ -200,7 +221,9 @@ def test_a_refused_value_is_asked_once_and_stays_to_be_mended(window: MainWindow
     QTest.keyClick(editor(window), KEY.Key_Escape)
 
 
-def test_one_key_opens_the_list_of_choices_and_a_letter_chooses(window: MainWindow, file: ParameterFile, qtbot) -> None:
+def test_one_key_opens_the_list_of_choices_and_a_letter_chooses(
+    window: MainWindow, file: ParameterFile, qtbot
+) -> None:
     window.go_to(LOOP)
     press(window, KEY.Key_Return)
     box = editor(window)

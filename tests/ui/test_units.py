@@ -40,7 +40,9 @@ def test_the_switch_changes_the_display_and_no_value(window: MainWindow, workspa
     assert not workspace.is_dirty
 
 
-def test_the_unit_system_belongs_to_the_file_and_is_saved_with_it(window: MainWindow, workspace: Workspace, path) -> None:
+def test_the_unit_system_belongs_to_the_file_and_is_saved_with_it(
+    window: MainWindow, workspace: Workspace, path
+) -> None:
     window.view.switch.trigger()
     assert workspace.is_dirty
     assert window.save_or_tell()
@@ -59,7 +61,9 @@ def test_a_bare_number_has_the_unit_that_is_shown(window: MainWindow, workspace:
     assert workspace.file.get(EXCESS) == Value(8.0, "mm")
 
 
-def test_as_entered_a_bare_number_stays_in_the_unit_it_is_shown_in(window: MainWindow, workspace: Workspace) -> None:
+def test_as_entered_a_bare_number_stays_in_the_unit_it_is_shown_in(
+    window: MainWindow, workspace: Workspace
+) -> None:
     """12 typed over 10 in/min means inches: it must not become 12 mm/min."""
     home_speed = ("home.speed_off_switch", "1")
     assert window.edits.commit(home_speed, "10 ipm")
