@@ -184,7 +184,7 @@ class ControlActions:
         held = self._fetch(address, "Verify")
         if held.schema is not workspace.file.schema:
             raise ValueError(
-                f"The control is a {held.schema.family.name}, this file is for {workspace.file.schema.family.name}."
+                f"The control holds a file for {held.schema.family.name}, this one is for {workspace.file.schema.family.name}."
             )
         self._remember(workspace, held)
         found = workspace.differences_to(held.values)

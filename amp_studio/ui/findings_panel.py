@@ -90,11 +90,15 @@ class _View(QTableView):
         super().__init__()
         self._fit = QTimer(self)
         self._fit.setSingleShot(True)
-        self._fit.timeout.connect(self.resizeRowsToContents)
+        self._fit.timeout.connect(self._fit_rows)
 
     def fit(self) -> None:
         """Give the rows their heights once the present event is done."""
         self._fit.start(0)
+
+    def _fit_rows(self) -> None:
+        self.resizeRowsToContents()
+        self.scrollTo(self.currentIndex())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -1,0 +1,120 @@
+"""A family that is nothing like the 9/PC: axes that are always there, words of bits, texts, machine types in the header."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import Document, Header, ParameterFile
+from amp_studio.schema import Value
+from amp_studio.schema.catalog import schema_of
+from amp_studio.schema.load import compile_family
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.step_view import StepView
+from amp_studio.ui.workspace import Workspace
+
+from .conftest import Person, action
+
+FAMILY = """
+family: wide
+name: Wide control
+document: wide-manual
+title: Wide Manual
+machines: [{key: small, name: Small machine}, {key: large, name: Large machine}]
+default_machine: small
+scopes:
+  global: {instances: [""], label: Control}
+  axis: {instances: ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11"], label: "Axis {i}"}
+  word: {instances: ["0", "1", "2"], label: "Word {i}"}
+units: {metric: {length: mm}}
+effect: {level: restart}
+groups: [all]
+"""
+GROUP = """
+key: all
+name: Everything
+chapter: "1"
+parameters:
+  - id: axis.position
+    name: Position
+    scope: axis
+    numbers: {format: "P10N{i}"}
+    type: real
+    quantity: length
+    help: {what: A length.}
+    page: "1-1"
+  - id: word.mode
+    name: Mode word
+    scope: word
+    numbers: {format: "P2N{i}"}
+    type: bits
+    bits: [{bit: 0, label: Axis turns}, {bit: 3, label: Second gear}]
+    default: {value: 0, page: "1-2"}
+    help: {what: Bits.}
+    page: "1-2"
+  - id: machine.name
+    name: Name of the machine
+    type: text
+    help: {what: A text.}
+    page: "1-3"
+"""
+
+
+@pytest.fixture
+def wide(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
+    """Return a window with a file of the wide family."""
+    folder = tmp_path / "wide"
+    (folder / "groups").mkdir(parents=True)
+    (folder / "family.yaml").write_text(FAMILY)
+    (folder / "groups" / "all.yaml").write_text(GROUP)
+    file = ParameterFile(schema_of(compile_family(folder)), Header(name="wide", machine="small"))
+    file.values[("axis.position", "11")] = Value(1.5, "mm")
+    window = open_window()
+    window.show_workspace(Workspace(Document.create(file, tmp_path / "wide.amp")))
+    return window
+
+
+def test_every_axis_has_a_column_and_words_have_theirs(wide: MainWindow) -> None:
+    titles = [wide.table.headerData(n, Qt.Orientation.Horizontal) for n in range(wide.table.columnCount())]
+    assert titles == ["Control", *(f"Axis {n}" for n in range(12)), "Word 0", "Word 1", "Word 2"]
+    assert wide.table.headerData(0, Qt.Orientation.Vertical).startswith("P10N0")
+
+
+def test_texts_and_words_of_bits_are_edited(wide: MainWindow) -> None:
+    file = wide.workspace.file
+    assert wide.edits.commit(("machine.name", ""), "Mill, 3 axes")
+    assert wide.edits.commit(("word.mode", "1"), "0x9")
+    assert file.get(("machine.name", "")) == Value("Mill, 3 axes")
+    assert file.get(("word.mode", "1")) == Value(9)
+
+
+def test_what_it_does_not_have_is_off_or_told(wide: MainWindow) -> None:
+    assert not action(wide, "Configure Axis Type").isEnabled()
+    wide.view.switch.trigger()
+    assert wide.workspace.file.header.units == "metric"
+    wide.view.step_action.trigger()
+    assert wide.findChild(StepView).told.text() == "No axis is fitted."
+
+
+def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:
+    action(wide, "Large machine").trigger()
+    assert wide.workspace.file.machine == "large"
+    assert wide.workspace.is_dirty
+    wide.edits.undo.trigger()
+    assert wide.workspace.file.machine == "small"
+    assert not wide.workspace.is_dirty
+
+
+def test_a_control_of_another_family_is_refused(
+    wide: MainWindow, start_control, person: Person, qtbot: QtBot
+) -> None:
+    control = start_control()
+    person.types(control.address)
+    action(wide, "Verify With Control").trigger()
+    assert (
+        person.reads() == "The control holds a file for Allen-Bradley 9/PC AMP, this one is for Wide control."
+    )
