@@ -108,7 +108,9 @@ def convert(value: float, unit: str, to: str) -> float:
 
 
 def _rounded(value: float, factor: Fraction) -> float:
-    """Return the double nearest to the exact product; infinite where no double is that large."""
+    """Return the double nearest to the exact product; infinite where no double is that large, no number as it is."""
+    if math.isnan(value):
+        return value
     try:
         return float(Fraction(Decimal(repr(float(value)))) * factor)
     except OverflowError:

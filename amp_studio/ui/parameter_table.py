@@ -130,6 +130,10 @@ class ParameterTable(QAbstractTableModel):
 
     # -- values as they are shown ----------------------------------------------
 
+    def cell_text(self, address: Address) -> str:
+        """Return what stands in a cell: the value, or a point where it does not exist for this configuration."""
+        return self.shown_value(address) if self.hidden_too or self._exists(address) else "·"
+
     def shown_value(self, address: Address) -> str:
         """Return a value as the table shows it."""
         parameter = self.workspace.file.schema.parameters[address[0]]
@@ -206,7 +210,7 @@ class ParameterTable(QAbstractTableModel):
     def _cell(self, address: Address, role: int) -> Any:
         file = self.workspace.file
         if role == Qt.ItemDataRole.DisplayRole:
-            return self.shown_value(address) if self.hidden_too or self._exists(address) else "·"
+            return self.cell_text(address)
         if role == Qt.ItemDataRole.EditRole:
             return self.typed_value(address)
         if role == AddressRole:

@@ -13,7 +13,8 @@ from amp_studio.schema import Address
 from .parameter_table import AddressRole, ParameterTable
 from .value_delegate import ValueDelegate
 
-_NAMES = 256
+_NAMES = (256, 330)
+"""Width of the names in a narrow table, and in one that is wider than four times the larger."""
 _NARROWEST, _WIDEST = 92, 240
 _CHOICES = (200, 160, 118)
 """Widths that long choices may take, by the room there is."""
@@ -50,7 +51,7 @@ class ValueTable(QTableView):
         names.setDefaultSectionSize(24)
         names.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         names.setTextElideMode(Qt.TextElideMode.ElideRight)
-        names.setFixedWidth(_NAMES)
+        names.setFixedWidth(_NAMES[0])
         names.setHighlightSections(False)
         names.setSectionsClickable(True)
         names.sectionClicked.connect(self._select_row)
@@ -138,7 +139,7 @@ class ValueTable(QTableView):
         for row, parameter in enumerate(table.rows):
             address = table.address_at(row, column)
             if address is not None:
-                shown[bool(parameter.choices)].add(table.shown_value(address))
+                shown[bool(parameter.choices)].add(table.cell_text(address))
         figures, choices = (max((1.1 * texts.horizontalAdvance(t) + 14 for t in shown[kind]), default=0.0)
                             for kind in (False, True))  # fmt: skip
         return round(max(_NARROWEST, 1.1 * head + 24, min(_WIDEST, figures))), round(
@@ -151,6 +152,7 @@ class ValueTable(QTableView):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
+        self.verticalHeader().setFixedWidth(_NAMES[self.width() > 4 * _NAMES[1]])
         self._fit_columns()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

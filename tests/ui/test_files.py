@@ -1,12 +1,8 @@
-"""Open, save, recover: nothing is lost, and two programs on one file notice each other."""
+"""New, save, save as, recover, facts, close: nothing is lost."""
 
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
-import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -20,39 +16,6 @@ from .conftest import WAIT_MS, Person, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 EDITED = Value(3.0, "mm")
-
-OTHER_PROGRAM = """
-import sys
-from pathlib import Path
-from amp_studio.files import Document
-from amp_studio.schema import Value
-document = Document.open(Path(sys.argv[1]))
-if "edit" in sys.argv:
-    document.file.set(("servo.excess_error", "1"), Value(3.0, "mm"))
-    document.file.set(("home.calibration", "2"), None)
-    document.keep_unsaved()
-print("ready", flush=True)
-sys.stdin.read()
-"""
-
-
-@pytest.fixture
-def other_program(path: Path) -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """Return what starts another program on the file; it holds the lock until it is killed."""
-    started: list[subprocess.Popen[str]] = []
-
-    def start(*options: str) -> subprocess.Popen[str]:
-        command = [sys.executable, "-c", OTHER_PROGRAM, str(path), *options]
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        started.append(process)
-        assert process.stdout is not None
-        assert process.stdout.readline() == "ready\n"
-        return process
-
-    yield start
-    for process in started:
-        process.kill()
-        process.communicate()
 
 
 def edit(window: MainWindow) -> None:
@@ -223,110 +186,6 @@ def test_save_as_over_a_file_another_program_edits_is_refused(
     assert "is open in another program" in person.reads()
     assert other.read_bytes() == before
     assert window.workspace.path == path
-
-
-# -- opening -------------------------------------------------------------------
-
-
-def test_a_file_that_is_none_is_told_and_the_open_one_stays(
-    window: MainWindow, tmp_path: Path, person: Person
-) -> None:
-    bad = tmp_path / "bad.amp"
-    bad.write_text("nonsense")
-    person.chooses(bad)
-
-    action(window, "Open").trigger()
-
-    assert "bad.amp" in person.reads()
-    assert window.workspace.may_edit
-
-
-def test_unsaved_changes_are_asked_about_before_another_file(
-    window: MainWindow, path: Path, person: Person
-) -> None:
-    other = path.with_name("other.amp")
-    other.write_bytes(path.read_bytes())
-    edit(window)
-    person.answers("Cancel", "Discard")
-
-    window.files.open_path(other)
-    assert window.workspace.path == path
-    window.files.open_path(other)
-    assert window.workspace.path == other
-    assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
-
-
-def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, person: Person, other_program) -> None:
-    other_program()
-    person.answers("Look at it")
-
-    window = open_window(path)
-
-    assert "is open in another program" in person.asked[0]
-    assert "[read only]" in window.windowTitle()
-    assert not action(window, "Save").isEnabled()
-    assert not action(window, "Delete Axis").isEnabled()
-    assert not action(window, "Unset").isEnabled()
-    assert action(window, "Save As").isEnabled()
-    index = window.table.index_of(("control.type", ""))
-    from PySide6.QtCore import Qt
-
-    assert not index.flags() & Qt.ItemFlag.ItemIsEditable
-    person.chooses(path.with_name("mine"))
-    window.files.save_as()
-    assert window.workspace.may_edit
-
-
-def test_a_file_in_use_need_not_be_opened(open_window, path: Path, person: Person, other_program) -> None:
-    other_program()
-    person.answers("Cancel")
-    assert open_window(path).workspace is None
-
-
-def test_the_work_of_a_killed_program_is_offered_and_can_be_undone(
-    open_window, path: Path, person: Person, other_program
-) -> None:
-    killed = other_program("edit")
-    killed.send_signal(signal.SIGKILL)
-    killed.wait()
-    person.answers("Take it back")
-
-    window = open_window(path)
-
-    assert "2 changes" in person.asked[0]
-    assert window.workspace.file.get(EXCESS) == EDITED
-    assert window.workspace.file.get(("home.calibration", "2")) is None
-    assert window.workspace.is_dirty
-    window.edits.undo.trigger()
-    assert window.workspace.file.values == on_disk(path).values
-
-
-def test_the_work_of_a_killed_program_can_be_thrown_away_or_left(
-    open_window, path: Path, person: Person, other_program
-) -> None:
-    killed = other_program("edit")
-    killed.kill()
-    killed.wait()
-    person.answers("Decide later", "Throw it away")
-
-    window = open_window(path)
-    assert window.workspace is None
-    window.open_first(path)
-    assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
-    window.open_first(path)
-    assert len(person.asked) == 2
-
-
-def test_unsaved_work_is_kept_beside_the_file_while_one_types(window: MainWindow, path: Path, qtbot) -> None:
-    """Also by who never pauses: the next edit does not put it off."""
-    journal = window.workspace.document.journal_path
-    edit(window)
-    deadline = window.workspace._journal.remainingTime()
-    window.edits.commit(EXCESS, "4 mm")
-    assert window.workspace._journal.remainingTime() <= deadline
-    qtbot.waitUntil(journal.exists, timeout=WAIT_MS)
-    assert window.save_or_tell()
-    assert not journal.exists()
 
 
 # -- new, recover, facts, close ------------------------------------------------
