@@ -152,6 +152,7 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
     def show(path: Path | None = None) -> MainWindow:
         window = MainWindow()
         windows.append(window)
+        window.resize(960, 600)  # half the size is half the painting
         window.show()
         with qtbot.waitActive(window, timeout=WAIT_MS):
             window.activateWindow()
@@ -194,11 +195,18 @@ def file(workspace: Workspace) -> ParameterFile:
 
 
 @pytest.fixture
-def whole(workspace: Workspace) -> Callable[[], tuple[bytes, object]]:
+def whole(workspace: Workspace) -> Callable[[], tuple[object, ...]]:
     """Return what gives all that a save would write, and the findings: two of them are equal or something is left over."""
 
-    def give() -> tuple[bytes, object]:
-        return content_of(workspace.file), workspace.findings
+    def give() -> tuple[object, ...]:
+        file = workspace.file
+        return (
+            dict(file.values),
+            dict(file.forced),
+            dict(vars(file.header)),
+            dict(file.unknown),
+            workspace.findings,
+        )
 
     return give
 

@@ -16,7 +16,7 @@ from amp_studio.validate import Validator
 CALIBRATION = ("home.calibration", "1")
 EXCESS = ("servo.excess_error", "1")
 
-Whole = Callable[[], tuple[bytes, object]]
+Whole = Callable[[], tuple[object, ...]]
 
 
 def a_value(w: Workspace) -> None:
