@@ -153,7 +153,8 @@ class ValueTable(QTableView):
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         self.verticalHeader().setFixedWidth(_NAMES[self.width() > 4 * _NAMES[1]])
-        self._fit_columns()
+        if event.size().width() != event.oldSize().width():
+            self._fit_columns()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter edits the cell, as F2 and typing do."""
