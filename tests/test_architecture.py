@@ -146,7 +146,7 @@ def contributing_examples(checkout: Path) -> dict[str, str]:
 
 def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path, tmp_path: Path) -> None:
     examples = contributing_examples(checkout)
-    rules = examples.pop("parameter_db/9pc/rules.yaml")
+    rules = examples.pop("parameter_db/9pc/rules/servo_position.yaml")
     parameter = examples.pop("parameter_db/9pc/groups/zone.yaml")
     for path, text in examples.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)

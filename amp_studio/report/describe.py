@@ -44,7 +44,8 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         "default": _default(parameter),
         "available_when": _available(schema, parameter.states),
         "help": _help(parameter),
-        "source": {"document": schema.family.document, "page": parameter.page},
+        "source": {"document": schema.family.document, "page": parameter.page}
+        | ({"pages": parameter.pages} if parameter.pages else {}),
         "errata": " ".join(erratum_text(schema, e) for e in parameter.errata) or None,
         "effect": (parameter.effect or schema.family.effect).model_dump(exclude_none=True),
         "patch": parameter.patchable,
@@ -60,6 +61,8 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         found["numbers_by_machine"] = numbers
     if any(schema.is_disputed(parameter.id, m) for m in machines):
         found["numbers_disputed"] = True
+    if parameter.needs:
+        found["needs"] = [need.model_dump() for need in parameter.needs]
     if parameter.storage:
         found["storage"] = parameter.storage.model_dump(exclude_none=True)
     return found
@@ -198,8 +201,14 @@ def facts(schema: Schema, parameter: Parameter, machine: str) -> list[tuple[str,
                 ("when " if state.when else "unless ") + f"[{condition.when}]: {condition.why}",
             )
         )
-    found.append(("Source", f"{schema.family.title}, page {parameter.page}"))
+    found += [("Needs", f"{need.what} (page {need.page})") for need in parameter.needs]
+    found.append(("Source", f"{schema.family.title}, page {pages_text(parameter)}"))
     return found
+
+
+def pages_text(parameter: Parameter) -> str:
+    """Return the pages on which the manual describes a parameter."""
+    return " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
 
 
 def _numbers_text(schema: Schema, parameter: Parameter, numbers: dict[str, str], machine: str) -> str:

@@ -4,7 +4,7 @@ Loads ``parameter_db`` once into a compiled cache and answers questions about
 it; every other room asks here and knows no parameter by heart.
 """
 
-from .catalog import Address, Schema, UnknownParameter, load_schema, read_address, written
+from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
 from .constraint import Limits, clip, fault, limits
 from .load import DatabaseFault, database_folder, family_ids, read_rules
 from .model import AxisProfile, Choice, Condition, Erratum, Group, Parameter, Rule, Table
@@ -58,8 +58,10 @@ __all__ = [
     "field_at",
     "field_value",
     "label_of",
+    "labelled",
     "limits",
     "load_schema",
+    "part_of",
     "program",
     "read_address",
     "read_number",

@@ -174,11 +174,17 @@ class Schema:
         return str(self.number(address, machine)) if claims == [address] else written(address)
 
     def instance_label(self, address: Address, machine: str) -> str:
-        """Return ``Axis 3``; empty for the only instance of a global parameter."""
-        layout = self.layout(self.parameters[address[0]], machine)
+        """Return ``Axis 3``, ``Spindle 1, Gear 3``; empty for the only instance of a global parameter."""
+        parameter = self.parameters[address[0]]
+        layout = self.layout(parameter, machine)
         if layout is None or address[1] == "":
             return ""
-        return self.family.scopes[layout.scope].label.format(i=address[1])
+        return labelled(parameter.each or self.family.scopes[layout.scope].label, address[1])
+
+    def page(self, address: Address) -> str:
+        """Return the page on which the manual describes an instance."""
+        parameter = self.parameters[address[0]]
+        return parameter.pages.get(address[1]) or parameter.pages.get(whole_of(address[1])) or parameter.page
 
     def unit(self, parameter: Parameter, system: str, turns: bool) -> str:
         """Return the unit of entry in a unit system (``metric``, ``inch``); degrees where the axis turns."""
@@ -233,6 +239,23 @@ def number_of(numbers: Numbers, index: int, instance: str) -> str:
         return numbers.listed[instance]
     plain = "" if numbers.start is None else numbers.start + index * numbers.step
     return numbers.format.format(n=plain, i=instance)
+
+
+def labelled(label: str, instance: str) -> str:
+    """Return what an instance is called: ``Spindle {i}, Gear {j}`` and ``1.3`` give ``Spindle 1, Gear 3``."""
+    whole, _, part = instance.partition(".")
+    return label.format(i=whole, j=part)
+
+
+def whole_of(instance: str) -> str:
+    """Return the instance that another one is a part of: ``1`` for ``1.3``, itself for a whole one."""
+    return instance.partition(".")[0]
+
+
+def part_of(instance: str) -> float | None:
+    """Return which part of its whole an instance is: 3.0 for ``1.3``; None for a whole one."""
+    part = instance.partition(".")[2]
+    return float(part) if part.isdecimal() else None
 
 
 def written(address: Address) -> str:

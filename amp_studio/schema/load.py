@@ -80,9 +80,8 @@ def compile_family(folder: Path) -> Compiled:
     for key, group in zip(family.groups, groups, strict=True):
         if group.key != key:
             raise DatabaseFault(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
-    rules_file, errata_file = folder / "rules.yaml", folder / "errata.yaml"
-    rules = read_rules(rules_file) if rules_file.is_file() else ()
-    errata = _read(errata_file, Errata).errata if errata_file.is_file() else ()
+    rules = tuple(rule for path in _of(family, folder / "rules") for rule in read_rules(path))
+    errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
@@ -91,8 +90,14 @@ def compile_family(folder: Path) -> Compiled:
     return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables)
 
 
+def _of(family: Family, folder: Path) -> list[Path]:
+    """Return the files of a folder in the order of the groups they are called after; others stand behind."""
+    order = {key: n for n, key in enumerate(family.groups)}
+    return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
+
+
 def read_rules(path: Path) -> tuple[Rule, ...]:
-    """Read a ``rules.yaml``; raises DatabaseFault with file and line."""
+    """Read a file of rules; raises DatabaseFault with file and line."""
     return _read(path, Rules).rules
 
 

@@ -17,7 +17,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validat
 from .units import UNITS
 
 ParameterId = Annotated[str, Field(pattern=r"^[a-z0-9_]+(\.[a-z0-9_]+)+$")]
-Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_+-]*$")]
+Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_.+-]*$")]
 Page = Annotated[str, Field(pattern=r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$")]
 
 
@@ -195,6 +195,13 @@ class Default(Model):
     """Instances whose default differs from ``value``."""
 
 
+class Need(Model):
+    """An option, a piece of hardware or a software release without which a parameter does nothing."""
+
+    what: str
+    page: Page
+
+
 class Parameter(Model):
     """Everything the database says about one parameter."""
 
@@ -203,6 +210,12 @@ class Parameter(Model):
     scope: Scope = "global"
     numbers: Numbers | None = None
     instances: tuple[str, ...] | None = None
+    """Only where they differ from those of the scope; ``1.3`` is a part of instance 1 (spindle 1, gear 3)."""
+    each: str | None = None
+    """What one instance is called where that is not the scope's own label: ``Macro call {i}``, ``Gear {j}``.
+
+    ``{i}`` is the instance, or what stands before its point, ``{j}`` what stands behind it.
+    """
     layouts: tuple[Layout, ...] | None = None
     """Instead of scope, numbers and instances where they depend on the machine type."""
     type: ValueType
@@ -222,8 +235,11 @@ class Parameter(Model):
     """Can be changed on line, at the running machine."""
     patchable: bool = False
     """Stands in the table of values that can be keyed in at the control."""
+    needs: tuple[Need, ...] = ()
     help: Help
     page: Page
+    pages: dict[str, Page] = {}
+    """Instance, or what stands before its point -> its page, where the manual has another section for it."""
     errata: tuple[str, ...] = ()
 
     @model_validator(mode="after")
@@ -340,8 +356,9 @@ class Rule(Model):
 
     ``reads`` binds short names to parameters of the instance at hand:
     ``id`` the same instance, ``id@*`` the list over all instances, ``id@<`` and
-    ``id@>`` those before and after, ``id@3`` one of them, and a plain ``id`` of
-    global scope wherever it stands. Numbers arrive in the quantity's canonical unit.
+    ``id@>`` those before and after, ``id@.`` the parts of the same instance (the gears
+    of its spindle), ``id@3`` one of them, and a plain ``id`` of global scope wherever
+    it stands. Numbers arrive in the quantity's canonical unit.
     """
 
     id: Annotated[str, Field(pattern=r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]
@@ -373,7 +390,7 @@ class Rule(Model):
 
 
 class Rules(Model):
-    """A ``rules.yaml``."""
+    """A file of ``rules/``, or a machine builder's own ``rules.yaml``."""
 
     rules: tuple[Rule, ...]
 
@@ -422,6 +439,6 @@ class Erratum(Model):
 
 
 class Errata(Model):
-    """An ``errata.yaml``."""
+    """A file of ``errata/``."""
 
     errata: tuple[Erratum, ...]

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from .catalog import Address, Schema, UnknownParameter, read_address
+from .catalog import Address, Schema, UnknownParameter, part_of, read_address, whole_of
 from .cel_engine import Program, compile_expression
 from .model import Condition, Parameter, Scope, State, StateRule
 from .units import canonical, dimension
@@ -103,10 +103,13 @@ class Situation:
         if scope is not None and self.scope((parameter_id, "")) != scope:
             instance = ""
         if which == "":
-            own = instance if instance in instances else "" if "" in instances else None
+            own = next((i for i in (instance, whole_of(instance), "") if i in instances), None)
             if own is None:
                 raise UnknownParameter(f"{parameter_id} has no instance '{instance}'")
             return Reading(((parameter_id, own),), False)
+        if which == ".":
+            head = f"{whole_of(instance)}."
+            return Reading(tuple((parameter_id, i) for i in instances if i.startswith(head)), True)
         if which in ("*", "<", ">"):
             at = instances.index(instance) if instance in instances else len(instances)
             chosen = {"*": instances, "<": instances[:at], ">": instances[at + 1 :]}[which]
@@ -135,7 +138,7 @@ class Situation:
     def _evaluate(self, asked: _Asked) -> bool:
         name, instance, scope = asked
         condition = self.condition(name)
-        names: dict[str, Any] = {"machine": self.machine, "instance": instance}
+        names: dict[str, Any] = {"machine": self.machine, "instance": instance, "part": part_of(instance)}
         for short, text in condition.reads.items():
             try:
                 reading = self.reading(text, instance, scope)

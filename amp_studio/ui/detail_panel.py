@@ -130,7 +130,7 @@ class DetailPanel(QWidget):
             lines.append(
                 f"<h4>{title}</h4><p>{', '.join(related) if title == 'Related' else html.escape(text)}</p>"
             )
-        lines.append(f"<p><small>{html.escape(schema.family.title)}, page {parameter.page}</small></p>")
+        lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
         return "".join(lines)
 
     def _facts(self, address: Address) -> str:

@@ -9,7 +9,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelInd
 from PySide6.QtGui import QBrush, QFont
 
 from amp_studio.files import axis_title, fitted_axes
-from amp_studio.schema import Address, Parameter, UnitError, Value, convert, show_value, write_value
+from amp_studio.schema import Address, Parameter, UnitError, Value, convert, labelled, show_value, write_value
 from amp_studio.schema.model import ScopeInfo
 
 from .theme import FIGURE_SPACE, severity_colour, state_colour
@@ -18,7 +18,9 @@ from .workspace import Workspace
 Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
 Column = tuple[str, str]
-"""Scope and instance; the column of the whole control is ``("", "")``."""
+"""Scope, or what one instance is called where that is not the scope's own label, and instance.
+
+The column of the whole control is ``("", "")``."""
 
 _LONG = 14  # characters that surely fit into a cell
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
@@ -78,9 +80,9 @@ class ParameterTable(QAbstractTableModel):
         found = self._layouts.get(parameter.id)
         if found is None:
             layout = schema.layout(parameter, machine)
-            scope = layout.scope if layout else ""
+            kind = parameter.each or (layout.scope if layout else "")
             found = [
-                ((parameter.id, i), (scope, i) if i else ("", ""))
+                ((parameter.id, i), (kind, i) if i else ("", ""))
                 for i in schema.instances(parameter, machine)
             ]
             self._layouts[parameter.id] = found
@@ -182,7 +184,7 @@ class ParameterTable(QAbstractTableModel):
         if scope == "axis" and file.schema.family.axes is not None:
             return axis_title(file, instance)
         scopes = cast(Mapping[str, ScopeInfo], file.schema.family.scopes)
-        return scopes[scope].label.replace("{i}", instance)
+        return labelled(scopes[scope].label if scope in scopes else scope, instance)
 
     def _row_head(self, row: int, role: int) -> Any:
         parameter = self.rows[row]

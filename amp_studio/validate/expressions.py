@@ -15,8 +15,8 @@ from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program
 from amp_studio.schema.units import UNITS
 
-ALWAYS_THERE = ("machine", "instance")
-"""Names that a rule need not read: the machine type and the instance it runs for."""
+ALWAYS_THERE = ("machine", "instance", "part")
+"""Names that a rule need not read: machine type, the instance it runs for, which part of its whole that is."""
 
 _TYPES = {
     "int",
@@ -104,7 +104,7 @@ def _compiled(rule: Rule, place: str, text: str) -> Program:
 
 def _check_names(rule: Rule) -> None:
     """Check the names a rule uses outside its expressions; raises RuleFault."""
-    lists = {name for name, text in rule.reads.items() if text.partition("@")[2] in ("*", "<", ">")}
+    lists = {name for name, text in rule.reads.items() if text.partition("@")[2] in ("*", "<", ">", ".")}
     for place, names in (("optional", rule.optional), ("any_state", rule.any_state)):
         for name in names:
             if name not in rule.reads:

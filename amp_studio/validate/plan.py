@@ -160,7 +160,7 @@ def _check_read(schema: Schema, rule: Rule, text: str) -> None:
     if parameter is None:
         raise RuleFault(rule.id, f"reads '{parameter_id}', which the family does not have")
     offered = {i for machine in schema.family.machines for i in schema.instances(parameter, machine.key)}
-    if which not in ("", "*", "<", ">") and which not in offered:
+    if which not in ("", "*", "<", ">", ".") and which not in offered:
         raise RuleFault(rule.id, f"reads '{text}', but {parameter.name} has no instance '{which}'")
 
 

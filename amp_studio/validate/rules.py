@@ -14,6 +14,7 @@ from amp_studio.schema import (
     canonical_value,
     convert,
     fault,
+    part_of,
     show_value,
     shown,
     write_number,
@@ -115,7 +116,7 @@ class RuleChecks:
         context = Context()
         for name in check.expressions.functions:
             context.add_function(name, self._functions[name])
-        always = {"machine": self._machine, "instance": check.instance}
+        always = {"machine": self._machine, "instance": check.instance, "part": part_of(check.instance)}
         context.update({name: always[name] for name in check.expressions.always})
         return context
 
@@ -143,6 +144,7 @@ class RuleChecks:
     def _finding(self, check: RuleCheck, given: _Given) -> Finding:
         rule, situation = check.rule, self._file.situation
         texts = {"instance": check.instance, "machine": self._machine}
+        texts["part"] = check.instance.partition(".")[2]
         for single in check.singles:
             texts[single.name] = self._shown(single.address)
         for name, addresses in check.lists:

@@ -140,7 +140,7 @@ def test_a_group_file_that_is_missing_empty_or_another_is_told(facts, head) -> N
 
 def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts) -> None:
     path = facts.write(
-        "rules.yaml",
+        "rules/one.yaml",
         """\
         rules:
           - id: small.order
@@ -273,10 +273,10 @@ def test_every_fact_file_counts_for_the_key_of_the_cache(database, tmp_path) -> 
     keys = []
     for name, text in (
         ("", ""),
-        ("errata.yaml", "errata: []\n"),
+        ("errata/one.yaml", "errata: []\n"),
         ("tables/one.yaml", "tables: []\n"),
-        ("rules.yaml", "rules: []\n"),
-        ("rules.yaml", "rules: []\n# a comment\n"),
+        ("rules/one.yaml", "rules: []\n"),
+        ("rules/one.yaml", "rules: []\n# a comment\n"),
     ):
         if name:
             (database / "small" / name).parent.mkdir(exist_ok=True)

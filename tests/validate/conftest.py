@@ -261,7 +261,10 @@ def stand(machine: str) -> Stand:
 
 @dataclass(frozen=True)
 class Case:
-    """One way to break a rule, and one that nearly does."""
+    """One way to break a rule, and one that nearly does.
+
+    Values are written as a person writes them; the lengths of a table or a spindle are degrees.
+    """
 
     rule: str
     n: int
@@ -273,6 +276,8 @@ class Case:
     times: int = 1
     """How many findings of the rule that gives."""
     holds: Change | None = None
+    """A change after which it is not broken: where it can be, the next value on the good side of the bound, or the
+    same change where the rule does not apply; {} is the machine as it stands."""
 
     def __str__(self) -> str:
         return f"{self.rule}-{self.n}"
@@ -280,9 +285,11 @@ class Case:
 
 @cache
 def cases() -> tuple[Case, ...]:
-    """Read the table of ``rule_cases.yaml``."""
-    rows = YAML(typ="safe").load(Path(__file__).with_name("rule_cases.yaml").read_text("utf-8"))
-    return tuple(Case(rule, n, **row) for rule, written in rows.items() for n, row in enumerate(written, 1))
+    """Read the tables of ``rule_cases/``, one for each file of rules."""
+    files = sorted(Path(__file__).with_name("rule_cases").glob("*.yaml"))
+    tables = [YAML(typ="safe").load(file.read_text("utf-8")) or {} for file in files]
+    written = [item for table in tables for item in table.items()]
+    return tuple(Case(rule, n, **row) for rule, rows in written for n, row in enumerate(rows, 1))
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

@@ -1,6 +1,6 @@
 """Every rule of the 9/PC is broken by the change the table names, holds beside it, and its repair mends it.
 
-The table is ``rule_cases.yaml``; the machines it changes are in ``conftest.py``.
+The tables are in ``rule_cases/``; the machines they change are in ``conftest.py``.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def test_in_a_sound_machine_nothing_is_found_but_the_values_of_a_second_process(
 
 def test_every_rule_has_cases_and_every_case_a_rule(rule_cases) -> None:
     written = {case.rule for case in rule_cases}
-    assert written == RULES.keys(), "a rule without a row in rule_cases.yaml, or a row without a rule"
+    assert written == RULES.keys(), "a rule without a row in rule_cases/, or a row without a rule"
     assert {case.rule for case in rule_cases if case.breaks is not None} == RULES.keys()
     assert {case.rule for case in rule_cases if case.holds is not None} == RULES.keys()
 
