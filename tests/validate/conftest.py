@@ -36,6 +36,31 @@ CONTROL = {
     "zone.group_count": "2",
 }
 
+CYCLES = {
+    "cycle.peck_retract": "1 mm",
+    "cycle.fine_boring_q": "yes",
+    "cycle.fine_boring_shift@17": "Primary axis 1 positive",
+    "cycle.fine_boring_shift@18": "Primary axis 2 negative",
+    "cycle.fine_boring_shift@19": "Primary axis 1 negative",
+    "cycle.clearance": "0.5 mm",
+    "cycle.tapping_dwell_ignored": "yes",
+    "cycle.rapid_to_hole": "yes",
+}
+
+MILL_CYCLES = CYCLES | {
+    "cycle.drilling_axis": "none",
+}
+
+LATHE_CYCLES = CYCLES | {
+    "cycle.drilling_axis": "Axis 2",
+    "cycle.pullout_distance": "1.5",
+    "cycle.pullout_angle": "45 deg",
+    "cycle.min_infeed": "0.03 mm",
+    "cycle.finish_allowance": "0.05 mm",
+    "cycle.turning_repeat": "no",
+    "cycle.grooving_retract": "0.5 mm",
+}
+
 MOVING = {
     "axis.integrand_name": "none",
     "home.direction_off_switch": "negative",
@@ -190,9 +215,26 @@ ROUTER = (
 """Analog servos and no digital one, and a drive of another make."""
 
 MACHINES = {
-    "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
-    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
-    "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
+    "mill": (
+        "mill",
+        CONTROL
+        | MILL_CYCLES
+        | {
+            "control.mill_type": "standard",
+            "servo.standard_motor_values": "no",
+        },
+        MILL,
+    ),
+    "lathe": (
+        "lathe",
+        CONTROL | LATHE_CYCLES | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"},
+        LATHE,
+    ),
+    "router": (
+        "mill",
+        CONTROL | MILL_CYCLES | {"control.mill_type": "standard"},
+        ROUTER,
+    ),
 }
 
 
