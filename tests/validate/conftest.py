@@ -59,6 +59,10 @@ LATHE_CYCLES = CYCLES | {
     "cycle.finish_allowance": "0.05 mm",
     "cycle.turning_repeat": "no",
     "cycle.grooving_retract": "0.5 mm",
+    "roughing.retract": "0.5 mm",
+    "roughing.depth_percent": "100 %",
+    "roughing.finish_cut": "False",
+    "roughing.threshold": "0.1 mm",
 }
 
 MOVING = {
