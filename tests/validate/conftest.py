@@ -45,10 +45,16 @@ CYCLES = {
     "cycle.clearance": "0.5 mm",
     "cycle.tapping_dwell_ignored": "yes",
     "cycle.rapid_to_hole": "yes",
+    "virtual_c.park_location": "Nearest To Machine Zero",
 }
 
 MILL_CYCLES = CYCLES | {
     "cycle.drilling_axis": "none",
+    "cylindrical.feed_axis": "z",
+    "cylindrical.park_axis": "y",
+    "cylindrical.linear_axis": "x",
+    "cylindrical.feed_coordinate": "-300 mm",
+    "cylindrical.park_coordinate": "10 mm",
 }
 
 LATHE_CYCLES = CYCLES | {
@@ -63,6 +69,12 @@ LATHE_CYCLES = CYCLES | {
     "roughing.depth_percent": "100 %",
     "roughing.finish_cut": "False",
     "roughing.threshold": "0.1 mm",
+    "virtual_c.rotary_axis": "c",
+    "virtual_c.end_face_axis": "y",
+    "virtual_c.end_face_incremental": "v",
+    "virtual_c.end_face_integrand": "j",
+    "virtual_c.center_line_axis": "z",
+    "virtual_c.auto_home": "no",
 }
 
 MOVING = {
@@ -226,6 +238,7 @@ MACHINES = {
         | {
             "control.mill_type": "standard",
             "servo.standard_motor_values": "no",
+            "cylindrical.rotary_axis": "b",
         },
         MILL,
     ),
@@ -236,7 +249,7 @@ MACHINES = {
     ),
     "router": (
         "mill",
-        CONTROL | MILL_CYCLES | {"control.mill_type": "standard"},
+        CONTROL | MILL_CYCLES | {"control.mill_type": "standard", "cylindrical.rotary_axis": "a"},
         ROUTER,
     ),
 }
