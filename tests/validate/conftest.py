@@ -46,6 +46,9 @@ CYCLES = {
     "cycle.tapping_dwell_ignored": "yes",
     "cycle.rapid_to_hole": "yes",
     "virtual_c.park_location": "Nearest To Machine Zero",
+    "probing.probe_length": "80 mm",
+    "probing.probe_radius": "3 mm",
+    "probing.transition": "Low to High",
 }
 
 MILL_CYCLES = CYCLES | {
@@ -55,6 +58,10 @@ MILL_CYCLES = CYCLES | {
     "cylindrical.linear_axis": "x",
     "cylindrical.feed_coordinate": "-300 mm",
     "cylindrical.park_coordinate": "10 mm",
+    "probing.approach_distance": "20 mm",
+    "probing.tolerance_band": "2 mm",
+    "probing.approach_rate": "600 mm/min",
+    "probing.probe_rate": "60 mm/min",
 }
 
 LATHE_CYCLES = CYCLES | {
