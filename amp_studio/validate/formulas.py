@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import logging
 import math
 from collections.abc import Callable
@@ -10,7 +9,7 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
-# Families with formulas of their own, and the module of this room that holds them.
+# Families with formulas of their own, and the package of this room that holds them.
 FAMILY_MODULES = {"9pc": "ninepc"}
 
 # A function that makes no sense of its arguments ends the expression, and that is all there is to say; CEL also logs
@@ -59,11 +58,7 @@ def formulas(family: str) -> dict[str, Callable[..., Any]]:
     if family not in FAMILY_MODULES:
         return {}
     module = import_module(f"amp_studio.validate.{FAMILY_MODULES[family]}")
-    return {
-        name: function
-        for name, function in inspect.getmembers(module, inspect.isfunction)
-        if function.__module__ == module.__name__ and not name.startswith("_")
-    }
+    return {name: getattr(module, name) for name in module.__all__ if name.islower()}
 
 
 def rule_functions(family: str) -> dict[str, Callable[..., Any]]:

@@ -1,0 +1,36 @@
+"""What the arguments of a formula may be; ValueError names the one that makes no sense."""
+
+from __future__ import annotations
+
+import math
+
+
+def finite(what: str, value: float) -> float:
+    if not math.isfinite(value):
+        raise ValueError(f"{what} must be a finite number, not {value!r}.")
+    return value
+
+
+def positive(what: str, value: float) -> float:
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{what} must be greater than zero, not {value!r}.")
+    return value
+
+
+def not_negative(what: str, value: float) -> float:
+    if not (math.isfinite(value) and value >= 0):
+        raise ValueError(f"{what} must not be negative, not {value!r}.")
+    return value
+
+
+def whole(what: str, value: float) -> int:
+    """A whole number of at least 1; doubles that hold one are welcome, CEL knows no others."""
+    if not (math.isfinite(value) and value >= 1 and value == int(value)):
+        raise ValueError(f"{what} must be a whole number of at least 1, not {value!r}.")
+    return int(value)
+
+
+def percent_of(what: str, value: float, most: float = 100.0) -> float:
+    if not (math.isfinite(value) and 0 <= value <= most):
+        raise ValueError(f"{what} must be 0 to {most:g} %, not {value!r}.")
+    return value
