@@ -36,6 +36,9 @@ CONTROL = {
     "zone.group_count": "2",
 }
 
+DRIVEN_TOOLS = {"spindle.gain@2.1": "20"}
+"""So high a gain that the spindle taps within the following error of its axis."""
+
 MOVING = {
     "axis.integrand_name": "none",
     "home.direction_off_switch": "negative",
@@ -191,7 +194,11 @@ ROUTER = (
 
 MACHINES = {
     "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
-    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
+    "lathe": (
+        "lathe",
+        CONTROL | DRIVEN_TOOLS | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"},
+        LATHE,
+    ),
     "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
 }
 
