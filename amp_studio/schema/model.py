@@ -236,6 +236,8 @@ class Parameter(Model):
     patchable: bool = False
     """Stands in the table of values that can be keyed in at the control."""
     needs: tuple[Need, ...] = ()
+    formulas: tuple[str, ...] = ()
+    """Names of the family's published formulas that give its value or use it."""
     help: Help
     page: Page
     pages: dict[str, Page] = {}
