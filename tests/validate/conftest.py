@@ -108,6 +108,9 @@ INTERRUPTS = {"interrupt.enable_m_code": "90", "interrupt.disable_m_code": "91"}
     for n in range(4)
 }
 
+DRIVEN_TOOLS = {"spindle.gain@2.1": "20"}
+"""So high a gain that the spindle taps within the following error of its axis."""
+
 CONTROL |= LOGIC | MACROS | INTERRUPTS
 
 
@@ -334,6 +337,7 @@ MACHINES = {
         CONTROL
         | LATHE_WORDS
         | LATHE_CYCLES
+        | DRIVEN_TOOLS
         | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}
         | planes("", "z x", ""),
         LATHE,
