@@ -34,10 +34,33 @@ CONTROL = {
     "servo.sercos_cycle": "2 ms",
     "servo.sercos_baud": "4 MHz",
     "zone.group_count": "2",
+    "control.reset_on_estop_reset": "yes",
+    "control.trigger_point": "rising",
+    "control.dwell_type": "time",
+    "control.auxiliary_word": "none",
+    "control.block_delete": "whole",
+    "control.reset_codes": "yes",
+    "control.reset_offsets": "yes",
+    "control.cancel_tool_offsets": "no",
+    "control.retrace_limit": "5",
+    "control.retrace_limit@1": "5",
+    "control.retrace_limit@2": "5",
+    "control.reset_g92": "yes",
+    "control.reset_g92@1": "yes",
+    "control.reset_g92@2": "yes",
+    "password.character@1": "77",
+    "oci.connections": "1",
+    "oci.transfer_rate": "100 ms",
+    "oci.monitor_interval": "50 ms",
+    "oci.foreground_buffer": "500",
+    "oci.background_buffer@1": "5000",
+    "patch.dac_monitor@2": "0",
+    "patch.dac_monitor@3": "0",
 }
 
 MOVING = {
     "axis.integrand_name": "none",
+    "control.scaling_allowed": "yes",
     "home.direction_off_switch": "negative",
     "home.calibration": "1.5 mm",
     "home.speed_off_switch": "120 mm/min",
@@ -122,6 +145,7 @@ SPINDLE = {
     "servo.position_loop_type": "open",
     "axis.integrand_name": "none",
     "axis.incremental_name": "none",
+    "control.scaling_allowed": "no",
 }
 
 SCALE = {"servo.position_feedback_type": "aqb-one-marker", "servo.position_counts": "40000"}
@@ -191,7 +215,7 @@ ROUTER = (
 
 MACHINES = {
     "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
-    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
+    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "control.threading_word": "lead", "axis.diameter_axis_name": "x"}, LATHE),
     "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
 }
 
