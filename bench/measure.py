@@ -1,7 +1,7 @@
 """How something is timed, and the one table of all results.
 
-A measure is a list of seconds. Targets are medians on the machine it runs on;
-the table says "over" and nothing fails, because a time is not a test.
+A measure is a list of seconds, or of megabytes. Targets are medians on the machine
+it runs on; the table says "over" and nothing fails, because a time is not a test.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
+from typing import Literal
 
 
 @dataclass(frozen=True)
@@ -17,16 +18,18 @@ class Measure:
     """One line of the table."""
 
     name: str
-    seconds: tuple[float, ...]
+    figures: tuple[float, ...]
+    """Seconds, or megabytes."""
     target: float | None = None
-    """Seconds the median should stay below; None for what is only reported, and for peers."""
+    """What the median should stay below; None for what is only reported, and for peers."""
+    unit: Literal["s", "MB"] = "s"
 
     @property
     def verdict(self) -> str:
         """``pass`` or ``over``; nothing where there is no target."""
         if self.target is None:
             return ""
-        return "pass" if median(self.seconds) < self.target else "over"
+        return "pass" if median(self.figures) < self.target else "over"
 
 
 def timed(
@@ -52,8 +55,8 @@ def table(measures: Sequence[Measure]) -> str:
     """Return all measures as one table."""
     head = ("", "median", "min", "max", "target", "")
     rows = [head] + [
-        (m.name, said(median(m.seconds)), said(min(m.seconds)), said(max(m.seconds)),
-         f"< {said(m.target)}" if m.target is not None else "", m.verdict)
+        (m.name, *(said(f, m.unit) for f in (median(m.figures), min(m.figures), max(m.figures))),
+         f"< {said(m.target, m.unit)}" if m.target is not None else "", m.verdict)
         for m in measures
     ]  # fmt: skip
     widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
@@ -68,10 +71,12 @@ def table(measures: Sequence[Measure]) -> str:
     return "\n".join(lines)
 
 
-def said(seconds: float) -> str:
-    """Write a time with three figures and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``."""
+def said(figure: float, measured: str = "s") -> str:
+    """Write a figure with three digits and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``, ``12.3 MB``."""
+    if measured == "MB":
+        return f"{figure:.1f} MB"
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
-        number = seconds * factor
+        number = figure * factor
         if number >= 1 or unit == "µs":
             digits = 2 if number < 10 else 1 if number < 100 else 0
             return f"{number:.{digits}f} {unit}"

@@ -42,6 +42,8 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
     texts = cycle(["f", "fo", "fol", "foll", "follo", "follow"])
     search = until_painted(lambda: search_field.setText(next(texts)))
     yield Measure("keystroke in the search field, painted", timed(search, 6 * times))
+    groups, words = window.groups, cycle([["f"], ["fo"], ["fol"], ["follow"], ["follow", "err"], ["1750"]])
+    yield Measure("  the search alone", timed(lambda: groups.found(next(words)), 6 * times), 0.010)
     search_field.clear()
     window.go_to(("servo.excess_error", "1"))
     values = cycle(["12 mm", "11 mm"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import tracemalloc
 from collections.abc import Iterator
 from itertools import cycle
 from pathlib import Path
@@ -22,8 +24,11 @@ EDITED: Address = ("servo.excess_error", "1")
 
 def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield the measures of a warm process; ``folder`` takes what is written."""
-    yield Measure("load the schema from its cache", timed(lambda: load_schema("9pc"), times, _forget_schema))
+    yield Measure(
+        "load the schema from its cache", timed(lambda: load_schema("9pc"), times, _forget_schema), 0.030
+    )
     axes = ("X", "Y", "Z", "A", "B", "C", "S", "S")
+    yield Measure("  the loaded schema in memory", (_memory(),), 60.0, "MB")
     yield Measure("new file of eight axes", timed(lambda: new_file("9pc", "mill", axes), times))
     yield Measure("open and validate", timed(lambda: Validator(open_file(full).file).run(), times), 0.030)
     yield Measure("  open alone", timed(lambda: open_file(full), times))
@@ -42,6 +47,20 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
 def _forget_schema() -> None:
     load_compiled.cache_clear()
     load_schema.cache_clear()
+
+
+def _memory() -> float:
+    """Return the megabytes that Python allocates for the loaded family and keeps."""
+    _forget_schema()
+    gc.collect()
+    tracemalloc.start()
+    schema = load_schema("9pc")
+    schema.addressed_by("1", "mill")
+    schema.addressed_by("1", "lathe")
+    gc.collect()
+    held = tracemalloc.get_traced_memory()[0] / 1e6
+    tracemalloc.stop()
+    return held
 
 
 def _edits(full: Path, times: int) -> Iterator[Measure]:

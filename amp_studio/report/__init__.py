@@ -5,7 +5,8 @@ the documenter's three orders; ``build_report`` gives the same as plain data.
 """
 
 from .build import build_report
-from .describe import definition, facts, finding_json, finding_text, help_parts, one_line, page_of, range_text
+from .describe import definition, finding_json, finding_text
+from .manual_page import facts, help_parts, one_line, page_of, range_text
 from .model import SORTS, Report, Sort
 from .write import FORMATS, write_report
 

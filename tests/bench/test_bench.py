@@ -13,6 +13,9 @@ TARGETS = {
     "validate, cold process",
     "report to PDF, cold process",
     "first paint of the desktop program, cold process",
+    "load the schema from its cache",
+    "the loaded schema in memory",
+    "the search alone",
     "open and validate",
     "re-validate after one edit",
 }
@@ -43,7 +46,7 @@ def test_it_prints_one_table_with_every_measure(rows: list[str]) -> None:
     assert head.split() == ["median", "min", "max", "target"]
     assert set(line) == {"-"}
     assert len(measures) >= 20
-    time = r"[\d.]+ (?:s|ms|µs)"
+    time = r"[\d.]+ (?:s|ms|µs|MB)"
     for measure in measures:
         assert re.fullmatch(
             rf" *\S.*?  +{time}  +{time}  +{time}(?:  +< {time}  +(?:pass|over))?", measure
@@ -51,5 +54,5 @@ def test_it_prints_one_table_with_every_measure(rows: list[str]) -> None:
 
 
 def test_every_target_is_judged(rows: list[str]) -> None:
-    judged = {row.split("  ")[0] for row in rows if row.endswith(("pass", "over"))}
+    judged = {row.strip().split("  ")[0] for row in rows if row.endswith(("pass", "over"))}
     assert judged == TARGETS

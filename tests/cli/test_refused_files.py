@@ -6,8 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio import cli
-
 VERBS = {
     "get": lambda bad, good, out: ("get", bad),
     "get one": lambda bad, good, out: ("get", bad, "1300", "--json"),
@@ -90,7 +88,7 @@ def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Pat
     def broken(_: str) -> None:
         raise DatabaseFault(tmp_path / "family.yaml", 3, "colour: Extra inputs are not permitted")
 
-    monkeypatch.setattr("amp_studio.schema.load_schema", broken)
+    monkeypatch.setattr("amp_studio.cli.console.load_schema", broken)
     for arguments in (("families",), ("schema", "9pc"), ("new", "9pc", tmp_path / "x.amp")):
         refused = amp(*arguments)
         assert (refused.code, "family.yaml, line 3: colour" in refused.err) == (2, True)
@@ -100,5 +98,5 @@ def test_stopping_it_is_told_and_ends_with_2(amp, mill: Path, monkeypatch) -> No
     def stop(_: object) -> int:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(cli, "_get", stop)
+    monkeypatch.setattr("amp_studio.cli.files.open_file", stop)
     assert (amp("get", mill).code, amp("get", mill).err) == (2, "amp-studio: stopped\n")

@@ -118,7 +118,7 @@ def test_a_number_of_two_parameters_shows_both(amp) -> None:
 
 def test_a_choice_a_rule_and_a_contradiction_are_shown(amp) -> None:
     said = amp("show", "9pc", "1020", "--machine", "mill")
-    for part in ("(a) True — stored as 1", "Software Overtravel Used", "The manual contradicts itself"):
+    for part in ("(a) True, stored as 1", "Software Overtravel Used", "The manual contradicts itself"):
         assert part in said.out
     assert "Velocity Loop Feedback Port\n---" not in said.out, "1020 belongs to the other one"
     assert "Rules it takes part in" in amp("show", "9pc", "1730").out

@@ -118,7 +118,7 @@ def comparisons() -> Iterator[str]:
 
 def context_of(file: ParameterFile, check: RuleCheck) -> Context:
     """Return what the expressions of a check see of single values."""
-    context = Context()
+    context = Context({"machine": file.machine, "instance": check.instance})
     for name, function in rule_functions("9pc").items():
         context.add_function(name, function)
     context.update({single.name: file.situation.canonical(single.address) for single in check.singles})

@@ -1,0 +1,5 @@
+"""``python -m amp_studio.cli``."""
+
+from . import main
+
+main()

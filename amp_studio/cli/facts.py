@@ -1,0 +1,56 @@
+"""Verbs about the facts of the families."""
+
+from __future__ import annotations
+
+import argparse
+
+from amp_studio.report import definition, one_line, page_of
+from amp_studio.schema import family_ids
+
+from .console import UsageFault, family, print_json
+
+
+def families_verb(options: argparse.Namespace) -> int:
+    """List the control families."""
+    rows = []
+    for family_id in family_ids():
+        schema = family(family_id)
+        values = max(len(schema.addresses(m.key)) for m in schema.family.machines)
+        rows.append(
+            {
+                "id": family_id,
+                "name": schema.family.name,
+                "parameters": len(schema.parameters),
+                "values": values,
+            }
+        )
+    if options.json:
+        print_json({"families": rows})
+    else:
+        for row in rows:
+            print(f"{row['id']:10} {row['name']:40} {row['parameters']:5} parameters, {row['values']} values")
+    return 0
+
+
+def schema_verb(options: argparse.Namespace) -> int:
+    """Print every parameter definition of a family."""
+    schema = family(options.family)
+    groups = [g for g in schema.groups if options.group in (None, g.key, g.name, g.section)]
+    if not groups:
+        names = ", ".join(dict.fromkeys(g.name for g in schema.groups))
+        raise UsageFault(f"{schema.family.name} has no group '{options.group}': {names}")
+    parameters = [p for g in groups for p in g.parameters]
+    if options.json:
+        print_json({"family": options.family, "signature": schema.signature,
+                     "parameters": [definition(schema, p) for p in parameters]})  # fmt: skip
+    else:
+        for parameter in parameters:
+            print(one_line(schema, parameter))
+    return 0
+
+
+def show_verb(options: argparse.Namespace) -> int:
+    """Print one parameter as a person reads it."""
+    schema = family(options.family)
+    print(page_of(schema, options.param, options.machine))
+    return 0

@@ -1,0 +1,190 @@
+"""Verbs that make, change, read, compare and merge parameter files."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from amp_studio.files import (
+    Document,
+    ParameterFile,
+    RangeFault,
+    compare,
+    describe,
+    merge,
+    new_file,
+    open_file,
+)
+from amp_studio.files.lock import now
+from amp_studio.schema import Address, Value, field_at, field_value, show_value, with_field, write_value
+
+from .console import UsageFault, family, note, print_json, progress
+
+
+def new_verb(options: argparse.Namespace) -> int:
+    """Make a parameter file with the family's defaults."""
+    schema = family(options.family)
+    axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
+    file = new_file(options.family, options.machine, axes, options.path.stem)
+    Document.create(file, options.path).close()
+    print(f"{options.path}: {schema.family.name}, {file.machine}, {len(file.values)} values")
+    return 0
+
+
+def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:
+    """Part ``PARAM=VALUE`` texts; raises UsageFault."""
+    pairs = []
+    for text in texts:
+        param, sign, value = text.partition("=")
+        if not sign or not param.strip():
+            raise UsageFault(f"'{text}' is not PARAM=VALUE")
+        pairs.append((param.strip(), value.strip()))
+    return pairs
+
+
+def set_verb(options: argparse.Namespace) -> int:
+    """Change values, all or none."""
+    with Document.open(options.path) as document:
+        file = document.file
+        values, marks = wanted(file, options.assignments), dict(file.forced)
+        try:
+            changes = file.set_many(values, force=f"on {now()} by 'set --force'" if options.force else "")
+        except RangeFault as error:
+            raise UsageFault(f"{error}; nothing was changed (--force takes it and marks it)") from None
+        if changes or file.forced != marks:
+            document.save("set --force" if options.force else "set")
+        if not changes:
+            note("nothing changed: every value was so already")
+        for change in changes:
+            parameter = file.schema.parameters[change.address[0]]
+            print(f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "
+                  f"{show_value(parameter, change.new)}")  # fmt: skip
+            state = file.situation.state(change.address)
+            if state.state != "in-force":
+                note(f"{describe(file, change.address)} is {state.state}: {state.why}")
+    return 0
+
+
+def wanted(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Value | None]:
+    """Read assignments in order, each in the light of those before it; the file itself is not changed."""
+    trial = file.copy()
+    found: dict[Address, Value | None] = {}
+    for param, text in assignments(texts):
+        address, bit = trial.situation.find_bit(param)
+        if bit is not None:
+            found[address] = _with_bit(trial, address, bit, text)
+        else:
+            found[address] = trial.read(address, text) if text else None
+        trial.set(address, found[address])
+    return found
+
+
+def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Value:
+    """Return the value of a word of bits with one field changed; a word that is not set counts as its default, or 0."""
+    field = field_at(file.schema.parameters[address[0]], bit)
+    word = file.get(address) or file.default(address) or Value(0)
+    return Value(with_field(field, int(word.value), text), word.unit)
+
+
+def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
+    """Return one field of a word of bits as ``get`` shows it."""
+    field = field_at(file.schema.parameters[address[0]], bit)
+    words = (file.get(address), file.default(address))
+    word, default = (None if v is None else field_value(field, int(v.value)) for v in words)
+    labels = {c.raw: c.label for c in field.choices or ()}
+    return {"param": f"{file.schema.short(address, file.machine)}.{bit}", "id": address[0], "instance": address[1],
+            "bit": bit, "label": field.label, "value": labels.get(word, word), "unit": "", "raw": word,
+            "default": word == default, "state": file.situation.state(address).state,
+            "forced": address in file.forced}  # fmt: skip
+
+
+def get_verb(options: argparse.Namespace) -> int:
+    """Print values."""
+    from amp_studio.transfer.image import stored_number  # no other verb here needs that room
+
+    file = open_file(options.path).file
+    if options.params:
+        found = [file.situation.find_bit(p) for p in options.params]
+    else:
+        found = [(a, None) for a in file.addresses()
+                 if options.all or (a in file.values and file.situation.state(a).state != "hidden")]  # fmt: skip
+    rows = []
+    for address, bit in found:
+        if bit is not None:
+            rows.append(_bit_row(file, address, bit))
+            if not options.json:
+                held = "—" if rows[-1]["value"] is None else rows[-1]["value"]
+                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {held}")
+            continue
+        parameter, value = file.schema.parameters[address[0]], file.get(address)
+        plain = None if value is None else value.value
+        if isinstance(plain, (str, bool)):
+            plain = write_value(parameter, value)
+        raw = None if value is None else stored_number(parameter, value, file.situation.turns(address))
+        rows.append({
+            "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
+            "value": plain, "unit": value.unit if value else file.situation.unit(address, file.header.units), "raw": raw,
+            "default": file.is_default(address), "state": file.situation.state(address).state,
+            "forced": address in file.forced,
+        })  # fmt: skip
+        if not options.json:
+            mark = "" if rows[-1]["default"] else " *"
+            state = "" if rows[-1]["state"] == "in-force" else f"  ({rows[-1]['state']})"
+            print(
+                f"{file.schema.label(address, file.machine):52} {show_value(parameter, value)}{mark}{state}"
+            )
+    if options.json:
+        print_json({"values": rows})
+    return 0
+
+
+def diff_verb(options: argparse.Namespace) -> int:
+    """Compare two files, or a file and a control; 1 where they differ."""
+    a, b = _side(options.a), _side(options.b)
+    if a.schema is not b.schema:
+        raise UsageFault(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
+    found = compare(a.schema, a.values, b.values)
+    if options.json:
+
+        def text(d: Any, v: Any) -> str | None:
+            return None if v is None else write_value(a.schema.parameters[d.address[0]], v)
+
+        print_json({"differences": [{"param": a.schema.short(d.address, a.machine), "id": d.address[0],
+                                      "instance": d.address[1], "a": text(d, d.a), "b": text(d, d.b)}
+                                     for d in found.differences], "same": found.same})  # fmt: skip
+    else:
+        for d in found.differences:
+            parameter = a.schema.parameters[d.address[0]]
+            print(
+                f"{a.schema.label(d.address, a.machine):52} {show_value(parameter, d.a)}  |  {show_value(parameter, d.b)}"
+            )
+        print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in A, "
+              f"{found.absent_in_b} absent in B")  # fmt: skip
+    return 1 if found.differences else 0
+
+
+def _side(text: str) -> ParameterFile:
+    if "://" in text or text.startswith(("serial:", "pty:")):
+        from amp_studio.transfer.parameters import fetch_file
+
+        return fetch_file(text, progress())
+    return open_file(Path(text)).file
+
+
+def merge_verb(options: argparse.Namespace) -> int:
+    """Merge three files by parameter; 1 where there are conflicts."""
+    base, ours, theirs = (open_file(p).file for p in (options.base, options.ours, options.theirs))
+    merged, conflicts = merge(base, ours, theirs)
+    merged.header.name = options.output.stem
+    Document.create(merged, options.output).close()
+    for c in conflicts:
+        p = base.schema.parameters.get(c.address[0])
+        if p is None:  # an entry that the schema does not know
+            print(f"conflict at {'@'.join(filter(None, c.address))}: ours stands")
+            continue
+        print(f"conflict at {base.schema.label(c.address, ours.machine)}: base {show_value(p, c.base)}, "
+              f"ours {show_value(p, c.ours)}, theirs {show_value(p, c.theirs)}; ours stands")  # fmt: skip
+    print(f"{options.output}: {len(conflicts)} conflicts")
+    return 1 if conflicts else 0

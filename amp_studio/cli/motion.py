@@ -1,0 +1,65 @@
+"""Verbs about the machine in motion."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+
+from amp_studio.files import ParameterFile, axis_instances, open_file
+from amp_studio.schema import ValueFault, canonical, unit_named, write_value
+from amp_studio.schema.values import read_number
+from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
+
+from .console import UsageFault, print_json
+from .files import assignments, wanted
+
+
+def simulate_verb(options: argparse.Namespace) -> int:
+    """Move the machine; 1 where it raised an alarm."""
+    file = open_file(options.path).file
+    settings, own = _settings(options.assignments)
+    for address, value in wanted(file, own).items():
+        file.set(address, value)
+    axis = _axis(file, options.axis) if options.axis else None
+    trace = simulate(file, options.scenario, axis, settings)
+    if options.output:
+        write_trace(trace, options.output)
+    if options.json:
+        print_json(trace_summary(trace))
+    else:
+        print(trace_text(trace))
+    return 1 if trace.alarms else 0
+
+
+def _axis(file: ParameterFile, text: str) -> str:
+    """Return the axis a person means by its number or its name."""
+    profile, instances = file.schema.family.axes, axis_instances(file)
+    for axis in instances:
+        value = file.get((profile.name, axis))
+        name = write_value(file.schema.parameters[profile.name], value)
+        if axis == text or (value is not None and name.casefold() == text.casefold()):
+            return axis
+    raise UsageFault(f"there is no axis '{text}'")
+
+
+def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
+    """Part the settings of the scenario and its model (``move.feedrate=3000``) from parameters."""
+    settings: dict[str, float | str] = {}
+    own = []
+    for param, text in assignments(texts):
+        if param.partition(".")[0] not in ("move", "model"):
+            own.append(f"{param}={text}")
+            continue
+        try:
+            number, unit = read_number(text)
+            settings[param] = canonical(number, unit_named(unit)) if unit.strip() else number
+        except ValueFault:
+            settings[param] = text
+    return settings, own
+
+
+def demo_verb(options: argparse.Namespace) -> int:
+    """Do the whole job on the example machine."""
+    from amp_studio.demo import run_demo  # it needs every room
+
+    return run_demo(terminal=options.terminal)

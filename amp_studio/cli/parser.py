@@ -1,0 +1,125 @@
+"""The verbs and their options: the contract that other programs call."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import NoReturn
+
+from amp_studio import __version__
+
+from .console import UsageFault
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser that says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageFault(f"{message} (see '{self.prog} --help')")
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of every verb; ``module`` and ``verb`` say who acts."""
+    top = _Parser(
+        prog="amp-studio", description="Edit, check, print and exchange the parameters of a machine control."
+    )
+    top.add_argument("--version", action="version", version=f"amp-studio {__version__}")
+    verbs = top.add_subparsers(metavar="VERB", required=True, parser_class=_Parser)
+
+    def verb(name: str, module: str, told: str) -> argparse.ArgumentParser:
+        sub = verbs.add_parser(name, help=told, description=told)
+        sub.set_defaults(verb=f"{name}_verb", module=module)
+        return sub
+
+    def json_option(sub: argparse.ArgumentParser) -> None:
+        sub.add_argument("--json", action="store_true", help="print one JSON document")
+
+    sub = verb("families", "facts", "list the control families")
+    json_option(sub)
+    sub = verb("schema", "facts", "every parameter definition of a family")
+    sub.add_argument("family")
+    sub.add_argument("--group")
+    json_option(sub)
+    sub = verb("show", "facts", "one parameter as a person reads it")
+    sub.add_argument("family")
+    sub.add_argument("param")
+    sub.add_argument(
+        "--machine", help="machine type, where a number means another parameter on another machine"
+    )
+    sub = verb("new", "files", "a new parameter file with the family's defaults")
+    sub.add_argument("family")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("--machine")
+    sub.add_argument("--axes", help="axis names in order, with commas")
+    sub = verb("set", "files", "change values, all or none; the previous file becomes the backup")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("assignments", nargs="+", metavar="PARAM=VALUE")
+    sub.add_argument("--force", action="store_true", help="take values out of range, and mark them")
+    sub = verb("get", "files", "values with unit, default, and whether changed")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("params", nargs="*", metavar="PARAM")
+    sub.add_argument("--all", action="store_true", help="also what is hidden or not set")
+    json_option(sub)
+    sub = verb("validate", "checks", "range, choice, state and cross-parameter findings")
+    sub.add_argument("paths", nargs="+", type=Path, metavar="PATH")
+    sub.add_argument("--rules", type=Path, help="further rules in the same form")
+    json_option(sub)
+    sub = verb("diff", "files", "differences by parameter; A or B may be a control's address")
+    sub.add_argument("a")
+    sub.add_argument("b")
+    json_option(sub)
+    sub = verb("merge", "files", "three-way merge by parameter")
+    for name in ("base", "ours", "theirs"):
+        sub.add_argument(name, type=Path)
+    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub = verb("report", "checks", "documentation as .pdf, .html, .csv or .txt")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
+    sub.add_argument("--changed-only", action="store_true")
+    sub = verb("emulate", "control", "an emulated control that takes downloads and gives uploads")
+    sub.add_argument("family")
+    sub.add_argument("--listen", required=True, metavar="ADDRESS")
+    sub.add_argument("--state", type=Path, metavar="DIR", help="where the control keeps its memory")
+    sub.add_argument("--machine", help="machine type of the file it is born with")
+    sub.add_argument("--no-estop", action="store_true", help="start out of E-stop")
+    sub.add_argument(
+        "--manual-restart", action="store_true", help="do not restart by itself after a download"
+    )
+    sub.add_argument(
+        "--faults",
+        default="{}",
+        metavar="JSON",
+        help='what goes wrong, to practise with: {"drop_after_bytes": 9000}',
+    )
+    sub = verb("download", "control", "send a file to a control, read it back and compare")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("--to", required=True, metavar="ADDRESS")
+    sub.add_argument(
+        "--keep", type=Path, metavar="DIR", help="where to keep what the control held (beside the file)"
+    )
+    sub = verb("upload", "control", "fetch the control's file under a new name")
+    sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
+    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("--on-fault", choices=("ask", "keep", "quit"), default="ask",
+                     help="what to do with out-of-range values (default: ask at a terminal, else quit)")  # fmt: skip
+    sub = verb("verify", "control", "compare a file with what the control holds")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
+    json_option(sub)
+    sub = verb("simulate", "motion", "check settings in motion")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("scenario")
+    sub.add_argument("--axis")
+    sub.add_argument("--set", action="append", default=[], metavar="PARAM=VALUE", dest="assignments")
+    sub.add_argument("-o", "--output", type=Path)
+    json_option(sub)
+    sub = verb(
+        "demo",
+        "motion",
+        "the whole job on the example machine: in the desktop program, or here without a display",
+    )
+    sub.add_argument(
+        "--terminal", action="store_true", help="stay in the terminal even where there is a display"
+    )
+    return top

@@ -1,0 +1,249 @@
+"""One parameter as a person reads it: the page of a manual, as short facts and as help."""
+
+from __future__ import annotations
+
+import inspect
+import textwrap
+from collections.abc import Iterable, Iterator
+from itertools import groupby, pairwise
+
+from amp_studio.schema import (
+    Parameter,
+    Schema,
+    UnknownParameter,
+    label_of,
+    labelled,
+    read_address,
+    shown,
+    write_number,
+)
+from amp_studio.schema.model import BoundRef, Choice, Erratum, Range
+from amp_studio.validate import formulas
+
+_WIDTH = 100
+_INDENT = "  "
+
+
+def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
+    """Return what is known of a parameter, by number or id; raises UnknownParameter.
+
+    Where a number means several parameters, or another one on another machine type, each has its page.
+    """
+    parameter_id = read_address(param)[0]
+    if parameter_id in schema.parameters:
+        wanted = [parameter_id]
+    else:
+        machines = [machine] if machine else [m.key for m in schema.family.machines]
+        wanted = [a[0] for m in machines for a in schema.addressed_by(param, m)]
+        if not wanted:
+            raise UnknownParameter(f"'{param}' is no parameter of {schema.family.name}")
+    pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
+    return ("\n" + "=" * _WIDTH + "\n").join(pages)
+
+
+def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
+    lines = [parameter.name, "-" * len(parameter.name)]
+    before = ""
+    for title, text in facts(schema, parameter, machine):
+        lines += _fact("" if title == before else title, text)
+        before = title
+    lines.append("")
+    for title, text in help_parts(schema, parameter):
+        lines += [title, *_wrapped(text), ""]
+    lines += _section("Formulas", (_formula(schema, name) for name in parameter.formulas))
+    rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
+    lines += _section(
+        "Rules it takes part in", (f"{r.severity:8} {r.title} (page {r.page}; {r.id})" for r in rules)
+    )
+    return "\n".join(lines).rstrip()
+
+
+def _fact(title: str, text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent=f"{title:<14} ", subsequent_indent=" " * 15) or [title]
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT)
+
+
+def _section(title: str, entries: Iterable[str]) -> list[str]:
+    lines = [
+        line
+        for entry in entries
+        for line in textwrap.wrap(entry, _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT * 3)
+    ]
+    return [title, *lines, ""] if lines else []
+
+
+def _formula(schema: Schema, name: str) -> str:
+    function = formulas(schema.family.family)[name]
+    told = (inspect.getdoc(function) or "").partition("\n")[0]
+    return f"{name}({', '.join(inspect.signature(function).parameters)}): {told}"
+
+
+# -- facts ---------------------------------------------------------------------
+
+
+def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> list[tuple[str, str]]:
+    """Return the short facts of a parameter as (title, text), for one machine type or for all of them."""
+    group = schema.group_of[parameter.id]
+    found = [("Number", text) for text in _numbers(schema, parameter, machine)]
+    found += [
+        ("Id", parameter.id),
+        ("Group", f"{group.name}: {group.section}" if group.section else group.name),
+    ]
+    found += [("Range", text) for text in _ranges(schema, parameter)]
+    found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
+    found.append(("Default", _default(parameter)))
+    found += [("At the control", text) for text in _at_the_control(parameter)]
+    effect = parameter.effect or schema.family.effect
+    levels = {
+        "at-once": "at once",
+        "reset": "on reset",
+        "restart": "on restart of the control",
+        "command": f"when {effect.command} reads it",
+    }
+    found.append(("Takes effect", levels[effect.level]))
+    for state in parameter.states:
+        condition = schema.family.conditions[state.when or state.unless or ""]
+        page = state.page or condition.page
+        found.append((state.state.capitalize(), condition.why + (f" (page {page})" if page else "")))
+    found += [("Needs", f"{need.what} (page {need.page})") for need in parameter.needs]
+    pages = " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
+    found.append(("Source", f"{schema.family.title}, page {pages}"))
+    return found
+
+
+def _numbers(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
+    """Yield the numbers, once for all machine types where they are the same on each."""
+    machines = [m for m in schema.family.machines if machine in (None, m.key)]
+    texts = {m.name: _spans(schema, parameter, m.key) for m in machines}
+    if len(set(texts.values())) == 1:
+        yield next(iter(texts.values()))
+    else:
+        yield from (f"{text} on a {name.lower()}" for name, text in texts.items() if text)
+
+
+def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
+    """Return ``1300, 2300 … 8300 (Axis 1 to Axis 8)``."""
+    numbers = schema.numbers(parameter, machine)
+    if not numbers:
+        return "none" if schema.layout(parameter, machine) else ""
+    runs = []
+    for _, group in groupby(numbers.items(), key=lambda item: item[0].rpartition(".")[0]):
+        members = list(group)
+        runs += [members] if _even(members) else [[member] for member in members]
+    text = "; ".join(_run(schema, parameter, machine, run) for run in runs)
+    disputed = schema.is_disputed(parameter.id, machine)
+    return text + (" (printed, but they belong to another parameter)" if disputed else "")
+
+
+def _even(members: list[tuple[str, str]]) -> bool:
+    """Tell whether the numbers go up by the same step, so that first, second and last say it all."""
+    numbers = [int(number) for _, number in members if number.isdecimal()]
+    return len(numbers) == len(members) > 2 and len({b - a for a, b in pairwise(numbers)}) == 1
+
+
+def _run(schema: Schema, parameter: Parameter, machine: str, run: list[tuple[str, str]]) -> str:
+    written = [number for _, number in run]
+    if len(written) > 3:
+        written = [written[0], f"{written[1]} … {written[-1]}"]
+    ends = (schema.instance_label((parameter.id, run[end][0]), machine) for end in (0, -1))
+    named = " to ".join(label for label in dict.fromkeys(ends) if label)
+    return ", ".join(written) + (f" ({named})" if named else "")
+
+
+def _ranges(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    yield from range_text(parameter.ranges, schema)
+    for variant in parameter.range_variants:
+        why = schema.family.conditions[variant.when].why
+        yield from (f"{line}, {why}" for line in range_text(variant.ranges, schema))
+
+
+def range_text(ranges: dict[str, Range] | None, schema: Schema) -> list[str]:
+    """Return one line for each printed unit: ``0 to 214.1 mm``."""
+    lines = []
+    for unit, (low, high) in (ranges or {}).items():
+        ends = [_end(schema, bound) for bound in (low, high)]
+        lines.append(f"{ends[0]} to {ends[1]} {shown(unit)}".rstrip())
+    return lines
+
+
+def _end(schema: Schema, bound: object) -> str:
+    if bound is None:
+        return "…"
+    if isinstance(bound, BoundRef):
+        return schema.parameters[bound.param].name
+    return write_number(float(bound))  # type: ignore[arg-type]  # a bound is a float, a reference or None
+
+
+def _choice(choice: Choice, patchable: bool) -> str:
+    code = f"({choice.code}) " if choice.code else ""
+    raw = "" if choice.raw is None else f", stored as {choice.raw}"
+    unprinted = ", no stored code printed" if patchable and choice.raw is None else ""
+    return f"{code}{choice.label}{raw}{unprinted}{f'; {choice.note}' if choice.note else ''}"
+
+
+def _default(parameter: Parameter) -> str:
+    default = parameter.default
+    if default is None:
+        return "none printed"
+    if parameter.choices:
+        value = label_of(parameter, str(default.value))
+    else:
+        number = write_number(default.value) if isinstance(default.value, (int, float)) else default.value
+        value = f"{number} {shown(default.unit)}".rstrip()
+    others = "".join(
+        f", {label_of(parameter, str(v)) if parameter.choices else v} for {labelled(parameter.each or '{i}', i)}"
+        for i, v in (default.instances or {}).items()
+    )
+    return f"{value}{others} (page {default.page})"
+
+
+def _at_the_control(parameter: Parameter) -> Iterator[str]:
+    if parameter.tunable:
+        yield "can be changed at the running machine"
+    if parameter.patchable:
+        storage = parameter.storage
+        unit = f", in {shown(storage.unit)}" if storage and storage.unit else ""
+        places = f" with {storage.decimals} decimals" if storage and storage.decimals else ""
+        yield f"can be keyed in by its number{unit}{places}"
+
+
+# -- help ----------------------------------------------------------------------
+
+
+def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
+    """Return the help as (title, text)."""
+    told = parameter.help
+    parts = [
+        ("What it does", told.what),
+        ("How to find its value", told.find),
+        ("When it is wrong", told.wrong),
+    ]
+    related = ", ".join(schema.parameters[r].name for r in told.related if r in schema.parameters)
+    parts.append(("Related", related))
+    errata = [schema.errata[e] for e in parameter.errata if e in schema.errata]
+    for n, erratum in enumerate(errata, 1):
+        count = f" ({n} of {len(errata)})" if len(errata) > 1 else ""
+        parts.append((f"The manual contradicts itself{count}", erratum_text(erratum)))
+    return [(title, " ".join(text.split())) for title, text in parts if text]
+
+
+def erratum_text(erratum: Erratum) -> str:
+    """Return a contradiction of the manual in one paragraph."""
+    readings = "; ".join(f"page {r.page}: {r.says}" for r in erratum.readings)
+    why = erratum.why.strip()
+    return f"{readings}. Taken: {erratum.taken.strip().rstrip('.')}. {why}"
+
+
+def one_line(schema: Schema, parameter: Parameter) -> str:
+    """Return a parameter in one line: number, id, name, range."""
+    numbers = next((n for m in schema.family.machines if (n := schema.numbers(parameter, m.key))), {})
+    first = next(iter(numbers.values()), "–")
+    last = list(numbers.values())[-1] if numbers else "–"
+    span = first if first == last else f"{first}…{last}"
+    allowed = " / ".join(range_text(parameter.ranges, schema)) or ", ".join(
+        c.label for c in parameter.choices or ()
+    )
+    return f"{span:12} {parameter.id:32} {parameter.name}: {allowed}"

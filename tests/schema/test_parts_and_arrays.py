@@ -1,0 +1,144 @@
+"""Instances that are parts of another one (gear 3 of spindle 1), arrays with names of their own, and their pages."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.schema import Rule, Schema, Value, fault, load_schema, part_of
+from amp_studio.validate.plan import checks_of
+
+SPINDLES = """
+  - id: spindle.gears
+    name: Number of Gears Used
+    scope: spindle
+    numbers: {listed: {"1": "860", "2": "866"}}
+    type: integer
+    ranges: {"": [1, 3]}
+    help: {what: How many gears there are.}
+    page: "12-7"
+    pages: {"2": "13-7"}
+  - id: spindle.max_speed
+    name: Max. Spindle Speed
+    scope: spindle
+    instances: &gears ["1.1", "1.2", "1.3", "2.1", "2.2", "2.3"]
+    each: "Spindle {i}, Gear {j}"
+    numbers: {listed: {"1.1": "910", "1.2": "911", "1.3": "912", "2.1": "930", "2.2": "931", "2.3": "932"}}
+    type: real
+    quantity: rotation
+    states: [{state: ignored, when: gear_unused}]
+    help: {what: The most of the gear.}
+    page: "12-8"
+    pages: {"2": "13-8", "2.3": "13-9"}
+  - id: spindle.min_speed
+    name: Min. Spindle Speed
+    scope: spindle
+    instances: *gears
+    each: "Spindle {i}, Gear {j}"
+    type: real
+    quantity: rotation
+    ranges: {rpm: [0, {param: spindle.max_speed}]}
+    help: {what: The least of the gear.}
+    page: "12-8"
+  - id: macro.g_code
+    name: G-code for Macro Call
+    instances: ["1", "2"]
+    each: "Macro call {i}"
+    numbers: {start: 700, step: 3}
+    type: real
+    needs: [{what: paramacro option, page: "20-1"}]
+    help: {what: The G-code that calls a macro.}
+    page: "20-7"
+"""
+SCOPE = '  spindle: {instances: ["1", "2"], label: "Spindle {i}"}\nunits:'
+UNUSED = """
+conditions:
+  gear_unused: {reads: {gears: spindle.gears}, when: part > gears, why: the gear is not used}
+"""
+
+
+@pytest.fixture
+def spindles(facts, head) -> Schema:
+    """Return a family with two spindles of three gears, and two macro calls."""
+    return facts.schema(SPINDLES, head.replace("units:", SCOPE) + UNUSED)
+
+
+def test_the_number_of_a_gear_finds_it_and_its_label_names_it(spindles, machine) -> None:
+    here = machine(spindles)
+    assert here.situation.find("931") == ("spindle.max_speed", "2.2")
+    assert here.situation.find("spindle.max_speed@2.2") == ("spindle.max_speed", "2.2")
+    assert spindles.instance_label(("spindle.max_speed", "2.2"), "mill") == "Spindle 2, Gear 2"
+    assert spindles.instance_label(("spindle.gears", "2"), "mill") == "Spindle 2"
+    assert spindles.instance_label(("macro.g_code", "2"), "mill") == "Macro call 2"
+
+
+def test_a_gear_reads_the_values_of_its_own_spindle(spindles, machine) -> None:
+    here = machine(spindles, {"spindle.gears@1": Value(1), "spindle.gears@2": Value(2)})
+
+    def ignored() -> list[str]:
+        every = spindles.instances(spindles.parameters["spindle.max_speed"], "mill")
+        return [i for i in every if here.situation.state(("spindle.max_speed", i)).state == "ignored"]
+
+    assert ignored() == ["1.2", "1.3", "2.3"]
+    here.set("spindle.gears@1", Value(2))
+    assert ignored() == ["1.3", "2.3"]
+
+
+def test_a_bound_is_that_of_the_same_gear(spindles, machine) -> None:
+    here = machine(
+        spindles, {"spindle.max_speed@1.1": Value(900.0, "rpm"), "spindle.max_speed@2.1": Value(90.0, "rpm")}
+    )
+    assert None is fault(here.situation, ("spindle.min_speed", "1.1"), Value(900.0, "rpm"))
+    assert "(set by 930 Max. Spindle Speed)" in str(
+        fault(here.situation, ("spindle.min_speed", "2.1"), Value(91.0, "rpm"))
+    )
+
+
+def test_a_rule_may_read_the_gears_of_its_spindle(spindles, machine) -> None:
+    situation = machine(spindles).situation
+    of_one = situation.reading("spindle.max_speed@.", "1", "spindle")
+    assert [instance for _, instance in of_one.addresses] == ["1.1", "1.2", "1.3"]
+    assert of_one == situation.reading("spindle.max_speed@.", "1.2", "spindle")
+    assert of_one.is_list
+
+
+def test_a_rule_over_gears_runs_once_a_gear_and_one_over_spindles_once_a_spindle(spindles, machine) -> None:
+    def runs(reads: dict[str, str], check: str) -> list[str]:
+        plain = {"id": "own.rule", "title": "Ours", "severity": "error", "message": "{part} no", "page": "1"}
+        rule = Rule.model_validate({**plain, "reads": reads, "check": check})
+        return [c.instance for c in checks_of(machine(spindles).situation, (rule,))]
+
+    assert runs({"most": "spindle.max_speed", "gears": "spindle.gears"}, "part <= gears && most > 0.0") == [
+        "1.1",
+        "1.2",
+        "1.3",
+        "2.1",
+        "2.2",
+        "2.3",
+    ]
+    assert runs({"all": "spindle.max_speed@.", "gears": "spindle.gears"}, "gears <= double(size(all))") == [
+        "1",
+        "2",
+    ]
+
+
+@pytest.mark.parametrize(("instance", "part"), [("1.3", 3.0), ("2.12", 12.0), ("1", None), ("", None)])
+def test_a_part_is_what_stands_behind_the_point(instance: str, part: float | None) -> None:
+    assert part == part_of(instance)
+
+
+def test_a_page_may_be_that_of_the_second_spindle_or_of_one_gear(spindles) -> None:
+    pages = [spindles.page(("spindle.max_speed", i)) for i in ("1.1", "2.1", "2.3")]
+    assert pages == ["12-8", "13-8", "13-9"]
+    assert spindles.page(("macro.g_code", "2")) == "20-7"
+
+
+def test_every_label_of_an_instance_is_its_own() -> None:
+    """Two instances of one parameter that were called alike could be mistaken for each other."""
+    schema = load_schema("9pc")
+    for parameter in schema.parameters.values():
+        for machine in ("mill", "lathe"):
+            names = [
+                schema.instance_label((parameter.id, i), machine)
+                for i in schema.instances(parameter, machine)
+            ]
+            assert len(set(names)) == len(names), parameter.id
