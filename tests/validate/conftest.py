@@ -215,7 +215,12 @@ ROUTER = (
 
 MACHINES = {
     "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
-    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "control.threading_word": "lead", "axis.diameter_axis_name": "x"}, LATHE),
+    "lathe": (
+        "lathe",
+        CONTROL
+        | {"control.lathe_type": "a", "control.threading_word": "lead", "axis.diameter_axis_name": "x"},
+        LATHE,
+    ),
     "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
 }
 
