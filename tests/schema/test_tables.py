@@ -75,3 +75,11 @@ def test_the_function_codes_of_the_dac_monitor_are_those_of_its_rule(ninepc) -> 
     (rule,) = (rule for rule in ninepc.rules if rule.id == "9pc.patch.dac-code")
     codes = ninepc.tables["A.B"].column("Function Code")
     assert f"(code - n) in {list(codes)}" in rule.check
+
+
+def test_the_modal_groups_name_the_codes_that_parameters_offer(ninepc) -> None:
+    """Chapter 18: the choices of a parameter named after its codes are codes of the table."""
+    codes = {code.lower() for row in ninepc.tables["modal-groups"].rows for code in row[1:5]}
+    for name in ("motion", "plane", "distance_mode", "tool_length", "radius_diameter", "zones", "path_mode",
+                 "comp_corner", "short_block", "accdec_mode", "synch_mode"):  # fmt: skip
+        assert {c.key for c in ninepc.parameter(f"powerup.{name}").choices or ()} <= codes, name

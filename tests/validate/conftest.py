@@ -58,7 +58,88 @@ CONTROL = {
     "patch.dac_monitor@3": "0",
 }
 
+LOGIC = {f"logic.analog_connector@{n}": "none" for n in range(1, 5)} | {
+    f"logic.analog_rack@{n}": "1" for n in range(1, 5)
+}
+
+MACROS = (
+    {"macro.word_call@T": "yes", "macro.word_call@S": "no", "macro.word_call@B": "no"}
+    | {f"macro.type1_call@{n}": "not-used" for n in range(9010, 9020)}
+    | {"macro.type1_call@9010": "not-modal", "macro.type1_g_code@9010": "100"}
+    | {"macro.type1_call@9019": "modal", "macro.type1_g_code@9019": "109", "macro.modality": "g66"}
+    | {"macro.type2_call@1": "not-modal", "macro.type2_g_code@1": "231.6", "macro.type2_program@1": "100"}
+    | {"macro.type2_call@2": "modal", "macro.type2_g_code@2": "232", "macro.type2_program@2": "101"}
+    | {"macro.type2_call@3": "not-used"}
+    | {f"macro.m_code@{n}": "-1" for n in range(9001, 9010)}
+    | {"macro.m_code@9002": "102", "macro.m_code@9009": "100"}
+    | {"macro.in_mdi": "macro-call", "macro.when_nested": "system-code"}
+)
+"""A G-code of each type for a modal and one for a simple macro, and two M-codes."""
+
+INTERRUPTS = {"interrupt.enable_m_code": "90", "interrupt.disable_m_code": "91"} | {
+    f"interrupt.{name}@{n}": choice
+    for name, choice in (("trigger", "edge"), ("call", "macro"), ("service", "delayed"))
+    for n in range(4)
+}
+
+CONTROL |= LOGIC | MACROS | INTERRUPTS
+
+
+def planes(*axes: str) -> dict[str, str]:
+    """Return the planes G17, G18 and G19; each is two primary axes with their parallel ones behind them."""
+    fields = ("primary_{}", "parallel_{}_first", "parallel_{}_second")
+    return {
+        f"plane.{field.format(side)}@{code}": name
+        for code, plane in zip((17, 18, 19), axes, strict=True)
+        for side, names in enumerate(plane.split() if plane else ("", ""), 1)
+        for field, name in zip(fields, [*names, "none", "none", "none"], strict=False)
+    }
+
+
+CONTROL |= {
+    "format.leading_zeros": "Disabled",
+    "format.trailing_zeros": "Disabled",
+    "format.missing_number": "Enabled",
+    "letter.d_integer": "2.0",
+    "letter.f_per_minute": "4.3-5.2",
+    "letter.f_per_revolution": "2.4-3.3",
+    "letter.p_dwell": "decimal",
+    "letter.p_integer": "5.0",
+    "letter.q_word": "3.4-4.3",
+    "letter.q_thread_angle": "3.1",
+    "letter.r_word": "3.4-4.3",
+    "letter.s_css": "4.2-3.3",
+    "letter.s_orient": "3.1",
+    "letter.s_rpm": "5.0",
+    "letter.t_integer": "4",
+    "letter.chamfer": "3.4-4.3",
+    "powerup.inch_metric": "metric",
+    "quickpath.angle_word": ",A",
+    "quickpath.angle_format": "3.2",
+    "quickpath.line_format": "3.4-4.3",
+}
+"""Words of programs and what the control powers up with."""
+
+MILL_WORDS = {
+    "letter.f_inverse_time": "5.3",
+    "letter.h_integer": "2.0",
+    "letter.h_word": "3.4-4.3",
+    "letter.r_angle": "3.3",
+    "powerup.plane": "g17",
+    "powerup.tool_length": "g49",
+}
+LATHE_WORDS = {
+    "letter.d_word": "3.4-4.3",
+    "letter.e_threads": "2.4",
+    "letter.lead": "2.4-3.3",
+    "letter.q_integer": "4.0",
+    "powerup.plane": "g18",
+}
+TABLE = {"axis.rollover": "360", "format.axis_word": "3.3"}
+"""What a rotary axis has besides."""
+
 MOVING = {
+    "logic.only_axis": "no",
     "axis.integrand_name": "none",
     "control.scaling_allowed": "yes",
     "home.direction_off_switch": "negative",
@@ -167,7 +248,7 @@ MILL = (
         | {"axis.integrand_name": "j", "servo.position_loop_type": "zfe"},
     ),
     ("Z", MOVING | DIGITAL | connected("mod3", "j9", "j3") | {"axis.integrand_name": "k"} | SCALE),
-    ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | {"axis.rollover": "360"}),
+    ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | TABLE),
     ("U", MOVING | ANALOG | DIGITAL | connected("mod1", "j1", "j1") | SERCOS | {"axis.integrand_name": "i"}),
     ("V", MOVING | ANALOG | connected("tb2", "j10") | {"axis.integrand_name": "j"}),
     ("S", MOVING | ANALOG | SPINDLE | connected("tb3", "j11") | {"servo.spindle_type": "s1"}),
@@ -192,10 +273,7 @@ LATHE = (
     ),
     (
         "C",
-        MOVING
-        | DIGITAL
-        | connected("mod3", "j3", "j3")
-        | {"axis.incremental_name": "none", "axis.rollover": "360"},
+        MOVING | DIGITAL | connected("mod3", "j3", "j3") | TABLE | {"axis.incremental_name": "none"},
     ),
     ("S", MOVING | DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
     ("S", MOVING | ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
@@ -207,21 +285,34 @@ ROUTER = (
     ("X", MOVING | ANALOG | connected("mod1", "j9")),
     ("Y", MOVING | ANALOG | connected("mod2", "j10")),
     ("Z", MOVING | ANALOG | connected("mod3", "j11")),
-    ("A", MOVING | ANALOG | connected("mod4", "j12") | {"axis.rollover": "360"}),
+    ("A", MOVING | ANALOG | connected("mod4", "j12") | TABLE),
     ("U", MOVING | ANALOG | connected("tb2", "j9") | {"servo.amplifier_rack": "3"}),
     ("V", MOVING | ANALOG | connected("tb3", "j10") | {"servo.amplifier_rack": "3"}),
 )
 """Analog servos and no digital one, and a drive of another make."""
 
 MACHINES = {
-    "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
+    "mill": (
+        "mill",
+        CONTROL
+        | MILL_WORDS
+        | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}
+        | planes("xu yv", "z xu", "yv z"),
+        MILL,
+    ),
     "lathe": (
         "lathe",
         CONTROL
-        | {"control.lathe_type": "a", "control.threading_word": "lead", "axis.diameter_axis_name": "x"},
+        | LATHE_WORDS
+        | {"control.lathe_type": "a", "control.threading_word": "lead", "axis.diameter_axis_name": "x"}
+        | planes("", "z x", ""),
         LATHE,
     ),
-    "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
+    "router": (
+        "mill",
+        CONTROL | MILL_WORDS | {"control.mill_type": "standard"} | planes("xu yv", "zw xu", "yv zw"),
+        ROUTER,
+    ),
 }
 
 
