@@ -34,6 +34,28 @@ CONTROL = {
     "servo.sercos_cycle": "2 ms",
     "servo.sercos_baud": "4 MHz",
     "zone.group_count": "2",
+    "control.reset_on_estop_reset": "yes",
+    "control.trigger_point": "rising",
+    "control.dwell_type": "time",
+    "control.auxiliary_word": "none",
+    "control.block_delete": "whole",
+    "control.reset_codes": "yes",
+    "control.reset_offsets": "yes",
+    "control.cancel_tool_offsets": "no",
+    "control.retrace_limit": "5",
+    "control.retrace_limit@1": "5",
+    "control.retrace_limit@2": "5",
+    "control.reset_g92": "yes",
+    "control.reset_g92@1": "yes",
+    "control.reset_g92@2": "yes",
+    "password.character@1": "77",
+    "oci.connections": "1",
+    "oci.transfer_rate": "100 ms",
+    "oci.monitor_interval": "50 ms",
+    "oci.foreground_buffer": "500",
+    "oci.background_buffer@1": "5000",
+    "patch.dac_monitor@2": "0",
+    "patch.dac_monitor@3": "0",
 }
 
 CYCLES = {
@@ -158,6 +180,7 @@ MILL_WORDS = {
     "powerup.tool_length": "g49",
 }
 LATHE_WORDS = {
+    "control.threading_word": "lead",
     "letter.d_word": "3.4-4.3",
     "letter.e_threads": "2.4",
     "letter.lead": "2.4-3.3",
@@ -170,6 +193,7 @@ TABLE = {"axis.rollover": "360", "format.axis_word": "3.3"}
 MOVING = {
     "logic.only_axis": "no",
     "axis.integrand_name": "none",
+    "control.scaling_allowed": "yes",
     "home.direction_off_switch": "negative",
     "home.calibration": "1.5 mm",
     "home.speed_off_switch": "120 mm/min",
@@ -254,6 +278,7 @@ SPINDLE = {
     "servo.position_loop_type": "open",
     "axis.integrand_name": "none",
     "axis.incremental_name": "none",
+    "control.scaling_allowed": "no",
 }
 
 SCALE = {"servo.position_feedback_type": "aqb-one-marker", "servo.position_counts": "40000"}
