@@ -34,6 +34,12 @@ CONTROL = {
     "servo.sercos_cycle": "2 ms",
     "servo.sercos_baud": "4 MHz",
     "zone.group_count": "2",
+    "jog.retract_velocity": "500 mm/min",
+    "jog.max_retracts": "5",
+    "css.default_axis": "x",
+    **{f"css.programmed_axis@{n}": "x" for n in range(1, 9)},
+    "css.rapid_radius": "Momentary Position",
+    **{f"deskew.{servo}@{n}": "none" for servo in ("master", "slave") for n in (1, 2)},
 }
 
 MOVING = {
@@ -71,6 +77,21 @@ MOVING = {
     "servo.initial_gain": "1",
     "servo.gain_break_ratio": "1",
     "servo.feed_forward": "50 %",
+    "jog.speed_lowest": "10 mm/min",
+    "jog.speed_second": "100 mm/min",
+    "jog.speed_third": "500 mm/min",
+    "jog.speed_fourth": "2000 mm/min",
+    "jog.speed_highest": "8000 mm/min",
+    "jog.increment_smallest": "0.001 mm",
+    "jog.increment_second": "0.01 mm",
+    "jog.increment_third": "0.1 mm",
+    "jog.increment_fourth": "1 mm",
+    "jog.increment_largest": "10 mm",
+    "jog.traverse_speed": "9000 mm/min",
+    "adaptive.feed_integral_gain": "0.5",
+    "adaptive.feed_proportional_gain": "0.1",
+    "adaptive.feed_accdec": "Enabled",
+    "dual.group": "independent axis",
 }
 """A slide or a table; the lengths of a table are degrees."""
 
@@ -190,9 +211,22 @@ ROUTER = (
 """Analog servos and no digital one, and a drive of another make."""
 
 MACHINES = {
-    "mill": ("mill", CONTROL | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}, MILL),
+    "mill": (
+        "mill",
+        CONTROL
+        | {
+            "control.mill_type": "standard",
+            "servo.standard_motor_values": "no",
+            "adaptive.controlling_axis": "none",
+        },
+        MILL,
+    ),
     "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
-    "router": ("mill", CONTROL | {"control.mill_type": "standard"}, ROUTER),
+    "router": (
+        "mill",
+        CONTROL | {"control.mill_type": "standard", "adaptive.controlling_axis": "none"},
+        ROUTER,
+    ),
 }
 
 
