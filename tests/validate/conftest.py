@@ -42,7 +42,46 @@ CONTROL = {
     **{f"deskew.{servo}@{n}": "none" for servo in ("master", "slave") for n in (1, 2)},
 }
 
+LOGIC = {f"logic.analog_connector@{n}": "none" for n in range(1, 5)} | {
+    f"logic.analog_rack@{n}": "1" for n in range(1, 5)
+}
+
+MACROS = (
+    {"macro.word_call@T": "yes", "macro.word_call@S": "no", "macro.word_call@B": "no"}
+    | {f"macro.type1_call@{n}": "not-used" for n in range(9010, 9020)}
+    | {"macro.type1_call@9010": "not-modal", "macro.type1_g_code@9010": "100"}
+    | {"macro.type1_call@9019": "modal", "macro.type1_g_code@9019": "109", "macro.modality": "g66"}
+    | {"macro.type2_call@1": "not-modal", "macro.type2_g_code@1": "231.6", "macro.type2_program@1": "100"}
+    | {"macro.type2_call@2": "modal", "macro.type2_g_code@2": "232", "macro.type2_program@2": "101"}
+    | {"macro.type2_call@3": "not-used"}
+    | {f"macro.m_code@{n}": "-1" for n in range(9001, 9010)}
+    | {"macro.m_code@9002": "102", "macro.m_code@9009": "100"}
+    | {"macro.in_mdi": "macro-call", "macro.when_nested": "system-code"}
+)
+"""A G-code of each type for a modal and one for a simple macro, and two M-codes."""
+
+INTERRUPTS = {"interrupt.enable_m_code": "90", "interrupt.disable_m_code": "91"} | {
+    f"interrupt.{name}@{n}": choice
+    for name, choice in (("trigger", "edge"), ("call", "macro"), ("service", "delayed"))
+    for n in range(4)
+}
+
+CONTROL |= LOGIC | MACROS | INTERRUPTS
+
+
+def planes(*axes: str) -> dict[str, str]:
+    """Return the planes G17, G18 and G19; each is two primary axes with their parallel ones behind them."""
+    fields = ("primary_{}", "parallel_{}_first", "parallel_{}_second")
+    return {
+        f"plane.{field.format(side)}@{code}": name
+        for code, plane in zip((17, 18, 19), axes, strict=True)
+        for side, names in enumerate(plane.split() if plane else ("", ""), 1)
+        for field, name in zip(fields, [*names, "none", "none", "none"], strict=False)
+    }
+
+
 MOVING = {
+    "logic.only_axis": "no",
     "axis.integrand_name": "none",
     "home.direction_off_switch": "negative",
     "home.calibration": "1.5 mm",
@@ -218,13 +257,20 @@ MACHINES = {
             "control.mill_type": "standard",
             "servo.standard_motor_values": "no",
             "adaptive.controlling_axis": "none",
-        },
+        }
+        | planes("xu yv", "z xu", "yv z"),
         MILL,
     ),
-    "lathe": ("lathe", CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}, LATHE),
+    "lathe": (
+        "lathe",
+        CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"} | planes("", "z x", ""),
+        LATHE,
+    ),
     "router": (
         "mill",
-        CONTROL | {"control.mill_type": "standard", "adaptive.controlling_axis": "none"},
+        CONTROL
+        | {"control.mill_type": "standard", "adaptive.controlling_axis": "none"}
+        | planes("xu yv", "zw xu", "yv zw"),
         ROUTER,
     ),
 }
