@@ -407,14 +407,26 @@ class TableColumn(Model):
 
 
 class Table(Model):
-    """A printed table, in the order of the page."""
+    """A printed table, in the order of the page: columns of numbers, or rows of texts under a head."""
 
     id: str
     title: str
     page: Page
     ratios: tuple[str, ...] = ()
     """The head of each row."""
-    columns: tuple[TableColumn, ...]
+    columns: tuple[TableColumn, ...] = ()
+    head: tuple[str, ...] = ()
+    """What stands over the cells of ``rows``."""
+    rows: tuple[tuple[str, ...], ...] = ()
+    """Texts as they are printed; an empty one where the page prints nothing."""
+
+    @model_validator(mode="after")
+    def _even(self) -> Table:
+        if bool(self.columns) == bool(self.rows):
+            raise ValueError("a table has either 'columns' of numbers or 'rows' of texts")
+        if any(len(row) != len(self.head) for row in self.rows):
+            raise ValueError("every row of a table has as many cells as its head")
+        return self
 
 
 class Tables(Model):

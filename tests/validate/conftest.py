@@ -80,6 +80,49 @@ def planes(*axes: str) -> dict[str, str]:
     }
 
 
+CONTROL |= {
+    "format.leading_zeros": "Disabled",
+    "format.trailing_zeros": "Disabled",
+    "format.missing_number": "Enabled",
+    "letter.d_integer": "2.0",
+    "letter.f_per_minute": "4.3-5.2",
+    "letter.f_per_revolution": "2.4-3.3",
+    "letter.p_dwell": "decimal",
+    "letter.p_integer": "5.0",
+    "letter.q_word": "3.4-4.3",
+    "letter.q_thread_angle": "3.1",
+    "letter.r_word": "3.4-4.3",
+    "letter.s_css": "4.2-3.3",
+    "letter.s_orient": "3.1",
+    "letter.s_rpm": "5.0",
+    "letter.t_integer": "4",
+    "letter.chamfer": "3.4-4.3",
+    "powerup.inch_metric": "metric",
+    "quickpath.angle_word": ",A",
+    "quickpath.angle_format": "3.2",
+    "quickpath.line_format": "3.4-4.3",
+}
+"""Words of programs and what the control powers up with."""
+
+MILL_WORDS = {
+    "letter.f_inverse_time": "5.3",
+    "letter.h_integer": "2.0",
+    "letter.h_word": "3.4-4.3",
+    "letter.r_angle": "3.3",
+    "powerup.plane": "g17",
+    "powerup.tool_length": "g49",
+    "adaptive.controlling_axis": "none",
+}
+LATHE_WORDS = {
+    "letter.d_word": "3.4-4.3",
+    "letter.e_threads": "2.4",
+    "letter.lead": "2.4-3.3",
+    "letter.q_integer": "4.0",
+    "powerup.plane": "g18",
+}
+TABLE = {"axis.rollover": "360", "format.axis_word": "3.3"}
+"""What a rotary axis has besides."""
+
 MOVING = {
     "logic.only_axis": "no",
     "axis.integrand_name": "none",
@@ -203,7 +246,7 @@ MILL = (
         | {"axis.integrand_name": "j", "servo.position_loop_type": "zfe"},
     ),
     ("Z", MOVING | DIGITAL | connected("mod3", "j9", "j3") | {"axis.integrand_name": "k"} | SCALE),
-    ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | {"axis.rollover": "360"}),
+    ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | TABLE),
     ("U", MOVING | ANALOG | DIGITAL | connected("mod1", "j1", "j1") | SERCOS | {"axis.integrand_name": "i"}),
     ("V", MOVING | ANALOG | connected("tb2", "j10") | {"axis.integrand_name": "j"}),
     ("S", MOVING | ANALOG | SPINDLE | connected("tb3", "j11") | {"servo.spindle_type": "s1"}),
@@ -228,10 +271,7 @@ LATHE = (
     ),
     (
         "C",
-        MOVING
-        | DIGITAL
-        | connected("mod3", "j3", "j3")
-        | {"axis.incremental_name": "none", "axis.rollover": "360"},
+        MOVING | DIGITAL | connected("mod3", "j3", "j3") | TABLE | {"axis.incremental_name": "none"},
     ),
     ("S", MOVING | DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
     ("S", MOVING | ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
@@ -243,7 +283,7 @@ ROUTER = (
     ("X", MOVING | ANALOG | connected("mod1", "j9")),
     ("Y", MOVING | ANALOG | connected("mod2", "j10")),
     ("Z", MOVING | ANALOG | connected("mod3", "j11")),
-    ("A", MOVING | ANALOG | connected("mod4", "j12") | {"axis.rollover": "360"}),
+    ("A", MOVING | ANALOG | connected("mod4", "j12") | TABLE),
     ("U", MOVING | ANALOG | connected("tb2", "j9") | {"servo.amplifier_rack": "3"}),
     ("V", MOVING | ANALOG | connected("tb3", "j10") | {"servo.amplifier_rack": "3"}),
 )
@@ -253,24 +293,22 @@ MACHINES = {
     "mill": (
         "mill",
         CONTROL
-        | {
-            "control.mill_type": "standard",
-            "servo.standard_motor_values": "no",
-            "adaptive.controlling_axis": "none",
-        }
+        | MILL_WORDS
+        | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}
         | planes("xu yv", "z xu", "yv z"),
         MILL,
     ),
     "lathe": (
         "lathe",
-        CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"} | planes("", "z x", ""),
+        CONTROL
+        | LATHE_WORDS
+        | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}
+        | planes("", "z x", ""),
         LATHE,
     ),
     "router": (
         "mill",
-        CONTROL
-        | {"control.mill_type": "standard", "adaptive.controlling_axis": "none"}
-        | planes("xu yv", "zw xu", "yv zw"),
+        CONTROL | MILL_WORDS | {"control.mill_type": "standard"} | planes("xu yv", "zw xu", "yv zw"),
         ROUTER,
     ),
 }

@@ -306,9 +306,15 @@ def test_a_number_in_the_place_of_a_yes_is_noticed(mill) -> None:
 
 def test_the_rules_that_read_a_value_are_known(mill) -> None:
     rules = [rule.id for rule in Validator(mill).rules_of(("zone.group_count", ""))]
-    assert rules == ["9pc.zone.group-not-checked", "9pc.zone.group-empty", "9pc.deskew.slave-zone"]
+    assert rules == [
+        "9pc.zone.group-not-checked",
+        "9pc.zone.group-empty",
+        "9pc.powerup.zones-without-groups",
+        "9pc.deskew.slave-zone",
+    ]
     assert [rule.id for rule in Validator(mill).rules_of(("zone.group_count", "2"))] == [
-        "9pc.zone.group-empty"
+        "9pc.zone.group-empty",
+        "9pc.powerup.zones-without-groups",
     ]
 
 
