@@ -42,6 +42,54 @@ CONTROL = {
     **{f"deskew.{servo}@{n}": "none" for servo in ("master", "slave") for n in (1, 2)},
 }
 
+CYCLES = {
+    "cycle.peck_retract": "1 mm",
+    "cycle.fine_boring_q": "yes",
+    "cycle.fine_boring_shift@17": "Primary axis 1 positive",
+    "cycle.fine_boring_shift@18": "Primary axis 2 negative",
+    "cycle.fine_boring_shift@19": "Primary axis 1 negative",
+    "cycle.clearance": "0.5 mm",
+    "cycle.tapping_dwell_ignored": "yes",
+    "cycle.rapid_to_hole": "yes",
+    "virtual_c.park_location": "Nearest To Machine Zero",
+    "probing.probe_length": "80 mm",
+    "probing.probe_radius": "3 mm",
+    "probing.transition": "Low to High",
+}
+
+MILL_CYCLES = CYCLES | {
+    "cycle.drilling_axis": "none",
+    "cylindrical.feed_axis": "z",
+    "cylindrical.park_axis": "y",
+    "cylindrical.linear_axis": "x",
+    "cylindrical.feed_coordinate": "-300 mm",
+    "cylindrical.park_coordinate": "10 mm",
+    "probing.approach_distance": "20 mm",
+    "probing.tolerance_band": "2 mm",
+    "probing.approach_rate": "600 mm/min",
+    "probing.probe_rate": "60 mm/min",
+}
+
+LATHE_CYCLES = CYCLES | {
+    "cycle.drilling_axis": "Axis 2",
+    "cycle.pullout_distance": "1.5",
+    "cycle.pullout_angle": "45 deg",
+    "cycle.min_infeed": "0.03 mm",
+    "cycle.finish_allowance": "0.05 mm",
+    "cycle.turning_repeat": "no",
+    "cycle.grooving_retract": "0.5 mm",
+    "roughing.retract": "0.5 mm",
+    "roughing.depth_percent": "100 %",
+    "roughing.finish_cut": "False",
+    "roughing.threshold": "0.1 mm",
+    "virtual_c.rotary_axis": "c",
+    "virtual_c.end_face_axis": "y",
+    "virtual_c.end_face_incremental": "v",
+    "virtual_c.end_face_integrand": "j",
+    "virtual_c.center_line_axis": "z",
+    "virtual_c.auto_home": "no",
+}
+
 LOGIC = {f"logic.analog_connector@{n}": "none" for n in range(1, 5)} | {
     f"logic.analog_rack@{n}": "1" for n in range(1, 5)
 }
@@ -294,7 +342,12 @@ MACHINES = {
         "mill",
         CONTROL
         | MILL_WORDS
-        | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}
+        | MILL_CYCLES
+        | {
+            "control.mill_type": "standard",
+            "servo.standard_motor_values": "no",
+            "cylindrical.rotary_axis": "b",
+        }
         | planes("xu yv", "z xu", "yv z"),
         MILL,
     ),
@@ -302,13 +355,18 @@ MACHINES = {
         "lathe",
         CONTROL
         | LATHE_WORDS
+        | LATHE_CYCLES
         | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"}
         | planes("", "z x", ""),
         LATHE,
     ),
     "router": (
         "mill",
-        CONTROL | MILL_WORDS | {"control.mill_type": "standard"} | planes("xu yv", "zw xu", "yv zw"),
+        CONTROL
+        | MILL_WORDS
+        | MILL_CYCLES
+        | {"control.mill_type": "standard", "cylindrical.rotary_axis": "a"}
+        | planes("xu yv", "zw xu", "yv zw"),
         ROUTER,
     ),
 }
