@@ -56,6 +56,12 @@ CONTROL = {
     "oci.background_buffer@1": "5000",
     "patch.dac_monitor@2": "0",
     "patch.dac_monitor@3": "0",
+    "jog.retract_velocity": "500 mm/min",
+    "jog.max_retracts": "5",
+    "css.default_axis": "x",
+    **{f"css.programmed_axis@{n}": "x" for n in range(1, 9)},
+    "css.rapid_radius": "Momentary Position",
+    **{f"deskew.{servo}@{n}": "none" for servo in ("master", "slave") for n in (1, 2)},
 }
 
 CYCLES = {
@@ -178,6 +184,7 @@ MILL_WORDS = {
     "letter.r_angle": "3.3",
     "powerup.plane": "g17",
     "powerup.tool_length": "g49",
+    "adaptive.controlling_axis": "none",
 }
 LATHE_WORDS = {
     "control.threading_word": "lead",
@@ -227,6 +234,21 @@ MOVING = {
     "servo.initial_gain": "1",
     "servo.gain_break_ratio": "1",
     "servo.feed_forward": "50 %",
+    "jog.speed_lowest": "10 mm/min",
+    "jog.speed_second": "100 mm/min",
+    "jog.speed_third": "500 mm/min",
+    "jog.speed_fourth": "2000 mm/min",
+    "jog.speed_highest": "8000 mm/min",
+    "jog.increment_smallest": "0.001 mm",
+    "jog.increment_second": "0.01 mm",
+    "jog.increment_third": "0.1 mm",
+    "jog.increment_fourth": "1 mm",
+    "jog.increment_largest": "10 mm",
+    "jog.traverse_speed": "9000 mm/min",
+    "adaptive.feed_integral_gain": "0.5",
+    "adaptive.feed_proportional_gain": "0.1",
+    "adaptive.feed_accdec": "Enabled",
+    "dual.group": "independent axis",
 }
 """A slide or a table; the lengths of a table are degrees."""
 

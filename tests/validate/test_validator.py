@@ -310,6 +310,7 @@ def test_the_rules_that_read_a_value_are_known(mill) -> None:
         "9pc.zone.group-not-checked",
         "9pc.zone.group-empty",
         "9pc.powerup.zones-without-groups",
+        "9pc.deskew.slave-zone",
     ]
     assert [rule.id for rule in Validator(mill).rules_of(("zone.group_count", "2"))] == [
         "9pc.zone.group-empty",
