@@ -94,7 +94,7 @@ class ValueTable(QTableView):
     def _mend(self, address: Address, text: str) -> None:
         """Open the editor again on a text that was refused."""
         index = self._table.index_of(address)
-        if index.isValid() and not self._table.rows[index.row()].choices:
+        if index.isValid() and not self._table.rows[index.row()].parameter.choices:
             self.setCurrentIndex(index)
             self._delegate.to_mend = (address, text)
             self.edit(index)
@@ -136,10 +136,10 @@ class ValueTable(QTableView):
             table.column_title(table.columns[column])
         )
         shown: dict[bool, set[str]] = {False: set(), True: set()}
-        for row, parameter in enumerate(table.rows):
-            address = table.address_at(row, column)
+        for n, row in enumerate(table.rows):
+            address = table.address_at(n, column)
             if address is not None:
-                shown[bool(parameter.choices)].add(table.cell_text(address))
+                shown[bool(row.parameter.choices)].add(table.cell_text(address))
         figures, choices = (max((1.1 * texts.horizontalAdvance(t) + 14 for t in shown[kind]), default=0.0)
                             for kind in (False, True))  # fmt: skip
         return round(max(_NARROWEST, 1.1 * head + 24, min(_WIDEST, figures))), round(
