@@ -14,7 +14,9 @@ from .parameter_table import AddressRole, ParameterTable
 from .value_delegate import ValueDelegate
 
 _NAMES = (256, 330)
-"""Width of the names in a narrow table, and in one that is wider than four times the larger."""
+"""Least width of the names in a narrow table, and in one that is wider than four times the larger."""
+_MARGIN = 24
+"""Left for the scroll bar and the frame."""
 _NARROWEST, _WIDEST = 92, 240
 _CHOICES = (200, 160, 118)
 """Widths that long choices may take, by the room there is."""
@@ -127,7 +129,16 @@ class ValueTable(QTableView):
             widths = [max(figures, min(most, choices)) for figures, choices in wanted]
         for column, width in enumerate(widths):
             self.setColumnWidth(column, width)
+        self._fit_names(sum(widths))
         self._is_fitting = False
+
+    def _fit_names(self, values: int) -> None:
+        """Give the names what they need, as far as the values leave room: the gear stands at their end."""
+        metrics = QFontMetrics(self.verticalHeader().font())
+        heads = (self._table.headerData(row, Qt.Orientation.Vertical) for row in range(len(self._table.rows)))
+        wanted = max((metrics.horizontalAdvance(head) + 16 for head in heads), default=0)
+        least = _NAMES[self.width() > 4 * _NAMES[1]]
+        self.verticalHeader().setFixedWidth(max(least, min(wanted, self.width() - values - _MARGIN)))
 
     def _wanted(self, column: int) -> tuple[int, int]:
         """Return the widths that the figures with the head, and the choices of a column need."""
@@ -152,7 +163,6 @@ class ValueTable(QTableView):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        self.verticalHeader().setFixedWidth(_NAMES[self.width() > 4 * _NAMES[1]])
         if event.size().width() != event.oldSize().width():
             self._fit_columns()
 
