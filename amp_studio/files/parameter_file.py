@@ -128,6 +128,9 @@ class ParameterFile:
             self.values[change.address] = change.new
         self.forced.pop(change.address, None)
         self.situation.changed(change.address)
+        self._tell(change)
+
+    def _tell(self, change: Change) -> None:
         for listener in list(self._listeners):
             listener(change)
 
@@ -155,10 +158,13 @@ class ParameterFile:
                 self.apply(change.reversed())
             self.forced.update(marks)
             raise RangeFault(faults)
-        for address in wanted:
+        changed = {change.address for change in changes}
+        for address, value in wanted.items():
             self.forced.pop(address, None)
             if address in faults:
                 self.forced[address] = force
+            if address not in changed and self.forced.get(address) != marks.get(address):
+                self._tell(Change(address, value, value))  # the value stands as it did, its mark does not
         return changes
 
     def listen(self, listener: Callable[[Change], None]) -> Callable[[], None]:

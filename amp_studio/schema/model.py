@@ -397,24 +397,36 @@ class Rules(Model):
     rules: tuple[Rule, ...]
 
 
-class TableColumn(Model):
-    """One column of a printed table: under a heading, or under several motors at once."""
-
-    name: str = ""
-    unit: str = ""
-    motors: tuple[str, ...] = ()
-    values: tuple[float, ...]
-
-
 class Table(Model):
-    """A printed table, in the order of the page."""
+    """A printed table, in the order of the page: a head, and rows of texts and numbers below it."""
 
     id: str
+    """As the manual numbers it (``7.B``), or a name of ours where it has no number."""
     title: str
     page: Page
-    ratios: tuple[str, ...] = ()
-    """The head of each row."""
-    columns: tuple[TableColumn, ...]
+    head: tuple[str, ...]
+    units: tuple[str, ...] = ()
+    """Unit of each column as printed, empty where it has none; left out where no column has one."""
+    rows: tuple[tuple[str | float, ...], ...]
+    params: tuple[ParameterId, ...] = ()
+    """Parameters for whose values it is looked up."""
+    note: str = ""
+
+    @model_validator(mode="after")
+    def _square(self) -> Table:
+        if self.units and len(self.units) != len(self.head):
+            raise ValueError(f"{len(self.head)} columns and {len(self.units)} units")
+        for n, row in enumerate(self.rows, 1):
+            if len(row) != len(self.head):
+                raise ValueError(f"row {n} has {len(row)} cells below {len(self.head)} columns")
+        return self
+
+    def column(self, name: str) -> tuple[str | float, ...] | None:
+        """Return the cells below a name; a head may hold several of them (``B410G, B410J``)."""
+        for n, head in enumerate(self.head):
+            if name in head.split(", "):
+                return tuple(row[n] for row in self.rows)
+        return None
 
 
 class Tables(Model):

@@ -324,10 +324,9 @@ def standard_gains(tables: Mapping[str, Table]) -> MotorGains | None:
 
     def gains(motor: str, ratio: str) -> tuple[float, float] | None:
         row = int(ratio.removeprefix("r"))
-        found = [
-            next((column.values[row] for column in table.columns if motor.upper() in column.motors), None)
-            for table in (proportional, integral)
-        ]
-        return (found[0], found[1]) if found[0] is not None and found[1] is not None else None
+        columns = proportional.column(motor.upper()), integral.column(motor.upper())
+        if columns[0] is None or columns[1] is None:
+            return None
+        return float(columns[0][row]), float(columns[1][row])
 
     return gains

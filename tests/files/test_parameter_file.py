@@ -210,6 +210,15 @@ def test_a_refused_step_leaves_the_marks_as_they_were(mill: ParameterFile) -> No
     assert Value(1e6, "mm") == mill.get(CALIBRATION)
 
 
+def test_whoever_listens_hears_of_a_mark_though_the_value_stands(mill: ParameterFile) -> None:
+    mill.set(CALIBRATION, Value(1e6, "mm"))
+    told: list[Change] = []
+    mill.listen(told.append)
+    assert mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test") == []
+    assert told == [Change(CALIBRATION, Value(1e6, "mm"), Value(1e6, "mm"))]
+    assert mill.forced == {CALIBRATION: "by a test"}
+
+
 def test_the_mark_stays_when_the_axis_begins_to_turn(mill: ParameterFile) -> None:
     mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
     mill.set_many({("axis.type", "1"): Value("rotary")})

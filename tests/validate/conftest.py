@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 from ruamel.yaml import YAML
@@ -17,236 +18,6 @@ from amp_studio.validate import Finding, Validator
 
 Change = Mapping[str, str | None]
 """``id@instance`` -> the value as a person writes it; None takes the value away."""
-
-CONTROL = {
-    "feedrate.f1_rapid_override": "25 %",
-    "feedrate.use_skip_feedrate": "yes",
-    "feedrate.skip_g31": "500 mm/min",
-    "feedrate.skip_g31_2": "400 mm/min",
-    "feedrate.skip_g31_3": "300 mm/min",
-    "feedrate.skip_g31_4": "200 mm/min",
-    "feedrate.circular_tolerance": "0.02 mm",
-    "feedrate.external_decel_cutting": "600 mm/min",
-    "accdec.programmed_delay": "5",
-    "timing.fine_foreground": "16 ms",
-    "timing.scans_per_logic": "2",
-    "timing.logic_warning": "40 ms",
-    "servo.sercos_cycle": "2 ms",
-    "servo.sercos_baud": "4 MHz",
-    "zone.group_count": "2",
-}
-
-LOGIC = {f"logic.analog_connector@{n}": "none" for n in range(1, 5)} | {
-    f"logic.analog_rack@{n}": "1" for n in range(1, 5)
-}
-
-MACROS = (
-    {"macro.word_call@T": "yes", "macro.word_call@S": "no", "macro.word_call@B": "no"}
-    | {f"macro.type1_call@{n}": "not-used" for n in range(9010, 9020)}
-    | {"macro.type1_call@9010": "not-modal", "macro.type1_g_code@9010": "100"}
-    | {"macro.type1_call@9019": "modal", "macro.type1_g_code@9019": "109", "macro.modality": "g66"}
-    | {"macro.type2_call@1": "not-modal", "macro.type2_g_code@1": "231.6", "macro.type2_program@1": "100"}
-    | {"macro.type2_call@2": "modal", "macro.type2_g_code@2": "232", "macro.type2_program@2": "101"}
-    | {"macro.type2_call@3": "not-used"}
-    | {f"macro.m_code@{n}": "-1" for n in range(9001, 9010)}
-    | {"macro.m_code@9002": "102", "macro.m_code@9009": "100"}
-    | {"macro.in_mdi": "macro-call", "macro.when_nested": "system-code"}
-)
-"""A G-code of each type for a modal and one for a simple macro, and two M-codes."""
-
-INTERRUPTS = {"interrupt.enable_m_code": "90", "interrupt.disable_m_code": "91"} | {
-    f"interrupt.{name}@{n}": choice
-    for name, choice in (("trigger", "edge"), ("call", "macro"), ("service", "delayed"))
-    for n in range(4)
-}
-
-CONTROL |= LOGIC | MACROS | INTERRUPTS
-
-
-def planes(*axes: str) -> dict[str, str]:
-    """Return the planes G17, G18 and G19; each is two primary axes with their parallel ones behind them."""
-    fields = ("primary_{}", "parallel_{}_first", "parallel_{}_second")
-    return {
-        f"plane.{field.format(side)}@{code}": name
-        for code, plane in zip((17, 18, 19), axes, strict=True)
-        for side, names in enumerate(plane.split() if plane else ("", ""), 1)
-        for field, name in zip(fields, [*names, "none", "none", "none"], strict=False)
-    }
-
-
-MOVING = {
-    "logic.only_axis": "no",
-    "axis.integrand_name": "none",
-    "home.direction_off_switch": "negative",
-    "home.calibration": "1.5 mm",
-    "home.speed_off_switch": "120 mm/min",
-    "home.g28_direction": "plus",
-    "home.g28_speed": "3000 mm/min",
-    "home.g30_position": "50 mm",
-    "zone.group": "g2",
-    "zone.limit2_min": "-100 mm",
-    "zone.limit2_max": "100 mm",
-    "zone.limit3_min": "-50 mm",
-    "zone.limit3_max": "50 mm",
-    "zone.overtravel_used": "yes",
-    "zone.overtravel_positive": "400 mm",
-    "zone.overtravel_negative": "-400 mm",
-    "feedrate.rapid": "12000 mm/min",
-    "feedrate.max_cutting": "6000 mm/min",
-    "feedrate.external_decel_positioning": "1000 mm/min",
-    "accdec.velocity_step": "100 mm/min",
-    "accdec.linear_acceleration": "500 mm/s2",
-    "accdec.linear_deceleration": "500 mm/s2",
-    "accdec.scurve_acceleration": "600 mm/s2",
-    "accdec.scurve_deceleration": "600 mm/s2",
-    "accdec.jerk": "5000 mm/s3",
-    "accdec.min_jerk": "500 mm/s3",
-    "accdec.manual_delay": "5",
-    "servo.lead_screw_pitch": "10 mm",
-    "servo.excess_error": "15 mm",
-    "servo.feedrate_suppression": "13.5 mm",
-    "servo.gain_break_point": "8 mm",
-    "servo.inposition_band": "0.02 mm",
-    "servo.initial_gain": "1",
-    "servo.gain_break_ratio": "1",
-    "servo.feed_forward": "50 %",
-}
-"""A slide or a table; the lengths of a table are degrees."""
-
-DIGITAL = {
-    "servo.hardware_type": "sercos",
-    "servo.loop_type": "digital",
-    "servo.position_loop_type": "closed",
-    "servo.position_feedback_type": "hiperface-absolute",
-    "servo.position_counts": "1048576",
-    "servo.velocity_feedback_type": "hiperface-absolute",
-    "servo.velocity_counts": "1048576",
-    "servo.velocity_proportional_gain": "6000",
-    "servo.velocity_integral_gain": "500",
-    "servo.peak_current": "300%",
-    "servo.motor_type": "b410g",
-    "servo.motor_poles": "p4",
-    "servo.max_motor_speed": "1400 rpm",
-    "servo.motor_rated_current": "5 A",
-    "servo.amplifier_type": "kw5",
-    "servo.amplifier_rack": "1",
-}
-
-ANALOG = {
-    "servo.hardware_type": "sercos",
-    "servo.loop_type": "analog",
-    "servo.position_loop_type": "closed",
-    "servo.position_feedback_type": "inc-narrow",
-    "servo.position_counts": "8000",
-    "servo.velocity_feedback_type": "inc-narrow",
-    "servo.velocity_counts": "8000",
-    "servo.analog_positive_voltage": "8 V",
-    "servo.analog_negative_voltage": "-8 V",
-    "servo.max_acceleration": "120000 mm/min/s",
-    "servo.amplifier_rack": "1",
-}
-
-SERCOS = {
-    "servo.hardware_type": "sercos",
-    "servo.loop_type": "sercos",
-    "servo.position_loop_type": "closed",
-    "servo.amplifier_rack": "2",
-}
-
-
-SPINDLE = {
-    "zone.group": "none",
-    "zone.overtravel_used": "no",
-    "accdec.manual_delay": "5",
-    "servo.position_loop_type": "open",
-    "axis.integrand_name": "none",
-    "axis.incremental_name": "none",
-}
-
-SCALE = {"servo.position_feedback_type": "aqb-one-marker", "servo.position_counts": "40000"}
-"""A linear scale: its counts over one lead of the screw."""
-
-
-def connected(output: str, position: str, velocity: str = "none") -> dict[str, str]:
-    """Return the connectors of a motor and its devices."""
-    return {"servo.output_port": output, "servo.position_port": position, "servo.velocity_port": velocity}
-
-
-MILL = (
-    ("X", MOVING | DIGITAL | connected("mod1", "j1", "j1") | {"axis.integrand_name": "i"}),
-    (
-        "Y",
-        MOVING
-        | DIGITAL
-        | connected("mod2", "j2", "j2")
-        | {"axis.integrand_name": "j", "servo.position_loop_type": "zfe"},
-    ),
-    ("Z", MOVING | DIGITAL | connected("mod3", "j9", "j3") | {"axis.integrand_name": "k"} | SCALE),
-    ("B", MOVING | DIGITAL | connected("mod4", "j4", "j4") | {"axis.rollover": "360"}),
-    ("U", MOVING | ANALOG | DIGITAL | connected("mod1", "j1", "j1") | SERCOS | {"axis.integrand_name": "i"}),
-    ("V", MOVING | ANALOG | connected("tb2", "j10") | {"axis.integrand_name": "j"}),
-    ("S", MOVING | ANALOG | SPINDLE | connected("tb3", "j11") | {"servo.spindle_type": "s1"}),
-)
-"""Four digital servos (a slide on the device of its motor, one without following error, one on a linear scale, a
-table), a drive of another make on the ring, an analog slide and an analog spindle."""
-
-LATHE = (
-    (
-        "X",
-        MOVING
-        | DIGITAL
-        | connected("mod1", "j1", "j1")
-        | {"axis.incremental_name": "u", "axis.integrand_name": "i"},
-    ),
-    (
-        "Z",
-        MOVING
-        | DIGITAL
-        | connected("mod2", "j2", "j2")
-        | {"axis.incremental_name": "w", "axis.integrand_name": "k"},
-    ),
-    (
-        "C",
-        MOVING
-        | DIGITAL
-        | connected("mod3", "j3", "j3")
-        | {"axis.incremental_name": "none", "axis.rollover": "360"},
-    ),
-    ("S", MOVING | DIGITAL | SPINDLE | connected("mod4", "j4", "j4") | {"servo.spindle_type": "s1"}),
-    ("S", MOVING | ANALOG | SPINDLE | connected("tb2", "j9") | {"servo.spindle_type": "s2"}),
-)
-"""Two slides, a digital main spindle with its C axis, and an analog spindle for driven tools."""
-
-ROUTER = (
-    ("W", MOVING | ANALOG | connected("mod1", "j9") | SERCOS),
-    ("X", MOVING | ANALOG | connected("mod1", "j9")),
-    ("Y", MOVING | ANALOG | connected("mod2", "j10")),
-    ("Z", MOVING | ANALOG | connected("mod3", "j11")),
-    ("A", MOVING | ANALOG | connected("mod4", "j12") | {"axis.rollover": "360"}),
-    ("U", MOVING | ANALOG | connected("tb2", "j9") | {"servo.amplifier_rack": "3"}),
-    ("V", MOVING | ANALOG | connected("tb3", "j10") | {"servo.amplifier_rack": "3"}),
-)
-"""Analog servos and no digital one, and a drive of another make."""
-
-MACHINES = {
-    "mill": (
-        "mill",
-        CONTROL
-        | {"control.mill_type": "standard", "servo.standard_motor_values": "no"}
-        | planes("xu yv", "z xu", "yv z"),
-        MILL,
-    ),
-    "lathe": (
-        "lathe",
-        CONTROL | {"control.lathe_type": "a", "axis.diameter_axis_name": "x"} | planes("", "z x", ""),
-        LATHE,
-    ),
-    "router": (
-        "mill",
-        CONTROL | {"control.mill_type": "standard"} | planes("xu yv", "zw xu", "yv zw"),
-        ROUTER,
-    ),
-}
 
 
 def change(file: ParameterFile, texts: Change) -> list[Address]:
@@ -262,12 +33,19 @@ def change(file: ParameterFile, texts: Change) -> list[Address]:
 
 def sound(name: str) -> ParameterFile:
     """Return a machine in which nothing is to be found."""
-    machine, control, axes = MACHINES[name]
-    file = new_file("9pc", machine, [axis for axis, _ in axes])
-    change(file, control)
-    change(
-        file, {f"{name}@{n}": text for n, (_, texts) in enumerate(axes, 1) for name, text in texts.items()}
-    )
+    text = Path(__file__).with_name("sound_machines.yaml").read_text("utf-8")
+    written = YAML(typ="safe").load(text)
+
+    def values(one: Mapping[str, Any]) -> dict[str, str]:
+        """Return the values of the parts that a machine or an axis is like, and its own over them."""
+        parts = [written["parts"][part] for part in one["like"]]
+        return dict(item for values in (*parts, one.get("own", {})) for item in values.items())
+
+    machine = written["machines"][name]
+    file = new_file("9pc", machine["type"], [axis["name"] for axis in machine["axes"]])
+    change(file, values(machine))
+    for n, axis in enumerate(machine["axes"], 1):
+        change(file, {f"{name}@{n}": text for name, text in values(axis).items()})
     return file
 
 

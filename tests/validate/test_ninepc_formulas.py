@@ -629,6 +629,25 @@ def test_the_timing_procedure() -> None:
     assert ninepc.coarse_scan_ms(9, 2) == 18
 
 
+# ------------------------------------------------------------------------- chapter 15: word formats
+
+
+@pytest.mark.parametrize(
+    ("form", "inch", "expected"),
+    [
+        ("3.4-4.3", True, 999.9999),  # The table of page 15-1: 3 and 4 digits in inch mode,
+        ("3.4-4.3", False, 9999.999),  # 4 and 3 in metric mode.
+        ("5.3-6.2", True, 99999.999),
+        ("5.3-6.2", False, 999999.99),
+        ("6.1-7.0", False, 9999999.0),
+        ("3.1", True, 999.9),  # Rotary formats are the same in both.
+        ("3.1", False, 999.9),
+    ],
+)
+def test_a_word_format_ends_at_all_nines(form: str, inch: bool, expected: float) -> None:
+    assert ninepc.largest_word(form, inch) == expected
+
+
 # -------------------------------------------------------------------- arguments that make no sense
 
 
@@ -676,6 +695,10 @@ def test_the_timing_procedure() -> None:
         (lambda: ninepc.jerk_limits(1000, 0), "The coarse scan time must be greater than zero"),
         (lambda: ninepc.scurve_time(1000, 0), "The jerk must be greater than zero"),
         (lambda: ninepc.fine_foreground_minimum_ms(0), "The number of axes on the largest drive must be"),
+        (
+            lambda: ninepc.largest_word("3.4 inch", True),
+            "A word format is digits before and behind the point",
+        ),
     ],
 )
 def test_nonsense_is_refused_with_one_sentence(call: Callable[[], object], message: str) -> None:

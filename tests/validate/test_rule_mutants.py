@@ -51,6 +51,11 @@ THE_SAME = {
     "9pc.axis.dollar-name": {"type != 'other'"},
     "9pc.zone.group-not-checked": {"count >= 0.0"},
     "9pc.axis.lathe-a-name-incremental": {"lathe_type == 'a' ||", "|| name in"},
+    # At position i stands the slave itself, which is left out.
+    "9pc.deskew.slave-last": {"j >= i"},
+    # Rounding only takes away the last bits of a number that was converted; one digit more or less is the same.
+    "9pc.format.travel": {", 7.0)"},
+    "9pc.letter.feed-digits": {", 7.0)"},
     # A third spindle can only have no type, or one twice.
     "9pc.servo.spindle-type-order": {"<= 2", "< 3", "filter(t, t == 'other')"},
 }

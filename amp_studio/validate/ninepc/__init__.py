@@ -69,6 +69,7 @@ from .timing import (
     fine_foreground_minimum_ms,
     fine_scans_per_logic_scan,
 )
+from .words import largest_word
 
 __all__ = [
     "COUNTS_PER_INCH_LIMIT",
@@ -101,6 +102,7 @@ __all__ = [
     "integral_gain_limit",
     "is_velocity_step",
     "jerk_limits",
+    "largest_word",
     "lead_from_threads_per_inch",
     "linear_ramp",
     "linear_ramp_per_ms",

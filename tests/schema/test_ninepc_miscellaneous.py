@@ -1,0 +1,49 @@
+"""Chapters 33, 34 and 37: the numbers of arrays and processes, the printed password, what is out of use."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.schema import UnknownParameter
+
+NUMBERS = {
+    "password.character": {"1": "101", "2": "102", "3": "103", "4": "104", "5": "105", "6": "106"},
+    "oci.background_buffer": {"1": "336", "2": "337", "3": "338", "4": "339"},
+    "control.retrace_limit": {"": "9", "1": "20009", "2": "21009"},
+    "control.reset_g92": {"": "91", "1": "20091", "2": "21091"},
+    "control.scaling_allowed": {str(axis): f"{axis}100" for axis in range(1, 9)},
+    "patch.dac_monitor": {"2": "86", "3": "87"},
+    "patch.acc_dec_ramp": {str(axis): f"{axis}202" for axis in range(1, 9)},
+    "patch.internal": {str(axis): f"{axis}755" for axis in range(1, 9)},
+}
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_every_instance_has_the_number_that_is_printed(ninepc, machine, name: str) -> None:
+    """Pages 33-10 to 33-13, 34-5, 37-3 and A-5."""
+    numbers = {i: ninepc.number((name, i), "mill") for i in ninepc.instances(ninepc.parameter(name), "mill")}
+    assert {i: str(number) for i, number in numbers.items()} == NUMBERS[name]
+    assert [(name, i) for i in numbers] == [machine(ninepc).situation.find(n) for n in NUMBERS[name].values()]
+
+
+def test_the_factory_password_is_ab_d4_and_a_space(ninepc) -> None:
+    default = ninepc.parameter("password.character").default
+    codes = [default.instances.get(i, default.value) for i in NUMBERS["password.character"]]
+    assert "".join(chr(int(code)) for code in codes) == "AB-D4 "
+
+
+@pytest.mark.parametrize(("buffer", "state"), [("1", "in-force"), ("2", "ignored"), ("4", "ignored")])
+def test_only_the_first_background_buffer_is_in_use(ninepc, machine, buffer: str, state: str) -> None:
+    assert machine(ninepc).situation.state(("oci.background_buffer", buffer)).state == state
+
+
+@pytest.mark.parametrize(("kind", "state"), [("lathe", "in-force"), ("mill", "hidden")])
+def test_the_threading_word_is_one_of_the_lathe(ninepc, machine, kind: str, state: str) -> None:
+    here = machine(ninepc, machine=kind)
+    assert here.situation.state(("control.threading_word", "")).state == state
+
+
+def test_chapter_35_adds_no_number(ninepc, machine) -> None:
+    assert "35" not in {group.chapter for group in ninepc.groups}
+    with pytest.raises(UnknownParameter):
+        machine(ninepc).situation.find("340")
