@@ -111,6 +111,18 @@ def test_orient_to_an_angle_takes_position_feedback(situation, axis: dict[str, s
     assert {state(here, f"spindle.orient_{name}", "1") for name in ("speed", "direction")} == {"in-force"}
 
 
+def test_the_gear_that_scales_the_dac_monitor_is_there_without_a_spindle(situation) -> None:
+    """Pages A-4 and A-5: the spindles are unfitted for tuning, but 820 and 910, 830 and 930 scale the output."""
+    for monitor, spindle, other in (("2", "1", "2"), ("3", "2", "1")):
+        here = situation({"axis.type": "linear"}, **{f"patch__dac_monitor_of_{monitor}": Value(101)})
+        for name in ("spindle.voltage_at_max", "spindle.max_speed"):
+            states = [state(here, name, gear) for gear in (f"{spindle}.1", f"{spindle}.2", f"{other}.1")]
+            assert states == ["in-force", "hidden", "hidden"]
+        assert state(here, "spindle.min_speed", f"{spindle}.1") == "hidden"
+    off = situation({"axis.type": "linear"}, patch__dac_monitor_of_2=Value(0))
+    assert state(off, "spindle.max_speed", "1.1") == "hidden"
+
+
 def test_a_third_party_spindle_keeps_voltage_and_ramp_in_its_drive(situation) -> None:
     """Page 12-2."""
     here = situation(THIRD_PARTY)
