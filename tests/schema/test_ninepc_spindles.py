@@ -68,16 +68,6 @@ def test_a_spindle_that_no_axis_is_does_not_exist(situation) -> None:
     assert state(situation(ANALOG | {"axis.type": "linear"}), "spindle.gear_count", "1") == "hidden"
 
 
-def test_gear_1_of_a_spindle_that_is_unfitted_for_the_dac_monitor_stays(situation) -> None:
-    """Pages A-4 and A-5: 820 and 910, 830 and 930 scale its two outputs."""
-    none = situation({"axis.type": "linear"})
-    for name in ("spindle.voltage_at_max", "spindle.max_speed"):
-        for spindle in ("1", "2"):
-            states = [state(none, name, f"{spindle}.{gear}") for gear in range(1, 9)]
-            assert states == ["ignored"] + ["hidden"] * 7, name
-        assert state(situation(ANALOG), name, "2.1") == "ignored"
-
-
 def test_gears_beyond_the_number_used_are_ignored(situation) -> None:
     """Page 12-8; gear 1 stays even where the number is missing or wrong."""
     here = situation(ANALOG, spindle__gear_count_of_1=Value(3))
@@ -119,6 +109,18 @@ def test_orient_to_an_angle_takes_position_feedback(situation, axis: dict[str, s
     assert {state(here, name, "1") for name in names} == {expected}
     assert state(here, "spindle.gain", "1.1") == expected
     assert {state(here, f"spindle.orient_{name}", "1") for name in ("speed", "direction")} == {"in-force"}
+
+
+def test_the_gear_that_scales_the_dac_monitor_is_there_without_a_spindle(situation) -> None:
+    """Pages A-4 and A-5: the spindles are unfitted for tuning, but 820 and 910, 830 and 930 scale the output."""
+    for monitor, spindle, other in (("2", "1", "2"), ("3", "2", "1")):
+        here = situation({"axis.type": "linear"}, **{f"patch__dac_monitor_of_{monitor}": Value(101)})
+        for name in ("spindle.voltage_at_max", "spindle.max_speed"):
+            states = [state(here, name, gear) for gear in (f"{spindle}.1", f"{spindle}.2", f"{other}.1")]
+            assert states == ["in-force", "hidden", "hidden"]
+        assert state(here, "spindle.min_speed", f"{spindle}.1") == "hidden"
+    off = situation({"axis.type": "linear"}, patch__dac_monitor_of_2=Value(0))
+    assert state(off, "spindle.max_speed", "1.1") == "hidden"
 
 
 def test_a_third_party_spindle_keeps_voltage_and_ramp_in_its_drive(situation) -> None:

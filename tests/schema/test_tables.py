@@ -83,3 +83,8 @@ def test_the_modal_groups_name_the_codes_that_parameters_offer(ninepc) -> None:
     for name in ("motion", "plane", "distance_mode", "tool_length", "radius_diameter", "zones", "path_mode",
                  "comp_corner", "short_block", "accdec_mode", "synch_mode"):  # fmt: skip
         assert {c.key for c in ninepc.parameter(f"powerup.{name}").choices or ()} <= codes, name
+
+
+def test_what_can_be_tuned_on_line_is_what_the_screens_of_chapter_36_name(ninepc) -> None:
+    tunable = {name for name, parameter in ninepc.parameters.items() if parameter.tunable}
+    assert tunable == set(ninepc.tables["online-screens"].params)
