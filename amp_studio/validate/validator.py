@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule
@@ -30,7 +30,7 @@ class Validator:
         self._light: tuple[str, str] | None = None
         """Machine type and unit system of the present findings."""
         self._unset: set[Address] = set()
-        self._unset_advice: tuple[_Order, Finding] | None = None
+        self._unset_advice: list[tuple[_Order, Finding]] | None = None
         """What is said of them, until they change."""
         self._ranges: dict[Address, tuple[_Order, Finding]] = {}
         self._rules: dict[int, tuple[_Order, Finding]] = {}
@@ -115,20 +115,25 @@ class Validator:
     def _general(self) -> list[tuple[_Order, Finding]]:
         """Return the findings that are about the file as a whole."""
         found = []
-        if self._unset and self._unset_advice is None:
-            advice = self._advice()
-            self._unset_advice = self._order(advice), advice
-        if self._unset_advice is not None:
-            found.append(self._unset_advice)
+        if self._unset_advice is None:
+            self._unset_advice = [(self._order(advice), advice) for advice in self._advice()]
+        found += self._unset_advice
         for n, key in enumerate(self.file.unknown):
             said = f"{key} is no parameter of this schema; it is kept as it is."
             finding = Finding("schema.unknown", "warning", (), said)
             found.append((self._order(finding, n), finding))
         return found
 
-    def _advice(self) -> Finding:
-        unset = tuple(sorted(self._unset, key=self._plan.order.__getitem__))
+    def _advice(self) -> Iterator[Finding]:
+        """Yield one piece of advice on all values that are missing.
+
+        A value for the control as a whole speaks for each of its processes.
+        """
+        every = {a for a in self._unset if not a[1] or (a[0], "") not in self.file.values}
+        unset = tuple(sorted(every, key=self._plan.order.__getitem__))
+        if not unset:
+            return
         names = ", ".join(self.file.schema.label(address, self._machine) for address in unset[:4])
         more = f" and {len(unset) - 4} more" if len(unset) > 4 else ""
         said = f"{len(unset)} parameters in force have no value here, so the control keeps its own: {names}{more}."
-        return Finding("schema.unset", "advice", unset, said)
+        yield Finding("schema.unset", "advice", unset, said)
