@@ -152,6 +152,12 @@ def test_a_choice_a_rule_and_a_contradiction_are_shown(amp) -> None:
     assert "Rules it takes part in" in amp("show", "9pc", "1730").out
 
 
+def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
+    said = " ".join(amp("show", "9pc", "1750").out.split())
+    assert "Formulas minimum_excess_error(rapid, gain, break_ratio): Smallest sensible Excess Error" in said
+    assert "(page 7-20)" in said
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -23,10 +23,10 @@ def not_negative(what: str, value: float) -> float:
     return value
 
 
-def whole(what: str, value: float) -> int:
-    """A whole number of at least 1; doubles that hold one are welcome, CEL knows no others."""
-    if not (math.isfinite(value) and value >= 1 and value == int(value)):
-        raise ValueError(f"{what} must be a whole number of at least 1, not {value!r}.")
+def whole(what: str, value: float, least: int = 1) -> int:
+    """A whole number of at least ``least``; doubles that hold one are welcome, CEL knows no others."""
+    if not (math.isfinite(value) and value >= least and value == int(value)):
+        raise ValueError(f"{what} must be a whole number of at least {least}, not {value!r}.")
     return int(value)
 
 

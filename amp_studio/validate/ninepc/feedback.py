@@ -13,6 +13,9 @@ COUNTS_PER_LINE = 4
 COUNTS_PER_INCH_LIMIT = 4_194_304
 """More feedback counts per inch than this may hold the system in E-Stop (page 7-33)."""
 
+COUNTS_PER_CYCLE_LIMIT = 4_194_304
+"""Upper end of Position Feedback Counts/Cycle; the same figure, but counts over one cycle (page 7-33)."""
+
 SERCOS_CYCLE_MS = (1, 30)
 """Range of Cycle Time for SERCOS (page 7-4)."""
 
@@ -90,9 +93,30 @@ def scale_counts_per_cycle(lines: float, length: float, pitch: float) -> float:
     return per_length * positive("Lead Screw Thread Pitch", pitch)
 
 
+def largest_scale_pitch(lines: float, length: float) -> float:
+    """Largest Lead Screw Thread Pitch to enter for a linear scale, in the unit of ``length`` (page B-2).
+
+    Where the counts over the pitch would be more than the parameter takes, a smaller pitch is entered.
+    The division is ours, the manual only says so. The scale has ``lines`` lines on ``length``.
+    """
+    return COUNTS_PER_CYCLE_LIMIT / scale_counts_per_cycle(lines, length, 1.0)
+
+
 def lead_from_threads_per_inch(threads: float) -> float:
-    """Lead Screw Thread Pitch in inches of a single-start screw (page 7-17)."""
+    """Lead in inches of a single-start screw or thread (pages 7-17, 16-5 and 33-5).
+
+    5 threads per inch are a lead of .20 inch; an E- or F-word in threads per inch means a lead likewise.
+    """
     return 1.0 / positive("The number of threads per inch", threads)
+
+
+def feedback_sign(moves_positive: bool, counts_up: bool) -> int:
+    """Sign of Position or Velocity Feedback, 1 or -1, from a turn by hand (pages 7-36 and 7-50).
+
+    Plus where the feedback counts up while the axis moves in its positive direction, or down in its
+    negative one; minus otherwise.
+    """
+    return 1 if moves_positive == counts_up else -1
 
 
 def screw_revolutions_per_feedback_revolution(gear_teeth: float, screw_teeth: float) -> float:
@@ -102,6 +126,27 @@ def screw_revolutions_per_feedback_revolution(gear_teeth: float, screw_teeth: fl
     number of teeth passes on both wheels, so the screw makes gear / screw turns while the device makes one.
     """
     return whole("The number of gear teeth", gear_teeth) / whole("The number of screw teeth", screw_teeth)
+
+
+def feedback_revolutions_per_screw_revolution(motor_teeth: float, screw_teeth: float) -> float:
+    """Turns of the velocity feedback device for one turn of the screw (pages 7-52 and 7-53).
+
+    ``motor_teeth`` is Teeth on Motor Gear, ``screw_teeth`` Teeth on Lead Screw for Velocity Feedback. The
+    manual names both without an equation; it follows as on page 7-38.
+    """
+    return whole("The number of screw teeth", screw_teeth) / whole("The number of motor teeth", motor_teeth)
+
+
+def gear_train(pairs: Sequence[tuple[float, float]]) -> tuple[int, int]:
+    """One pair of teeth for a series of gears or pulleys, in lowest terms (pages 7-38, 7-52 and 7-82).
+
+    Each pair is (feedback or motor side, screw or spindle side). The manual says to factor the series into
+    the two parameters; that the pairs multiply is ours.
+    """
+    if not pairs:
+        raise ValueError("A gear train needs at least one pair of wheels.")
+    near = math.prod(whole("The number of teeth", first) for first, _ in pairs)
+    return lowest_terms(near, math.prod(whole("The number of teeth", second) for _, second in pairs))
 
 
 def counts_per_length(counts_per_cycle: float, gear_teeth: float, screw_teeth: float, lead: float) -> float:

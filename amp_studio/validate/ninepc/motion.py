@@ -65,11 +65,18 @@ def linear_ramp_per_ms(speed: float, response_ms: float) -> float:
 
 
 def linear_ramp(speed: float, response_ms: float) -> float:
-    """The same ramp per second squared, as 1210 and 1211 want it: times 1000 ms/s over 60 s/min.
+    """Linear Acc/Dec ramp per second squared, as 1210 and 1211 want it: speed over time (page 10-2).
 
-    ``speed`` per minute is the highest contouring speed, with ZFE Closed Loop the rapid feedrate (page 10-2).
+    The ramp per ms times 1000 ms/s over 60 s/min. ``speed`` per minute is the highest contouring speed, with
+    ZFE Closed Loop the rapid feedrate.
     """
     return linear_ramp_per_ms(speed, response_ms) * 1000.0 / 60.0
+
+
+def deceleration_in_force(deceleration: float, acceleration: float) -> float:
+    """Deceleration ramp the control uses: the acceleration ramp where it is 0 (pages 10-10 and 10-13)."""
+    ramp = not_negative("The deceleration ramp", deceleration)
+    return ramp or not_negative("The acceleration ramp", acceleration)
 
 
 def is_velocity_step(feedrate: float, next_feedrate: float, step: float) -> bool:

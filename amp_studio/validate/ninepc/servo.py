@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 from .arguments import finite, not_negative, percent_of, positive, whole
 
 POSITION_GAIN_UNIT = 0.001
 """Following error per unit of feedrate at gain 1 (page 7-25)."""
+
+LARGEST_INERTIA_RATIO = 3
+"""The last choice of Load Inertia Ratio is 1 : 3 (page 7-71)."""
 
 
 # -------------------------------------------------------------------------- chapter 7: position loop
@@ -77,10 +83,11 @@ def suppressed_feedrate(feedrate: float, following_error: float, suppression_poi
 
 
 def analog_voltage(servo_volts: float, motor_amps: float, drive_amps: float) -> float:
-    """Analog Servo Pos. or Neg. Voltage: card voltage at which the drive gives the motor's rating.
+    """Analog Servo Voltage in V at which the drive gives the motor's rating (pages 7-41 and 7-43).
 
-    10 V, 9 A and 15 A give 6 V; -10 V gives -6 V (pages 7-41 and 7-43). Not for servos whose velocity
-    loop the CNC serial drive closes. ValueError when the drive cannot give the motor's current.
+    10 V, 9 A and 15 A give 6 V, the positive voltage; -10 V gives -6 V, the negative one. Not for servos
+    whose velocity loop the CNC serial drive closes. ValueError when the drive cannot give the motor's
+    current.
     """
     if not 0 < abs(servo_volts) <= 10:
         raise ValueError(f"The servo voltage must be up to 10 V of either sign, not {servo_volts!r}.")
@@ -91,6 +98,18 @@ def analog_voltage(servo_volts: float, motor_amps: float, drive_amps: float) -> 
 
 
 # -------------------------------------------------------------------------- chapter 7: velocity loop
+
+
+def acceleration_command(
+    velocity_error: float, error_sum: float, proportional_gain: float, integral_gain: float
+) -> float:
+    """Acceleration command of the velocity loop, in its inner unit (pages 7-54 and 7-56).
+
+    Velocity error times Velocity Proportional Gain, and the sum of all velocity errors times Velocity
+    Integral Gain, added. The manual gives no unit for errors or command.
+    """
+    proportional = finite("The velocity error", velocity_error) * proportional_gain
+    return proportional + finite("The sum of velocity errors", error_sum) * integral_gain
 
 
 def velocity_gain_bounds(gain: float) -> tuple[float, float]:
@@ -104,13 +123,36 @@ def integral_gain_limit(gain: float) -> float:
 
 
 def gain_for_inertia(gain_without_load: float, load_ratio: float) -> float:
-    """Velocity gain of a standard motor for motor : load inertia of 1 : ``load_ratio``.
+    """Velocity gain at motor : load inertia 1 : ``load_ratio``, as tables 7.B, 7.C grow (pages 7-54, 7-56).
 
-    Ours, not printed: every column of tables 7.B and 7.C (pages 7-54 and 7-56) grows as 1 + load_ratio,
-    but for one number (17460 for the B520E at 1 : 1, where 17476 would follow).
+    Ours, not printed: every column of the tables grows as 1 + load_ratio, but for one number (17460 for the
+    B520E at 1 : 1, where 17476 would follow).
     """
     load = not_negative("The load inertia ratio", load_ratio)
     return not_negative("The velocity gain without load", gain_without_load) * (1.0 + load)
+
+
+def standard_motor_gain(column: Sequence[float], load_ratio: float) -> float:
+    """Velocity gain of a standard motor: the row of its column in table 7.B or 7.C (pages 7-54, 7-56).
+
+    ``column`` is what the table prints for the motor at 1 : 0, 1 : 1 and so on, ``load_ratio`` the load's
+    side of Load Inertia Ratio.
+    """
+    row = whole("The load inertia ratio", load_ratio, 0)
+    if row >= len(column):
+        raise ValueError(f"The column of the motor ends at 1 : {len(column) - 1}, before 1 : {row}.")
+    return column[row]
+
+
+def load_inertia_ratio(motor_inertia: float, load_inertia: float) -> int:
+    """Load's side of Load Inertia Ratio for two inertias in one unit: 0 to 3, rounded up (page 7-71).
+
+    "Generally it is better to round up"; above 1 : 3 the closest choice is 1 : 3.
+    """
+    ratio = not_negative("The inertia of the load", load_inertia) / positive(
+        "The inertia of the motor", motor_inertia
+    )
+    return min(math.ceil(round(ratio, 9)), LARGEST_INERTIA_RATIO)
 
 
 def continuous_voltage(motor_amps: float, amps_per_volt: float) -> float:
@@ -166,10 +208,10 @@ def maximum_motor_speed(
 def friction_compensation(
     error_counts: float, previous_counts: float, threshold: float, friction: float, stiction: float
 ) -> float:
-    """Torque added against friction in one servo scan, in % of the motor's continuous torque.
+    """Torque added against friction in a servo scan, in % of continuous torque (pages 7-85 to 7-89).
 
     Nothing below the threshold (in feedback counts of following error), ``friction`` from it on, and
-    ``stiction`` on top in the one scan in which the threshold is first reached (pages 7-85 to 7-89).
+    ``stiction`` on top in the one scan in which the threshold is first reached.
     """
     limit = not_negative("Threshold for Friction Comp", threshold)
     moving = percent_of("The friction compensation", friction)
@@ -177,9 +219,3 @@ def friction_compensation(
     if abs(finite("The following error", error_counts)) < limit:
         return 0.0
     return moving + (start if abs(finite("The previous following error", previous_counts)) < limit else 0.0)
-
-
-def spindle_speed(motor_rpm: float, motor_teeth: float, shaft_teeth: float) -> float:
-    """Spindle rpm behind the gear of a 1394 spindle (pages 7-82 and 7-83)."""
-    motor = whole("The number of motor teeth", motor_teeth)
-    return finite("The motor speed", motor_rpm) * motor / whole("The number of shaft teeth", shaft_teeth)

@@ -3,17 +3,42 @@
 from __future__ import annotations
 
 import re
+from typing import Literal
 
-_FORMAT = re.compile(r"([0-9])\.([0-9])(?:-([0-9])\.([0-9]))?")
+_FORMAT = re.compile(r"([0-9])(?:\.([0-9]))?(?:-([0-9])\.([0-9]))?")
+_WORD = re.compile(r"([+-]?)([0-9]+)")
 
 
 def largest_word(form: str, inch: bool) -> float:
     """Largest number that a word of a format can write in inch or in metric programs (page 15-1).
 
-    "3.4-4.3", for 3.4 inch and 4.3 metric, ends at 999.9999 in and 9999.999 mm; "3.4" is the same in both.
+    "3.4-4.3", for 3.4 inch and 4.3 metric, ends at 999.9999 in and 9999.999 mm; "3.4" and "6", which is six
+    digits without decimals, are the same in both.
     """
+    before, behind = _digits(form, inch)
+    return round(10.0**before - 10.0**-behind, behind)
+
+
+def word_value(word: str, form: str, inch: bool, suppressed: Literal["leading", "trailing"]) -> float:
+    """Number of a word written without a point where zeros of one end are left out (page 15-3).
+
+    In format 4.3 with leading zeros suppressed 01 is 0.001 and 2790 is 2.790; with trailing zeros
+    suppressed 01 is 100.000 and 279 is 2790.000. ``word`` is what stands behind the letter.
+    """
+    before, behind = _digits(form, inch)
+    found = _WORD.fullmatch(word)
+    if not found or len(found[2]) > before + behind:
+        raise ValueError(f"A word of the format {form} has up to {before + behind} digits, not {word!r}.")
+    if suppressed not in ("leading", "trailing"):
+        raise ValueError(f"The zeros left out are the leading or the trailing ones, not {suppressed!r}.")
+    digits = found[2] if suppressed == "leading" else found[2].ljust(before + behind, "0")
+    return float(f"{found[1]}{digits}e-{behind}")
+
+
+def _digits(form: str, inch: bool) -> tuple[int, int]:
+    """Digits before and behind the point."""
     found = _FORMAT.fullmatch(form)
-    if not found:
+    if not found or (found[3] and not found[2]):
         raise ValueError(f"A word format is digits before and behind the point, as 3.4-4.3, not {form!r}.")
-    whole, decimals = found.groups()[:2] if inch or not found[3] else found.groups()[2:]
-    return round(10.0 ** int(whole) - 10.0 ** -int(decimals), int(decimals))
+    before, behind = (found[1], found[2] or "0") if inch or not found[3] else (found[3], found[4])
+    return int(before), int(behind)

@@ -1,0 +1,14 @@
+"""The master password: chapter 33."""
+
+from __future__ import annotations
+
+LENGTH = 6
+
+
+def password_codes(password: str) -> tuple[int, ...]:
+    """ASCII values to enter for the master password; missing characters are blanks, 32 (page 33-12)."""
+    if len(password) > LENGTH or any(not 32 <= ord(character) <= 95 for character in password):
+        raise ValueError(
+            "The master password is up to six characters of ASCII 32 to 95, without small letters."
+        )
+    return tuple(ord(character) for character in password.ljust(LENGTH))
