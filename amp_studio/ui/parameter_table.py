@@ -51,6 +51,8 @@ class ParameterTable(QAbstractTableModel):
         """Show also what does not exist for this configuration."""
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
+        self._heads: dict[int, str] = {}
+        """Row -> its head, as it was made for the rows that are shown."""
         self._machine = ""
         self._layouts: dict[str, list[Row]] = {}
         self._worst: dict[Address, str] = {}
@@ -68,6 +70,7 @@ class ParameterTable(QAbstractTableModel):
         self.asked = parameters
         self.columns = self._columns()
         self.rows = self._rows(self.columns)
+        self._heads.clear()
         self.endResetModel()
 
     def show_again(self) -> None:
@@ -187,14 +190,22 @@ class ParameterTable(QAbstractTableModel):
         return labelled(file.schema.family.scopes["axis"].label, column)
 
     def _row_head(self, row: int, role: int) -> Any:
-        parameter, name = self.rows[row].parameter, self.row_name(row)
         if role == Qt.ItemDataRole.DisplayRole:
-            return f"{self.number(row).ljust(5, FIGURE_SPACE)} {name}"
+            return self.head(row)
         if role == Qt.ItemDataRole.ToolTipRole:
-            return f"{self.number(row)} {name}  ({parameter.id})\n{parameter.help.what}"
+            parameter = self.rows[row].parameter
+            return f"{self.number(row)} {self.row_name(row)}  ({parameter.id})\n{parameter.help.what}"
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT
         return None
+
+    def head(self, row: int) -> str:
+        """Return what stands at the left of a row: its number and its name."""
+        found = self._heads.get(row)
+        if found is None:
+            number = self.number(row).ljust(5, FIGURE_SPACE)
+            found = self._heads[row] = f"{number} {self.row_name(row)}"
+        return found
 
     def row_name(self, row: int) -> str:
         """Return the name of a row: that of the parameter, and of the instance where it is one of several."""
@@ -277,6 +288,7 @@ class ParameterTable(QAbstractTableModel):
         if columns != self.columns or self._rows(columns) != self.rows:
             self.show_again()
         elif self.rows and self.columns:
+            self._heads.clear()  # a number is that of the first value that exists
             last = self.index(len(self.rows) - 1, len(self.columns) - 1)
             self.dataChanged.emit(self.index(0, 0), last)
             self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, last.column())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from heapq import nlargest
 
 from PySide6.QtCore import QModelIndex, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QFontMetrics, QKeyEvent, QResizeEvent
@@ -15,6 +16,8 @@ from .value_delegate import ValueDelegate
 
 _NAMES = (256, 330)
 """Least width of the names in a narrow table, and in one that is wider than four times the larger."""
+_MEASURED = 12
+"""So many of the longest texts of a column are measured."""
 _MARGIN = 24
 """Left for the scroll bar and the frame."""
 _NARROWEST, _WIDEST = 92, 240
@@ -135,8 +138,7 @@ class ValueTable(QTableView):
     def _fit_names(self, values: int) -> None:
         """Give the names what they need, as far as the values leave room: the gear stands at their end."""
         metrics = QFontMetrics(self.verticalHeader().font())
-        heads = (self._table.headerData(row, Qt.Orientation.Vertical) for row in range(len(self._table.rows)))
-        wanted = max((metrics.horizontalAdvance(head) + 16 for head in heads), default=0)
+        wanted = round(_widest(metrics, map(self._table.head, range(len(self._table.rows))))) + 16
         least = _NAMES[self.width() > 4 * _NAMES[1]]
         self.verticalHeader().setFixedWidth(max(least, min(wanted, self.width() - values - _MARGIN)))
 
@@ -151,8 +153,7 @@ class ValueTable(QTableView):
             address = table.address_at(n, column)
             if address is not None:
                 shown[bool(row.parameter.choices)].add(table.cell_text(address))
-        figures, choices = (max((1.1 * texts.horizontalAdvance(t) + 14 for t in shown[kind]), default=0.0)
-                            for kind in (False, True))  # fmt: skip
+        figures, choices = (1.1 * _widest(texts, shown[kind]) + 14 for kind in (False, True))
         return round(max(_NARROWEST, 1.1 * head + 24, min(_WIDEST, figures))), round(
             min(_WIDEST, choices)
         )  # bold is wider
@@ -174,3 +175,8 @@ class ValueTable(QTableView):
             self.edit(self.currentIndex())
         else:
             super().keyPressEvent(event)
+
+
+def _widest(metrics: QFontMetrics, texts: Iterable[str]) -> float:
+    """Return the width of the widest text; only the longest are measured, which is what takes time."""
+    return max(map(metrics.horizontalAdvance, nlargest(_MEASURED, texts, len)), default=0)
