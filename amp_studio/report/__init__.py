@@ -6,7 +6,7 @@ the documenter's three orders; ``build_report`` gives the same as plain data.
 
 from .build import build_report
 from .describe import definition, finding_json, finding_text
-from .manual_page import facts, help_parts, one_line, page_of, range_text
+from .manual_page import cells_of, facts, formula_lines, help_parts, one_line, page_of, range_text, tables_of
 from .model import SORTS, Report, Sort
 from .write import FORMATS, write_report
 
@@ -16,13 +16,16 @@ __all__ = [
     "Report",
     "Sort",
     "build_report",
+    "cells_of",
     "definition",
     "facts",
     "finding_json",
     "finding_text",
+    "formula_lines",
     "help_parts",
     "one_line",
     "page_of",
     "range_text",
+    "tables_of",
     "write_report",
 ]

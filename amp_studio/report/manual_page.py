@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import textwrap
 from collections.abc import Iterable, Iterator
-from itertools import groupby, pairwise
+from itertools import groupby, pairwise, zip_longest
 
 from amp_studio.schema import (
     Parameter,
@@ -17,7 +17,7 @@ from amp_studio.schema import (
     shown,
     write_number,
 )
-from amp_studio.schema.model import BoundRef, Choice, Erratum, Range
+from amp_studio.schema.model import BoundRef, Choice, Erratum, Range, Table
 from amp_studio.validate import formulas
 
 _WIDTH = 100
@@ -50,7 +50,9 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
     lines.append("")
     for title, text in help_parts(schema, parameter):
         lines += [title, *_wrapped(text), ""]
-    lines += _section("Formulas", (_formula(schema, name) for name in parameter.formulas))
+    lines += _section("Formulas", formula_lines(schema, parameter))
+    for table in tables_of(schema, parameter):
+        lines += [f"{table.title} (page {table.page})", *(f"{_INDENT}{line}" for line in _drawn(table)), ""]
     rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
     lines += _section(
         "Rules it takes part in", (f"{r.severity:8} {r.title} (page {r.page}; {r.id})" for r in rules)
@@ -75,10 +77,44 @@ def _section(title: str, entries: Iterable[str]) -> list[str]:
     return [title, *lines, ""] if lines else []
 
 
-def _formula(schema: Schema, name: str) -> str:
-    function = formulas(schema.family.family)[name]
-    told = (inspect.getdoc(function) or "").partition("\n")[0]
-    return f"{name}({', '.join(inspect.signature(function).parameters)}): {told}"
+def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
+    """Return the published formulas of a parameter, each with its arguments and what it gives."""
+    lines = []
+    for name in parameter.formulas:
+        function = formulas(schema.family.family)[name]
+        told = (inspect.getdoc(function) or "").partition("\n")[0]
+        lines.append(f"{name}({', '.join(inspect.signature(function).parameters)}): {told}")
+    return lines
+
+
+def tables_of(schema: Schema, parameter: Parameter) -> list[Table]:
+    """Return the printed tables in which the value of a parameter is looked up."""
+    return [table for table in schema.tables.values() if parameter.id in table.params]
+
+
+def cells_of(table: Table) -> list[list[str]]:
+    """Return the cells of a table as texts, the head with its units first."""
+    units = table.units or ("",) * len(table.head)
+    head = [f"{name} ({shown(unit)})" if unit else name for name, unit in zip(table.head, units, strict=True)]
+    return [head, *([c if isinstance(c, str) else write_number(c) for c in row] for row in table.rows)]
+
+
+def _drawn(table: Table) -> list[str]:
+    """Return the lines of a table; a cell that is too long for its column goes on below."""
+    head, *rows = cells_of(table)
+    room = _WIDTH - len(_INDENT) - 2 * (len(head) - 1)
+    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+    while sum(widths) > room:  # the widest gives way
+        widths[widths.index(max(widths))] -= 1
+    lines = [line for row in (head, *rows) for line in _row(row, widths)]
+    lines.insert(len(_row(head, widths)), "-" * (sum(widths) + 2 * (len(widths) - 1)))
+    return lines + textwrap.wrap(table.note, _WIDTH - len(_INDENT))
+
+
+def _row(cells: list[str], widths: list[int]) -> list[str]:
+    parts = [textwrap.wrap(cell, width) or [""] for cell, width in zip(cells, widths, strict=True)]
+    rows = zip_longest(*parts, fillvalue="")
+    return ["  ".join(t.ljust(w) for t, w in zip(row, widths, strict=True)).rstrip() for row in rows]
 
 
 # -- facts ---------------------------------------------------------------------

@@ -7,8 +7,18 @@ import html
 from PySide6.QtCore import QUrl, Signal
 from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
-from amp_studio.report import facts, help_parts
-from amp_studio.schema import Address, Schema, Value, limits, read_address, same_value, show_value, written
+from amp_studio.report import cells_of, facts, formula_lines, help_parts, tables_of
+from amp_studio.schema import (
+    Address,
+    Schema,
+    Table,
+    Value,
+    limits,
+    read_address,
+    same_value,
+    show_value,
+    written,
+)
 
 from .theme import severity_ink
 from .workspace import Workspace
@@ -130,6 +140,10 @@ class DetailPanel(QWidget):
             lines.append(
                 f"<h4>{title}</h4><p>{', '.join(related) if title == 'Related' else html.escape(text)}</p>"
             )
+        formulas = formula_lines(schema, parameter)
+        if formulas:
+            lines.append("<h4>Formulas</h4>" + "".join(f"<p>{html.escape(line)}</p>" for line in formulas))
+        lines += [_drawn(table) for table in tables_of(schema, parameter)]
         lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
         return "".join(lines)
 
@@ -162,6 +176,17 @@ class DetailPanel(QWidget):
             for entry in entries
         ]
         return "".join(lines) or f"<p>No saved change of {html.escape(written(address))} yet.</p>"
+
+
+def _drawn(table: Table) -> str:
+    """Return a printed table as HTML."""
+    head, *rows = [[html.escape(cell) for cell in row] for row in cells_of(table)]
+    lines = ["<tr>" + "".join(f"<th align=left>{cell}</th>" for cell in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
+    title = f"<h4>{html.escape(table.title)} (page {table.page})</h4>"
+    return (
+        f"{title}<table cellpadding=3>{''.join(lines)}</table><p><small>{html.escape(table.note)}</small></p>"
+    )
 
 
 def _link(schema: Schema, parameter_id: str) -> str:

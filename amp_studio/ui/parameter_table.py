@@ -1,30 +1,41 @@
-"""The model of the table in the middle: a row a parameter, a column an axis."""
+"""The model of the table in the middle: a row a parameter, a column an axis.
+
+What has several instances that are no axes (gears, macro calls, processes) has a row for each of them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, cast
+from dataclasses import dataclass
+from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QFont
 
 from amp_studio.files import axis_title, fitted_axes
 from amp_studio.schema import Address, Parameter, UnitError, Value, convert, labelled, show_value, write_value
-from amp_studio.schema.model import ScopeInfo
 
 from .theme import FIGURE_SPACE, severity_colour, state_colour
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
-Column = tuple[str, str]
-"""Scope, or what one instance is called where that is not the scope's own label, and instance.
-
-The column of the whole control is ``("", "")``."""
+CONTROL = ""
+"""The column of what belongs to no axis; every other column is an axis."""
 
 _LONG = 14  # characters that surely fit into a cell
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One row: a parameter with its axes, or one instance of a parameter that belongs to no axis."""
+
+    parameter: Parameter
+    cells: dict[str, Address]
+    """Column -> address."""
+    instance: str = ""
+    """Which instance; empty where the columns tell, and for the only one."""
 
 
 class ParameterTable(QAbstractTableModel):
@@ -33,16 +44,15 @@ class ParameterTable(QAbstractTableModel):
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self.workspace = workspace
-        self.rows: list[Parameter] = []
-        self.columns: list[Column] = []
+        self.rows: list[Row] = []
+        self.columns: list[str] = []
         self.all_axes = False
         self.hidden_too = False
         """Show also what does not exist for this configuration."""
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
-        self._cells: list[list[Address | None]] = []
         self._machine = ""
-        self._layouts: dict[str, list[tuple[Address, Column]]] = {}
+        self._layouts: dict[str, list[Row]] = {}
         self._worst: dict[Address, str] = {}
         self._bold, self._italic, self._both = (
             _font(*kind) for kind in ((True, False), (False, True), (True, True))
@@ -58,53 +68,44 @@ class ParameterTable(QAbstractTableModel):
         self.asked = parameters
         self.columns = self._columns()
         self.rows = self._rows(self.columns)
-        at = {column: n for n, column in enumerate(self.columns)}
-        self._cells = []
-        for parameter in self.rows:
-            cells: list[Address | None] = [None] * len(self.columns)
-            for address, column in self._layout(parameter):
-                if column in at:
-                    cells[at[column]] = address
-            self._cells.append(cells)
         self.endResetModel()
 
     def show_again(self) -> None:
         """Show the same parameters anew, after an option changed."""
         self.show_parameters(self.asked)
 
-    def _layout(self, parameter: Parameter) -> list[tuple[Address, Column]]:
-        """Return the addresses of a parameter with their columns, as this machine type has them."""
+    def _layout(self, parameter: Parameter) -> list[Row]:
+        """Return the rows of a parameter, as this machine type has them."""
         schema, machine = self.workspace.file.schema, self.workspace.file.machine
         if machine != self._machine:
             self._machine, self._layouts = machine, {}
         found = self._layouts.get(parameter.id)
         if found is None:
             layout = schema.layout(parameter, machine)
-            kind = parameter.each or (layout.scope if layout else "")
-            found = [
-                ((parameter.id, i), (kind, i) if i else ("", ""))
-                for i in schema.instances(parameter, machine)
-            ]
+            instances = schema.instances(parameter, machine)
+            if layout and layout.scope == "axis":
+                found = [Row(parameter, {i: (parameter.id, i) for i in instances})]
+            else:
+                found = [Row(parameter, {CONTROL: (parameter.id, i)}, i) for i in instances]
             self._layouts[parameter.id] = found
         return found
 
-    def _columns(self) -> list[Column]:
+    def _columns(self) -> list[str]:
         file = self.workspace.file
-        needed = dict.fromkeys(column for p in self.asked for _, column in self._layout(p))
+        needed = dict.fromkeys(column for p in self.asked for row in self._layout(p) for column in row.cells)
         if not self.all_axes and file.schema.family.axes is not None:
             fitted = set(fitted_axes(file))
-            needed = {c: None for c in needed if c[0] != "axis" or c[1] in fitted}
-        scopes = ["", "axis", *dict.fromkeys(c[0] for c in needed)]
-        return sorted(needed, key=lambda c: scopes.index(c[0]))
+            needed = {c: None for c in needed if c == CONTROL or c in fitted}
+        return sorted(needed, key=lambda column: column != CONTROL)
 
-    def _rows(self, columns: list[Column]) -> list[Parameter]:
+    def _rows(self, columns: list[str]) -> list[Row]:
         """Return the rows that have at least one value that exists for this configuration."""
-        known = [p for p in self.asked if self._layout(p)]
+        known = [row for p in self.asked for row in self._layout(p)]
         if self.hidden_too:
             shown = known
         else:
             here = set(columns)
-            shown = [p for p in known if any(c in here and self._exists(a) for a, c in self._layout(p))]
+            shown = [row for row in known if any(c in here and self._exists(a) for c, a in row.cells.items())]
         self.hidden_rows = len(known) - len(shown)
         return shown
 
@@ -113,13 +114,14 @@ class ParameterTable(QAbstractTableModel):
 
     def address_at(self, row: int, column: int) -> Address | None:
         """Return the address a cell shows; None where the parameter has no such instance."""
-        return self._cells[row][column]
+        return self.rows[row].cells.get(self.columns[column])
 
     def index_of(self, address: Address) -> QModelIndex:
         """Return the cell of an address, invalid when it is not shown."""
-        for row, parameter in enumerate(self.rows):
-            if parameter.id == address[0] and address in self._cells[row]:
-                return self.index(row, self._cells[row].index(address))
+        for n, row in enumerate(self.rows):
+            for column, shown in row.cells.items():
+                if shown == address and column in self.columns:
+                    return self.index(n, self.columns.index(column))
         return QModelIndex()
 
     def first_of(self, row: int) -> QModelIndex:
@@ -175,26 +177,30 @@ class ParameterTable(QAbstractTableModel):
             return self.column_title(self.columns[section])
         return None
 
-    def column_title(self, column: Column) -> str:
-        """Return the head of a column: ``1 X linear``, ``Process 2``, ``Control``."""
-        scope, instance = column
+    def column_title(self, column: str) -> str:
+        """Return the head of a column: ``1 X linear``, ``Control``."""
         file = self.workspace.file
-        if not instance:
+        if column == CONTROL:
             return "Control"
-        if scope == "axis" and file.schema.family.axes is not None:
-            return axis_title(file, instance)
-        scopes = cast(Mapping[str, ScopeInfo], file.schema.family.scopes)
-        return labelled(scopes[scope].label if scope in scopes else scope, instance)
+        if file.schema.family.axes is not None:
+            return axis_title(file, column)
+        return labelled(file.schema.family.scopes["axis"].label, column)
 
     def _row_head(self, row: int, role: int) -> Any:
-        parameter = self.rows[row]
+        parameter, name = self.rows[row].parameter, self.row_name(row)
         if role == Qt.ItemDataRole.DisplayRole:
-            return f"{self.number(row).ljust(5, FIGURE_SPACE)} {parameter.name}"
+            return f"{self.number(row).ljust(5, FIGURE_SPACE)} {name}"
         if role == Qt.ItemDataRole.ToolTipRole:
-            return f"{self.number(row)} {parameter.name}  ({parameter.id})\n{parameter.help.what}"
+            return f"{self.number(row)} {name}  ({parameter.id})\n{parameter.help.what}"
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT
         return None
+
+    def row_name(self, row: int) -> str:
+        """Return the name of a row: that of the parameter, and of the instance where it is one of several."""
+        shown, file = self.rows[row], self.workspace.file
+        place = file.schema.instance_label((shown.parameter.id, shown.instance), file.machine)
+        return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
         """Return the number a row is known by: the one of its first value that exists."""

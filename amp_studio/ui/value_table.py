@@ -14,7 +14,9 @@ from .parameter_table import AddressRole, ParameterTable
 from .value_delegate import ValueDelegate
 
 _NAMES = (256, 330)
-"""Width of the names in a narrow table, and in one that is wider than four times the larger."""
+"""Least width of the names in a narrow table, and in one that is wider than four times the larger."""
+_MARGIN = 24
+"""Left for the scroll bar and the frame."""
 _NARROWEST, _WIDEST = 92, 240
 _CHOICES = (200, 160, 118)
 """Widths that long choices may take, by the room there is."""
@@ -94,7 +96,7 @@ class ValueTable(QTableView):
     def _mend(self, address: Address, text: str) -> None:
         """Open the editor again on a text that was refused."""
         index = self._table.index_of(address)
-        if index.isValid() and not self._table.rows[index.row()].choices:
+        if index.isValid() and not self._table.rows[index.row()].parameter.choices:
             self.setCurrentIndex(index)
             self._delegate.to_mend = (address, text)
             self.edit(index)
@@ -127,7 +129,16 @@ class ValueTable(QTableView):
             widths = [max(figures, min(most, choices)) for figures, choices in wanted]
         for column, width in enumerate(widths):
             self.setColumnWidth(column, width)
+        self._fit_names(sum(widths))
         self._is_fitting = False
+
+    def _fit_names(self, values: int) -> None:
+        """Give the names what they need, as far as the values leave room: the gear stands at their end."""
+        metrics = QFontMetrics(self.verticalHeader().font())
+        heads = (self._table.headerData(row, Qt.Orientation.Vertical) for row in range(len(self._table.rows)))
+        wanted = max((metrics.horizontalAdvance(head) + 16 for head in heads), default=0)
+        least = _NAMES[self.width() > 4 * _NAMES[1]]
+        self.verticalHeader().setFixedWidth(max(least, min(wanted, self.width() - values - _MARGIN)))
 
     def _wanted(self, column: int) -> tuple[int, int]:
         """Return the widths that the figures with the head, and the choices of a column need."""
@@ -136,10 +147,10 @@ class ValueTable(QTableView):
             table.column_title(table.columns[column])
         )
         shown: dict[bool, set[str]] = {False: set(), True: set()}
-        for row, parameter in enumerate(table.rows):
-            address = table.address_at(row, column)
+        for n, row in enumerate(table.rows):
+            address = table.address_at(n, column)
             if address is not None:
-                shown[bool(parameter.choices)].add(table.cell_text(address))
+                shown[bool(row.parameter.choices)].add(table.cell_text(address))
         figures, choices = (max((1.1 * texts.horizontalAdvance(t) + 14 for t in shown[kind]), default=0.0)
                             for kind in (False, True))  # fmt: skip
         return round(max(_NARROWEST, 1.1 * head + 24, min(_WIDEST, figures))), round(
@@ -152,7 +163,6 @@ class ValueTable(QTableView):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        self.verticalHeader().setFixedWidth(_NAMES[self.width() > 4 * _NAMES[1]])
         if event.size().width() != event.oldSize().width():
             self._fit_columns()
 

@@ -16,7 +16,8 @@ def test_families_are_listed_with_their_size(amp) -> None:
     rows = {row["id"]: row for row in said.json["families"]}
     schema = load_schema("9pc")
     assert {"id", "name", "parameters", "values"} <= rows["9pc"].keys()
-    expected = (schema.family.name, len(schema.parameters), len(schema.addresses("mill")))
+    values = max(len(schema.addresses(machine)) for machine in ("mill", "lathe"))
+    expected = (schema.family.name, len(schema.parameters), values)
     assert expected == (rows["9pc"]["name"], rows["9pc"]["parameters"], rows["9pc"]["values"])
 
 
@@ -114,6 +115,33 @@ def test_a_number_of_two_parameters_shows_both(amp) -> None:
     assert said.code == 0
     assert "Teeth on Motor Gear for Velocity Feedback" in said.out
     assert "No of Teeth on Motor Gear" in said.out
+
+
+def test_the_numbers_are_drawn_together_and_those_of_a_gear_are_named(amp) -> None:
+    assert "Number         1750, 2750 … 8750 (Axis 1 to Axis 8)" in amp("show", "9pc", "1750").out
+    said = amp("show", "9pc", "912").out
+    assert "900" not in said.partition("Id ")[0]
+    assert "910, 911 … 917 (Spindle 1, Gear 1 to Spindle 1, Gear 8); 930, 931 … 937" in " ".join(said.split())
+    assert "page 12-8 and 13-8" in said
+
+
+def test_a_number_that_a_mill_and_a_lathe_do_not_share_says_so(amp) -> None:
+    said = amp("show", "9pc", "powerup.plane").out
+    assert "522 on a mill" in said
+    assert "564 on a lathe" in said
+    assert amp("show", "9pc", "564").out == amp("show", "9pc", "522").out == said
+
+
+def test_a_printed_table_stands_on_the_page_of_what_is_looked_up_in_it(amp) -> None:
+    said = amp("show", "9pc", "1801").out
+    assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in said
+    (row,) = [line.split() for line in said.splitlines() if line.strip().startswith("1 : 2  ")]
+    assert row[3:] == ["3000", "6000", "9000", "22500", "26214", "18000", "30000", "10800", "66000"]
+
+
+def test_no_line_of_any_page_is_wider_than_a_terminal(amp) -> None:
+    for parameter in load_schema("9pc").parameters:
+        assert [line for line in amp("show", "9pc", parameter).out.splitlines() if len(line) > 100] == []
 
 
 def test_a_choice_a_rule_and_a_contradiction_are_shown(amp) -> None:

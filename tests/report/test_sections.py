@@ -47,7 +47,8 @@ def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: Paramete
         "Axis 1 X", "Axis 2 Y", "Axis 3 Z", "Axis 4 B", "Axis 5 S", "Non-axis parameters"]  # fmt: skip
     for axis, section in zip("12345", sections[:-1], strict=True):
         assert {r.instance for part in section.parts for r in part.rows} == {axis}
-    assert {r.instance for part in sections[-1].parts for r in part.rows} <= {"", "1", "2"}
+    rest = {(r.id, r.instance) for part in sections[-1].parts for r in part.rows}
+    assert {mill.situation.scope(address) for address in rest} <= {"global", "process", "spindle"}
 
 
 def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: ParameterFile) -> None:

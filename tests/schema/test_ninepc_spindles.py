@@ -64,8 +64,18 @@ def test_a_spindle_that_no_axis_is_does_not_exist(situation) -> None:
     assert state(one, "tapping.max_speed", "2.1") == "hidden"
     second = situation({"axis.type": "linear"}, ANALOG | {"servo.spindle_type": "s2"})
     assert state(second, "spindle.max_speed", "2.1") == "in-force"
-    assert state(second, "spindle.max_speed", "1.1") == "hidden"
+    assert state(second, "spindle.min_speed", "1.1") == "hidden"
     assert state(situation(ANALOG | {"axis.type": "linear"}), "spindle.gear_count", "1") == "hidden"
+
+
+def test_gear_1_of_a_spindle_that_is_unfitted_for_the_dac_monitor_stays(situation) -> None:
+    """Pages A-4 and A-5: 820 and 910, 830 and 930 scale its two outputs."""
+    none = situation({"axis.type": "linear"})
+    for name in ("spindle.voltage_at_max", "spindle.max_speed"):
+        for spindle in ("1", "2"):
+            states = [state(none, name, f"{spindle}.{gear}") for gear in range(1, 9)]
+            assert states == ["ignored"] + ["hidden"] * 7, name
+        assert state(situation(ANALOG), name, "2.1") == "ignored"
 
 
 def test_gears_beyond_the_number_used_are_ignored(situation) -> None:

@@ -36,6 +36,14 @@ def test_facts_rules_and_history(window: MainWindow) -> None:
     assert "studio" in page(window, "History")
 
 
+def test_the_printed_table_of_a_value_stands_below_its_help(window: MainWindow) -> None:
+    window.go_to(("servo.velocity_proportional_gain", "1"))
+    text = window.detail.pages["Help"].toPlainText()
+    assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in text
+    assert "B520E" in text
+    assert "26214" in text
+
+
 def test_a_broken_rule_is_marked(window: MainWindow) -> None:
     loop = ("servo.position_loop_type", "5")
     window.edits.commit(loop, "Closed Loop")

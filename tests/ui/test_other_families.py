@@ -78,10 +78,12 @@ def wide(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
     return window
 
 
-def test_every_axis_has_a_column_and_words_have_theirs(wide: MainWindow) -> None:
+def test_every_axis_has_a_column_and_every_word_a_row(wide: MainWindow) -> None:
     titles = [wide.table.headerData(n, Qt.Orientation.Horizontal) for n in range(wide.table.columnCount())]
-    assert titles == ["Control", *(f"Axis {n}" for n in range(12)), "Word 0", "Word 1", "Word 2"]
+    assert titles == ["Control", *(f"Axis {n}" for n in range(12))]
     assert wide.table.headerData(0, Qt.Orientation.Vertical).startswith("P10N0")
+    names = [wide.table.row_name(n) for n in range(wide.table.rowCount())]
+    assert [name[-8:] for name in names if ", Word" in name] == [", Word 0", ", Word 1", ", Word 2"]
 
 
 def test_texts_and_words_of_bits_are_edited(wide: MainWindow) -> None:

@@ -51,7 +51,7 @@ def test_an_id_and_a_choice_are_found(groups: GroupList) -> None:
 def test_searching_shows_what_is_found_and_clearing_the_group_again(window: MainWindow) -> None:
     window.groups.search.setText("excess error")
     assert window.list_title.text().startswith("<b>Search: excess error</b>")
-    assert window.table.rows[0].id == "servo.excess_error"
+    assert window.table.rows[0].parameter.id == "servo.excess_error"
 
     window.groups.search.setText("marzipan")
     assert window.table.rowCount() == 0
@@ -103,10 +103,10 @@ def test_what_was_changed_from_the_default_is_a_list_that_follows(
     window: MainWindow, workspace: Workspace, qtbot
 ) -> None:
     window.groups.tree.setCurrentItem(window.groups._items[1])
-    rows = {p.id for p in window.table.rows}
+    rows = {row.parameter.id for row in window.table.rows}
     changed = next(a for a in workspace.file.values if a[0] in rows)
     all_of_it = [a for a in workspace.file.values if a[0] == changed[0]]
 
     workspace.edit("default", {a: workspace.file.default(a) for a in all_of_it})
 
-    qtbot.waitUntil(lambda: changed[0] not in {p.id for p in window.table.rows}, timeout=5000)
+    qtbot.waitUntil(lambda: changed[0] not in {row.parameter.id for row in window.table.rows}, timeout=5000)

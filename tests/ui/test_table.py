@@ -39,7 +39,6 @@ def press(window: MainWindow, key: Qt.Key) -> None:
 
 
 def test_a_column_an_axis_and_one_for_the_control(table: ParameterTable) -> None:
-    """Processes have columns of their own: process 1 is not axis 1."""
     titles = [table.headerData(n, Qt.Orientation.Horizontal) for n in range(table.columnCount())]
     assert titles == [
         "Control",
@@ -48,9 +47,16 @@ def test_a_column_an_axis_and_one_for_the_control(table: ParameterTable) -> None
         "3 Z linear",
         "4 B rotary",
         "5 S spindle",
-        "Process 1",
-        "Process 2",
     ]
+
+
+def test_a_row_a_process_a_gear_and_a_macro_call(table: ParameterTable) -> None:
+    """Process 1 is not axis 1, and fifteen macro calls side by side would fit no screen."""
+    rows = {table.number(n): table.row_name(n) for n in range(table.rowCount())}
+    assert rows["20020"] == "Number of Limit 2,3 Groups, Process 1"
+    assert rows["901"].endswith(", Spindle 1, Gear 2")
+    assert rows["742"].endswith(", Macro call 15")
+    assert rows["1300"] == "Home Calibration", "its axes are columns"
 
 
 def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: ParameterFile) -> None:
@@ -67,7 +73,7 @@ def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: P
 def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> None:
     table = window.table
     window.groups.tree.setCurrentItem(window.groups._items[0])
-    assert ("axis", "8") not in table.columns
+    assert "8" not in table.columns
     hidden, rows = table.hidden_rows, table.rowCount()
     assert hidden > 0
     assert f"{hidden} more do not exist" in window.list_title.text()
@@ -75,7 +81,7 @@ def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> 
     window.view.all_axes.trigger()
     window.view.hidden_too.trigger()
 
-    assert ("axis", "8") in table.columns
+    assert "8" in table.columns
     assert table.rowCount() == rows + hidden
     assert "more do not exist" not in window.list_title.text()
 
