@@ -53,6 +53,7 @@ THE_SAME = {
     "9pc.axis.lathe-a-name-incremental": {"lathe_type == 'a' ||", "|| name in"},
     # At position i stands the slave itself, which is left out.
     "9pc.deskew.slave-last": {"j >= i"},
+    "9pc.deskew.slave-last-2": {"j >= i"},
     # Rounding only takes away the last bits of a number that was converted; one digit more or less is the same.
     "9pc.format.travel": {", 7.0)"},
     "9pc.letter.feed-digits": {", 7.0)"},
