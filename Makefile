@@ -27,6 +27,7 @@ check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check
 	@$(BIN)/ruff check
 	@$(BIN)/mypy
+	@$(BIN)/mypy scripts
 	@$(BIN)/lint-imports --no-cache --no-logo
 
 format: setup ## put the code into the one format and mend what ruff can mend
