@@ -37,23 +37,23 @@ def upload_verb(options: argparse.Namespace) -> int:
         raise UsageFault(f"{options.output} exists already: an upload gets a new name")
     file = fetch_file(options.source, progress())
     for address, said in out_of_range(file):
-        _walk(file, address, said, options.on_fault)
+        walk(file, address, said, options.on_fault, "an upload")
     file.header.name = options.output.stem
     Document.create(file, options.output).close()
     print(f"{options.output}: {len(file.values)} values")
     return 0
 
 
-def _walk(file: ParameterFile, address: Address, said: str, on_fault: str) -> None:
-    """Ask what to do with one out-of-range value of an upload: continue, edit, or quit."""
+def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: str) -> None:
+    """Ask what to do with one out-of-range value that came from elsewhere: continue, edit, or quit."""
     if on_fault == "quit" or (on_fault == "ask" and not sys.stdin.isatty()):
         raise UsageFault(
-            f"the upload holds an illegal value, nothing was written: {said} (--on-fault keep takes it)"
+            f"{by} holds an illegal value, nothing was written: {said} (--on-fault keep takes it)"
         )
     while on_fault == "ask":
         answer = input(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
         if answer.startswith("q"):
-            raise UsageFault("upload given up, nothing was written")
+            raise UsageFault("given up, nothing was written")
         if answer.startswith("c"):
             break
         if answer.startswith("e"):
@@ -62,7 +62,7 @@ def _walk(file: ParameterFile, address: Address, said: str, on_fault: str) -> No
                 return
             except (ValueFault, RangeFault) as error:
                 note(str(error))
-    file.forced[address] = f"on {now()} by an upload"
+    file.forced[address] = f"on {now()} by {by}"
 
 
 def verify_verb(options: argparse.Namespace) -> int:

@@ -34,6 +34,10 @@ def parser() -> argparse.ArgumentParser:
     def json_option(sub: argparse.ArgumentParser) -> None:
         sub.add_argument("--json", action="store_true", help="print one JSON document")
 
+    def on_fault(sub: argparse.ArgumentParser) -> None:
+        sub.add_argument("--on-fault", choices=("ask", "keep", "quit"), default="ask",
+                         help="what to do with out-of-range values (default: ask at a terminal, else quit)")  # fmt: skip
+
     sub = verb("families", "facts", "list the control families")
     json_option(sub)
     sub = verb("schema", "facts", "every parameter definition of a family")
@@ -77,6 +81,19 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("-o", "--output", type=Path, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
     sub.add_argument("--changed-only", action="store_true")
+    sub = verb("import", "formats", "a new parameter file from a control's own text format")
+    sub.add_argument("text", type=Path, metavar="FILE")
+    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("--family", help="where the text does not tell it")
+    sub.add_argument("--format", help="where the text does not tell it")
+    sub.add_argument(
+        "--keep-unknown", action="store_true", help="keep what is not understood, to be written back"
+    )
+    on_fault(sub)
+    sub = verb("export", "formats", "a parameter file in a text format; the ending tells which")
+    sub.add_argument("path", type=Path)
+    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("--format", help="where the ending does not tell it")
     sub = verb("emulate", "control", "an emulated control that takes downloads and gives uploads")
     sub.add_argument("family")
     sub.add_argument("--listen", required=True, metavar="ADDRESS")
@@ -101,8 +118,7 @@ def parser() -> argparse.ArgumentParser:
     sub = verb("upload", "control", "fetch the control's file under a new name")
     sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
     sub.add_argument("-o", "--output", type=Path, required=True)
-    sub.add_argument("--on-fault", choices=("ask", "keep", "quit"), default="ask",
-                     help="what to do with out-of-range values (default: ask at a terminal, else quit)")  # fmt: skip
+    on_fault(sub)
     sub = verb("verify", "control", "compare a file with what the control holds")
     sub.add_argument("path", type=Path)
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")

@@ -146,7 +146,7 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
         raise PatchFault(str(error)) from None
     if rest.strip():
         raise PatchFault("patch values are plain numbers")
-    file.values[address] = _patched(file, address, parameter, value)
+    file.values[address] = patched_value(file, address, parameter, value)
     file.situation.forget()
     return encode_image(file)
 
@@ -162,7 +162,8 @@ def _patchable(file: ParameterFile, number: str) -> tuple[Address, Parameter]:
     return address, parameter
 
 
-def _patched(file: ParameterFile, address: Address, parameter: Parameter, value: float) -> Value:
+def patched_value(file: ParameterFile, address: Address, parameter: Parameter, value: float) -> Value:
+    """Return the value that a stored number means: a choice by its code, a number in the unit the control keeps."""
     if parameter.choices:
         return _value(parameter, f"raw:{int(value)}")
     unit = (parameter.storage.unit if parameter.storage else None) or ""

@@ -1,0 +1,48 @@
+"""Verbs that read and write the text formats of controls and their tools."""
+
+from __future__ import annotations
+
+import argparse
+
+from amp_studio.files import Document, open_file
+from amp_studio.schema import written
+from amp_studio.transfer.formats import export_file, import_file
+from amp_studio.transfer.parameters import out_of_range
+
+from .console import UsageFault, note
+from .control import walk
+
+
+def import_verb(options: argparse.Namespace) -> int:
+    """Make a parameter file of a text; nothing is written when a part of it cannot be meant."""
+    if options.output.exists():
+        raise UsageFault(f"{options.output} exists already: an import gets a new name")
+    try:
+        file = import_file(
+            options.text, options.family, format_key=options.format, keep_unknown=options.keep_unknown
+        )
+    except KeyError:
+        raise UsageFault(f"'{options.family}' is no control family") from None
+    except ValueError as error:
+        raise UsageFault(f"{options.text}: {error}") from None
+    for address, said in out_of_range(file):
+        walk(file, address, said, options.on_fault, "an import")
+    for key in file.unknown:
+        note(f"kept without knowing it: {key}")
+    file.header.name = options.output.stem
+    Document.create(file, options.output).close()
+    print(f"{options.output}: {len(file.values)} values")
+    return 0
+
+
+def export_verb(options: argparse.Namespace) -> int:
+    """Write a parameter file in a text format."""
+    file = open_file(options.path).file
+    for key in file.unknown:
+        note(f"{key} is not known to this schema")
+    hidden = [a for a in file.values if file.situation.state(a).state == "hidden"]
+    if hidden:
+        note(f"{len(hidden)} values do not exist for this configuration, {written(hidden[0])} among them")
+    chosen = export_file(file, options.output, options.format)
+    print(f"{options.output}: {chosen.title}, {len(file.values)} values")
+    return 0

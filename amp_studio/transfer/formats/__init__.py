@@ -1,0 +1,123 @@
+"""Text formats: what controls and their tools read and send, as files.
+
+``import_file`` and ``export_file`` find the format by name, by content or by
+the ending of the file; each format is a module of its own.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from amp_studio.files import Header, ParameterFile, SaveFault, write_atomic
+from amp_studio.schema import Schema, Value, load_schema
+
+from . import patch_sheet, values_csv
+from .text_format import FormatFault, TextFormat, TextRead
+
+FORMATS: tuple[TextFormat, ...] = (values_csv.FORMAT, patch_sheet.FORMAT)
+"""In the order in which a text is looked at."""
+
+
+def formats_of(family: str) -> tuple[TextFormat, ...]:
+    """Return the formats a family can be written in, its own first."""
+    found = [f for f in FORMATS if f.families is None or family in f.families]
+    return tuple(sorted(found, key=lambda f: f.families is None))
+
+
+def import_file(
+    path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False
+) -> ParameterFile:
+    """Return the parameters a text file holds, in a file that holds nothing else; values out of range are in it too.
+
+    Without a family, the format or the text has to tell it. Raises FormatFault with line and column, KeyError for a
+    family that does not exist, OSError.
+    """
+    content = path.read_bytes()
+    chosen = _format_for_reading(content, family, format_key)
+    try:
+        text = content.decode(chosen.encoding)
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise FormatFault(f"there is a byte that is no {chosen.encoding} text", line) from None
+    schema = load_schema(family or _only_family(chosen))
+    return file_of(schema, chosen.read(text, schema, keep_unknown), path.stem)
+
+
+def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
+    """Return the parameter file of what a text says; the rest is not set."""
+    applications = schema.family.applications
+    header = Header(
+        name=read.name or name,
+        application=applications[0] if applications else "",
+        machine="" if schema.family.machine_parameter else read.machine or schema.family.default_machine,
+        signature=schema.signature,
+    )
+    file = ParameterFile(schema, header)
+    machine_parameter = schema.family.machine_parameter
+    if machine_parameter and read.machine and (machine_parameter, "") not in read.values:
+        file.set((machine_parameter, ""), Value(read.machine))
+    for address, value in read.values.items():
+        file.set(address, value)
+    file.unknown.update(read.unknown)
+    return file
+
+
+def export_file(file: ParameterFile, path: Path, format_key: str | None = None) -> TextFormat:
+    """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
+
+    Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
+    """
+    chosen = _format_for_writing(file.schema.family.family, path, format_key)
+    content = chosen.write(file).replace("\n", chosen.newline).encode(chosen.encoding)
+    write_atomic(path, content)
+    return chosen
+
+
+def _format_for_reading(content: bytes, family: str | None, format_key: str | None) -> TextFormat:
+    offered = formats_of(family) if family else FORMATS
+    if format_key is not None:
+        return _named(format_key, offered)
+    text = content.decode("latin-1")
+    found = next((f for f in offered if f.recognises(text)), None)
+    if found is None:
+        raise FormatFault(f"this is none of the formats {', '.join(f.key for f in offered)}")
+    return found
+
+
+def _format_for_writing(family: str, path: Path, format_key: str | None) -> TextFormat:
+    offered = formats_of(family)
+    if format_key is not None:
+        return _named(format_key, offered)
+    found = next((f for f in offered if f.ending == path.suffix.lower()), None)
+    if found is None:
+        raise FormatFault(
+            f"'{path.name}': no format is written to such a name; endings are "
+            f"{', '.join(f'{f.ending} ({f.key})' for f in offered)}"
+        )
+    return found
+
+
+def _named(key: str, offered: tuple[TextFormat, ...]) -> TextFormat:
+    for found in offered:
+        if found.key == key:
+            return found
+    raise FormatFault(f"there is no format '{key}' here: {', '.join(f.key for f in offered)}")
+
+
+def _only_family(chosen: TextFormat) -> str:
+    if chosen.families is None or len(chosen.families) != 1:
+        raise FormatFault(f"a {chosen.title} does not tell which family it is for: say it with --family")
+    return chosen.families[0]
+
+
+__all__ = [
+    "FORMATS",
+    "FormatFault",
+    "SaveFault",
+    "TextFormat",
+    "TextRead",
+    "export_file",
+    "file_of",
+    "formats_of",
+    "import_file",
+]

@@ -1,0 +1,83 @@
+"""Values as a table for a spreadsheet: one line a value, RFC 4180, UTF-8 with the mark Excel looks for.
+
+Any table with the columns ``id``, ``value`` and ``unit`` can be read, the CSV of a report too; ``instance`` may be
+missing for values of the control as a whole. Other columns are not looked at.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Schema, Value, ValueFault, read_value, write_value, written
+
+from .text_format import FormatFault, TextFormat, TextRead
+
+_HEADS = ("number", "id", "instance", "name", "value", "unit")
+_MARK = "\ufeff"
+
+
+def _recognises(text: str) -> bool:
+    heads = text.removeprefix(_MARK).removeprefix("ï»¿").partition("\n")[0].strip().casefold().split(",")
+    return {"id", "value"} <= {head.strip('" ') for head in heads}
+
+
+def _write(file: ParameterFile) -> str:
+    stream = io.StringIO(newline="")
+    table = csv.writer(stream, lineterminator="\n")
+    table.writerow(_HEADS)
+    for address in file.addresses():
+        value = file.get(address)
+        if value is not None:
+            parameter = file.schema.parameters[address[0]]
+            number = file.schema.number(address, file.machine) or ""
+            plain = write_value(parameter, Value(value.value))
+            table.writerow((number, *address, parameter.name, plain, value.unit))
+    return _MARK + stream.getvalue()
+
+
+def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+    table = csv.reader(io.StringIO(text.removeprefix(_MARK), newline=""), strict=True)
+    found = TextRead()
+    try:
+        heads = [head.strip().casefold() for head in next(table, [])]
+        for needed in ("id", "value", "unit"):
+            if needed not in heads:
+                raise FormatFault(f"there is no column '{needed}'", 1)
+        for cells in table:
+            if any(cell.strip() for cell in cells):
+                _take(found, schema, heads, cells, table.line_num, keep_unknown)
+    except csv.Error as error:
+        raise FormatFault(f"this is no line of a table: {error}", table.line_num) from None
+    return found
+
+
+def _take(
+    found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
+) -> None:
+    if len(cells) != len(heads):
+        raise FormatFault(f"{len(cells)} cells below {len(heads)} columns", line)
+    row = dict(zip(heads, cells, strict=True))
+    address: Address = (row["id"].strip(), row.get("instance", "").strip())
+    said = f"{row['value']} {row['unit']}".strip()
+    parameter = schema.parameters.get(address[0])
+    offered = (
+        {i for m in schema.family.machines for i in schema.instances(parameter, m.key)} if parameter else ()
+    )
+    if parameter is None or address[1] not in offered:
+        if not keep_unknown:
+            raise FormatFault(f"{schema.family.name} has no {written(address)}", line, heads.index("id") + 1)
+        found.unknown[written(address)] = said
+        return
+    if address in found.values:
+        raise FormatFault(f"{written(address)} stands twice", line, heads.index("id") + 1)
+    if not row["value"].strip():
+        return
+    try:
+        found.values[address] = read_value(parameter, said, row["unit"].strip())
+    except ValueFault as error:
+        raise FormatFault(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
+
+
+FORMAT = TextFormat("csv", "table of values", ".csv", None, _recognises, _read, _write, newline="\r\n")
