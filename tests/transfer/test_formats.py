@@ -103,9 +103,9 @@ def test_a_sheet_that_cannot_be_meant_is_told_with_its_place(tmp_path: Path, lin
 
 
 def test_a_code_that_is_none_is_kept_and_found_by_the_check(tmp_path: Path) -> None:
-    (tmp_path / "odd.patch").write_text("# Patch sheet of X\n# machine mill\n1002\t7\n", "utf-8")
+    (tmp_path / "odd.patch").write_text("# Patch sheet of X\n# machine mill\n402\t7\n", "utf-8")
     file = import_file(tmp_path / "odd.patch")
-    assert file.get(("home.direction_off_switch", "1")) == Value("raw:7")
+    assert file.get(("accdec.positioning_mode", "")) == Value("raw:7")
     assert [f.rule for f in Validator(file).run() if f.severity == "error"] == ["schema.choice"]
 
 
