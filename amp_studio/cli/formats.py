@@ -6,7 +6,7 @@ import argparse
 
 from amp_studio.files import Document, open_file
 from amp_studio.schema import written
-from amp_studio.transfer.formats import export_file, import_file
+from amp_studio.transfer.formats import FamilyUntold, export_file, import_file
 from amp_studio.transfer.parameters import out_of_range
 
 from .console import UsageFault, note
@@ -21,6 +21,8 @@ def import_verb(options: argparse.Namespace) -> int:
         file = import_file(
             options.text, options.family, format_key=options.format, keep_unknown=options.keep_unknown
         )
+    except FamilyUntold as error:
+        raise UsageFault(f"{options.text}: {error} (--family tells it)") from None
     except KeyError:
         raise UsageFault(f"'{options.family}' is no control family") from None
     except ValueError as error:

@@ -16,6 +16,7 @@ from amp_studio.files.lock import EditLock
 from amp_studio.schema import Address, DatabaseFault, read_rules
 from amp_studio.validate import RuleFault, Validator
 
+from .format_actions import FormatActions
 from .questions import ask, tell
 from .task import Progress, ProgressDialog, in_background
 from .workspace import Workspace
@@ -56,6 +57,8 @@ class FileActions:
         menu.addActions(
             [act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")]
         )
+        menu.addSeparator()
+        menu.addActions(FormatActions(window).actions)
         menu.addSeparator()
         menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()

@@ -12,7 +12,7 @@ from amp_studio.files import Header, ParameterFile, SaveFault, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 
 from . import patch_sheet, values_csv
-from .text_format import FormatFault, TextFormat, TextRead
+from .text_format import FamilyUntold, FormatFault, TextFormat, TextRead
 
 FORMATS: tuple[TextFormat, ...] = (values_csv.FORMAT, patch_sheet.FORMAT)
 """In the order in which a text is looked at."""
@@ -106,12 +106,13 @@ def _named(key: str, offered: tuple[TextFormat, ...]) -> TextFormat:
 
 def _only_family(chosen: TextFormat) -> str:
     if chosen.families is None or len(chosen.families) != 1:
-        raise FormatFault(f"a {chosen.title} does not tell which family it is for: say it with --family")
+        raise FamilyUntold(f"a {chosen.title} does not tell which family it is for")
     return chosen.families[0]
 
 
 __all__ = [
     "FORMATS",
+    "FamilyUntold",
     "FormatFault",
     "SaveFault",
     "TextFormat",

@@ -23,6 +23,10 @@ class FormatFault(ValueError):
         super().__init__(f"{place}: {what}" if place else what)
 
 
+class FamilyUntold(FormatFault):
+    """A text of a format that several families share: which one it is for has to be said."""
+
+
 @dataclass
 class TextRead:
     """What a text says."""

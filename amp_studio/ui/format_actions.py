@@ -1,0 +1,126 @@
+"""Import and export: the text formats that controls and their tools read and send."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import QFileDialog, QInputDialog
+
+from amp_studio.files import Document, ParameterFile
+from amp_studio.files.lock import now
+from amp_studio.schema import family_ids, load_schema
+from amp_studio.transfer.formats import (
+    FORMATS,
+    FamilyUntold,
+    FormatFault,
+    export_file,
+    formats_of,
+    import_file,
+)
+from amp_studio.transfer.parameters import out_of_range
+
+from .questions import ask
+from .task import in_background
+
+if TYPE_CHECKING:
+    from .main_window import MainWindow
+
+_SHOWN = 8
+"""So many faults of an import are listed in a question."""
+
+
+class FormatActions:
+    """Makes a parameter file of a text, and a text of the open file."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self.window = window
+        self.actions = [
+            window.action("&Import…", self.read),
+            window.action("&Export…", self.write, None, "file"),
+        ]
+
+    def read(self) -> None:
+        """Ask for a text and for a name, and show the parameter file it makes; a text that cannot be meant makes none."""
+        if not self.window.may_leave():
+            return
+        endings = " ".join(f"*{f.ending}" for f in FORMATS)
+        text, _ = QFileDialog.getOpenFileName(
+            self.window, "Import", "", f"Text formats ({endings});;All files (*)"
+        )
+        if not text:
+            return
+        file = self._understood(Path(text))
+        if file is None or not self._takes_what_is_out_of_range(file):
+            return
+        path = self.window.files.ask_path("Import as", Path(text))
+        if path is not None:
+            file.header.name = path.stem
+            self.window.files.write_new(path, lambda: Document.create(file, path))
+
+    def _understood(self, path: Path) -> ParameterFile | None:
+        """Return what a text holds; asks for the family, and whether to keep what is not understood."""
+        try:
+            file = self._import(path, None, False)
+        except FamilyUntold:
+            family = self._family()
+            if family is None:
+                return None
+        except FormatFault as error:
+            return self._kept(path, None, error)
+        else:
+            return file
+        try:
+            return self._import(path, family, False)
+        except FormatFault as error:
+            return self._kept(path, family, error)
+
+    def _family(self) -> str | None:
+        names = {load_schema(name).family.name: name for name in family_ids()}
+        asked = "Control family:"
+        chosen, taken = QInputDialog.getItem(self.window, "Import", asked, list(names), editable=False)
+        return names[chosen] if taken else None
+
+    def _kept(self, path: Path, family: str | None, error: FormatFault) -> ParameterFile | None:
+        """Return what a text holds with what is not understood kept, if that is wanted; raises where it cannot be."""
+        try:
+            file = self._import(path, family, True)
+        except FormatFault:
+            raise error from None
+        listed = "\n".join(list(file.unknown)[:_SHOWN])
+        question = f"{error}.\n\nKeep what is not understood, to be written back at an export?\n{listed}"
+        wanted = ask(self.window, "Import", question, "&Keep it", "Cancel", default=1)
+        return file if wanted == "&Keep it" else None
+
+    def _import(self, path: Path, family: str | None, keep: bool) -> ParameterFile:
+        return in_background(self.window, "Importing", lambda: import_file(path, family, keep_unknown=keep))
+
+    def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
+        faults = out_of_range(file)
+        if not faults:
+            return True
+        more = f"\nand {len(faults) - _SHOWN} more" if len(faults) > _SHOWN else ""
+        listed = "\n".join(said for _, said in faults[:_SHOWN])
+        count = "One value is" if len(faults) == 1 else f"{len(faults)} values are"
+        question = f"{count} not allowed:\n{listed}{more}\n\nTake them, marked as forced?"
+        if ask(self.window, "Import", question, "&Take them", "Cancel", default=1) != "&Take them":
+            return False
+        file.forced.update({address: f"on {now()} by an import" for address, _ in faults})
+        return True
+
+    def write(self) -> None:
+        """Ask for a name and write the open file in the format of its ending."""
+        workspace = self.window.workspace
+        assert workspace is not None
+        offered = formats_of(workspace.file.schema.family.family)
+        filters = {f"{f.title[:1].upper()}{f.title[1:]} (*{f.ending})": f for f in offered}
+        near = workspace.path.with_suffix(offered[0].ending)
+        text, chosen = QFileDialog.getSaveFileName(self.window, "Export", str(near), ";;".join(filters))
+        if not text:
+            return
+        found = filters.get(chosen)
+        path = Path(text)
+        path = path if path.suffix or found is None else path.with_suffix(found.ending)
+        file, key = workspace.file.copy(), found.key if found else None
+        in_background(self.window, "Exporting", lambda: export_file(file, path, key))
+        self.window.say(f"{path} written")

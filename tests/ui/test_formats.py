@@ -1,0 +1,75 @@
+"""Import and export of the text formats of controls and their tools."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from amp_studio.files import open_file
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+
+from .conftest import Person, action
+
+CALIBRATION = ("home.calibration", "1")
+NINEPC = "Allen-Bradley 9/PC AMP"
+
+
+def test_what_is_exported_can_be_imported_again(window: MainWindow, person: Person, tmp_path: Path) -> None:
+    before = dict(window.workspace.file.values)
+    person.chooses(tmp_path / "mill.csv")
+    action(window, "Export").trigger()
+    assert (tmp_path / "mill.csv").is_file()
+
+    person.chooses(tmp_path / "mill.csv", tmp_path / "again.amp")
+    person.types(NINEPC)
+    action(window, "Import").trigger()
+    assert window.workspace.path == tmp_path / "again.amp"
+    assert window.workspace.file.values == before
+    assert window.workspace.file.header.name == "again"
+
+
+def test_a_text_that_cannot_be_meant_makes_no_file(
+    window: MainWindow, person: Person, tmp_path: Path
+) -> None:
+    shown = window.workspace.path
+    (tmp_path / "bad.patch").write_text("# Patch sheet of X\n# machine mill\n1300\tfast\n", "utf-8")
+    person.chooses(tmp_path / "bad.patch")
+    action(window, "Import").trigger()
+    assert "line 3, column 6: " in person.reads()
+    assert window.workspace.path == shown
+
+
+def test_what_is_not_understood_is_kept_only_where_that_is_wanted(
+    window: MainWindow, person: Person, tmp_path: Path
+) -> None:
+    sheet = tmp_path / "odd.patch"
+    sheet.write_text("# Patch sheet of X\n# machine mill\n1300\t1\tmm\n99999\t5\n", "utf-8")
+    person.chooses(sheet)
+    person.answers("Cancel")
+    action(window, "Import").trigger()
+    assert "line 4, column 1" in person.asked[-1]
+
+    person.chooses(sheet, tmp_path / "odd.amp")
+    person.answers("Keep it")
+    action(window, "Import").trigger()
+    assert open_file(tmp_path / "odd.amp").file.unknown == {"99999": "5"}
+
+
+def test_values_that_are_not_allowed_are_taken_only_where_that_is_wanted(
+    window: MainWindow, person: Person, tmp_path: Path
+) -> None:
+    table = tmp_path / "far.csv"
+    table.write_text("id,instance,value,unit\nhome.calibration,1,9999999,mm\n", "utf-8")
+    person.chooses(table)
+    person.types(NINEPC)
+    person.answers("Cancel")
+    action(window, "Import").trigger()
+    assert "One value is not allowed" in person.asked[-1]
+
+    person.chooses(table, tmp_path / "far.amp")
+    person.types(NINEPC)
+    person.answers("Take them")
+    action(window, "Import").trigger()
+    file = open_file(tmp_path / "far.amp").file
+    assert file.get(CALIBRATION) == Value(9999999.0, "mm")
+    assert file.forced[CALIBRATION].endswith("by an import")
