@@ -8,7 +8,20 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 from .load import Compiled, load_compiled
-from .model import Choice, Erratum, Family, Group, Layout, Numbers, Parameter, Rule, Scope, StateRule, Table
+from .model import (
+    Choice,
+    Erratum,
+    Family,
+    Group,
+    Guide,
+    Layout,
+    Numbers,
+    Parameter,
+    Rule,
+    Scope,
+    StateRule,
+    Table,
+)
 from .units import angular
 
 Address = tuple[str, str]
@@ -31,6 +44,7 @@ class Schema:
     rules: tuple[Rule, ...]
     errata: dict[str, Erratum]
     tables: dict[str, Table]
+    guides: tuple[Guide, ...]
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
 
@@ -283,6 +297,7 @@ def schema_of(compiled: Compiled) -> Schema:
         rules=compiled.rules,
         errata={e.id: e for e in compiled.errata},
         tables={t.id: t for t in compiled.tables},
+        guides=compiled.guides,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},
     )

@@ -20,7 +20,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from .consistency import Place, faults_between
-from .model import Errata, Erratum, Family, Group, Model, Rule, Rules, Table, Tables
+from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
 
 T = TypeVar("T", bound=Model)
 
@@ -41,6 +41,7 @@ class Compiled(Model):
     rules: tuple[Rule, ...]
     errata: tuple[Erratum, ...]
     tables: tuple[Table, ...]
+    guides: tuple[Guide, ...] = ()
 
 
 def database_folder() -> Path:
@@ -83,11 +84,12 @@ def compile_family(folder: Path) -> Compiled:
     rules = tuple(rule for path in _of(family, folder / "rules") for rule in read_rules(path))
     errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
+    guides = tuple(g for path in sorted(folder.glob("guides/*.yaml")) for g in _read(path, Guides).guides)
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
         raise DatabaseFault(path, _line_of(path, fault.place), fault.what)
-    return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables)
+    return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables, guides=guides)
 
 
 def _of(family: Family, folder: Path) -> list[Path]:

@@ -435,6 +435,30 @@ class Tables(Model):
     tables: tuple[Table, ...]
 
 
+class GuideStep(Model):
+    """One step of a guide: what to set, in this order."""
+
+    title: str
+    what: str = ""
+    params: tuple[ParameterId, ...]
+    page: Page
+
+
+class Guide(Model):
+    """A path through the parameters in the order in which a machine is fitted."""
+
+    id: Key
+    title: str
+    page: Page
+    steps: tuple[GuideStep, ...]
+
+
+class Guides(Model):
+    """A file of ``guides/``."""
+
+    guides: tuple[Guide, ...]
+
+
 class Reading(Model):
     """What one place of the manual says."""
 

@@ -59,6 +59,8 @@ class GroupList(QWidget):
         layout.addWidget(self.tree)
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
+        self._steps: dict[str, set[str]] = {}
+        """Key of a step of a guide -> the parameters that are set in it."""
         self._machine, self._texts = workspace.file.machine, _search_texts(workspace)
         self._fill()
         self.tree.currentItemChanged.connect(self._choose_group)
@@ -90,6 +92,13 @@ class GroupList(QWidget):
             for key in keys if len(keys) > 1 else ():
                 self._add(item, sections[key], [key])
             item.setExpanded(True)
+        for guide in schema.guides:
+            keys = [f"{guide.id} {n}" for n in range(1, len(guide.steps) + 1)]
+            self._steps |= {key: set(step.params) for key, step in zip(keys, guide.steps, strict=True)}
+            item = self._add(None, guide.title, keys)
+            for n, (key, step) in enumerate(zip(keys, guide.steps, strict=True), 1):
+                told = f"{step.title}, page {step.page}" + (f": {step.what}" if step.what else "")
+                self._add(item, f"{n}  {step.title}", [key]).setToolTip(0, told)
         header = self.tree.header()
         header.setStretchLastSection(False)
         header.setMinimumSectionSize(8)
@@ -115,13 +124,15 @@ class GroupList(QWidget):
     def update_counts(self) -> None:
         """Show how many errors and warnings each group has."""
         schema = self._workspace.file.schema
-        found = [
-            (f.severity, {schema.group_of[a[0]].key for a in f.addresses}) for f in self._workspace.findings
-        ]
+        found = []
+        for finding in self._workspace.findings:
+            ids = {a[0] for a in finding.addresses}
+            steps = {key for key, params in self._steps.items() if not params.isdisjoint(ids)}
+            found.append((finding.severity, {schema.group_of[name].key for name in ids} | steps))
         for item in self._items:
             keys = set(item.data(0, _KEYS))
             for column, severity in ((1, "error"), (2, "warning")):
-                count = sum(s == severity and not keys.isdisjoint(in_groups) for s, in_groups in found)
+                count = sum(s == severity and not keys.isdisjoint(places) for s, places in found)
                 item.setText(column, str(count) if count else "")
                 item.setForeground(column, severity_ink(severity))
                 item.setToolTip(column, f"{count} {severity}{'' if count == 1 else 's'}" if count else "")
@@ -176,7 +187,15 @@ class GroupList(QWidget):
         if keys == [_FINDINGS]:
             ids = {a[0] for f in self._workspace.findings for a in f.addresses if f.rule != "schema.unset"}
             return [p for p in every if p.id in ids]
+        if keys[0] in self._steps:
+            order = dict.fromkeys(name for key in keys for name in self._ordered(key))
+            return [schema.parameters[name] for name in order]
         return [p for g in schema.groups if g.key in keys for p in g.parameters]
+
+    def _ordered(self, key: str) -> tuple[str, ...]:
+        """Return the parameters of a step in the guide's order."""
+        guide, _, n = key.rpartition(" ")
+        return next(g for g in self._workspace.file.schema.guides if g.id == guide).steps[int(n) - 1].params
 
     def choose_group_of(self, parameter_id: str) -> None:
         """Select the group a parameter stands in."""

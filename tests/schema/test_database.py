@@ -88,6 +88,12 @@ def test_every_related_parameter_exists_and_is_another(schema: Schema) -> None:
     ] == []
 
 
+def test_every_table_and_every_guide_leads_to_parameters_that_exist(schema: Schema) -> None:
+    named = {(table.id, p) for table in schema.tables.values() for p in table.params}
+    named |= {(guide.id, p) for guide in schema.guides for step in guide.steps for p in step.params}
+    assert [(where, name) for where, name in sorted(named) if name not in schema.parameters] == []
+
+
 def test_every_erratum_that_is_cited_exists_and_every_erratum_is_cited(schema: Schema) -> None:
     cited = {(p.id, erratum) for p in schema.parameters.values() for erratum in p.errata}
     assert [(name, erratum) for name, erratum in sorted(cited) if erratum not in schema.errata] == []

@@ -64,6 +64,17 @@ parameters:
 """
 
 
+GUIDE = """
+guides:
+  - id: start
+    title: Order of integration
+    page: "3-1"
+    steps:
+      - {title: The words, what: Set the words first., params: [word.mode], page: "3-1"}
+      - {title: The axes, params: [axis.position, word.mode], page: "3-2"}
+"""
+
+
 @pytest.fixture
 def wide(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
     """Return a window with a file of the wide family."""
@@ -71,6 +82,8 @@ def wide(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
     (folder / "groups").mkdir(parents=True)
     (folder / "family.yaml").write_text(FAMILY)
     (folder / "groups" / "all.yaml").write_text(GROUP)
+    (folder / "guides").mkdir()
+    (folder / "guides" / "start.yaml").write_text(GUIDE)
     file = ParameterFile(schema_of(compile_family(folder)), Header(name="wide", machine="small"))
     file.values[("axis.position", "11")] = Value(1.5, "mm")
     window = open_window()
@@ -84,6 +97,17 @@ def test_every_axis_has_a_column_and_every_word_a_row(wide: MainWindow) -> None:
     assert wide.table.headerData(0, Qt.Orientation.Vertical).startswith("P10N0")
     names = [wide.table.row_name(n) for n in range(wide.table.rowCount())]
     assert [name[-8:] for name in names if ", Word" in name] == [", Word 0", ", Word 1", ", Word 2"]
+
+
+def test_a_guide_leads_through_the_parameters_in_its_own_order(wide: MainWindow) -> None:
+    guide = wide.groups.tree.findItems("Order of integration", Qt.MatchFlag.MatchExactly)[0]
+    steps = [guide.child(n) for n in range(guide.childCount())]
+    assert [step.text(0) for step in steps] == ["1  The words", "2  The axes"]
+    wide.groups.tree.setCurrentItem(steps[1])
+    assert [row.parameter.id for row in wide.table.rows] == ["axis.position", *["word.mode"] * 3]
+    wide.groups.tree.setCurrentItem(guide)
+    assert [row.parameter.id for row in wide.table.rows][:3] == ["word.mode"] * 3
+    assert "Set the words first." in steps[0].toolTip(0)
 
 
 def test_texts_and_words_of_bits_are_edited(wide: MainWindow) -> None:
