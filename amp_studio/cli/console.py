@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from amp_studio.schema import Schema, family_ids, load_schema
@@ -51,3 +51,14 @@ def progress() -> Callable[[str, int, int], None]:
                 print(f"{stage} 100 %", file=sys.stderr, flush=True)
 
     return show
+
+
+def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:
+    """Part ``PARAM=VALUE`` texts; raises UsageFault."""
+    pairs = []
+    for text in texts:
+        param, sign, value = text.partition("=")
+        if not sign or not param.strip():
+            raise UsageFault(f"'{text}' is not PARAM=VALUE")
+        pairs.append((param.strip(), value.strip()))
+    return pairs

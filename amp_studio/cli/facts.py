@@ -6,8 +6,9 @@ import argparse
 
 from amp_studio.report import definition, one_line, page_of
 from amp_studio.schema import family_ids
+from amp_studio.validate import calculate, calculators, shown_result
 
-from .console import UsageFault, family, print_json
+from .console import UsageFault, assignments, family, print_json
 
 
 def families_verb(options: argparse.Namespace) -> int:
@@ -53,4 +54,25 @@ def show_verb(options: argparse.Namespace) -> int:
     """Print one parameter as a person reads it."""
     schema = family(options.family)
     print(page_of(schema, options.param, options.machine))
+    return 0
+
+
+def calculate_verb(options: argparse.Namespace) -> int:
+    """List the formulas of a family, tell one, or work it out."""
+    known = calculators(family(options.family).family.family)
+    if options.formula is None:
+        for calculator in known.values():
+            print(f"{calculator.name}: {calculator.told.splitlines()[0]}")
+        return 0
+    if options.formula not in known:
+        raise UsageFault(f"there is no formula '{options.formula}'; without one they are all listed")
+    calculator = known[options.formula]
+    if not options.arguments:
+        print(calculator.told)
+        for argument in calculator.arguments:
+            default = f" (else {argument.default})" if argument.default is not None else ""
+            print(f"  {argument.name}=…{f' {argument.example}' if argument.example else ''}{default}")
+        return 0
+    texts = dict(assignments(options.arguments))
+    print(shown_result(calculate(options.family, options.formula, texts)))
     return 0

@@ -20,7 +20,7 @@ from amp_studio.files import (
 from amp_studio.files.lock import now
 from amp_studio.schema import Address, Value, field_at, field_value, show_value, with_field, write_value
 
-from .console import UsageFault, family, note, print_json, progress
+from .console import UsageFault, assignments, family, note, print_json, progress
 
 
 def new_verb(options: argparse.Namespace) -> int:
@@ -31,17 +31,6 @@ def new_verb(options: argparse.Namespace) -> int:
     Document.create(file, options.path).close()
     print(f"{options.path}: {schema.family.name}, {file.machine}, {len(file.values)} values")
     return 0
-
-
-def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:
-    """Part ``PARAM=VALUE`` texts; raises UsageFault."""
-    pairs = []
-    for text in texts:
-        param, sign, value = text.partition("=")
-        if not sign or not param.strip():
-            raise UsageFault(f"'{text}' is not PARAM=VALUE")
-        pairs.append((param.strip(), value.strip()))
-    return pairs
 
 
 def set_verb(options: argparse.Namespace) -> int:

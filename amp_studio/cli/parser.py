@@ -50,6 +50,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--machine", help="machine type, where a number means another parameter on another machine"
     )
+    sub = verb("calculate", "facts", "work out a published formula of a family; without one, list them")
+    sub.add_argument("family")
+    sub.add_argument("formula", nargs="?")
+    sub.add_argument("arguments", nargs="*", metavar="NAME=VALUE")
     sub = verb("new", "files", "a new parameter file with the family's defaults")
     sub.add_argument("family")
     sub.add_argument("path", type=Path)

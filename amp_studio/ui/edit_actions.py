@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMessageBox, QStyle
 from amp_studio.files import RangeFault, axis_type, describe, fitted_axes
 from amp_studio.files.lock import now
 from amp_studio.schema import Address, Value, ValueFault
-from amp_studio.validate import Finding
+from amp_studio.validate import Finding, calculators
 
 from .questions import ask, tell
 from .workspace import Workspace
@@ -35,6 +35,7 @@ class EditActions:
         unset = act("U&nset", self.unset, keys.Delete, "edit")
         every = act("Copy to All A&xes of the Type", self.to_all_axes, "Ctrl+Shift+A", "axes")
         quick = act("&Quick Edit by Number…", self.quick_edit, "F4", "edit")
+        calculator = act("Ca&lculator…", self.calculator, "F3", "file")
         find = act("&Find Parameter", self._find, keys.Find, "file")
         repair = act("Repa&ir Selected Finding", self._repair, "F8", "edit")
         safe = act("Repair All &Safe Findings", self.repair_safe, "Shift+F8", "edit")
@@ -42,7 +43,7 @@ class EditActions:
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
         self.of_a_cell: list[QAction] = [edit, copy, paste, default, unset, every]
         menu = window.menuBar().addMenu("&Edit")
-        for actions in ((self.undo, self.redo), self.of_a_cell, (quick, find), (repair, safe)):
+        for actions in ((self.undo, self.redo), self.of_a_cell, (quick, calculator, find), (repair, safe)):
             menu.addActions(list(actions))
             menu.addSeparator()
 
@@ -145,6 +146,15 @@ class EditActions:
 
         assert self.window.table is not None
         QuickEdit(self.window.table, self.commit, self.window.go_to, self.window).show()
+
+    def calculator(self) -> None:
+        """Open the calculators, with the formulas of the selected parameter first."""
+        from .calculator_dialog import CalculatorDialog
+
+        workspace = self._workspace()
+        if not calculators(workspace.file.schema.family.family):
+            raise ValueError(f"No formulas are published for {workspace.file.schema.family.name}.")
+        CalculatorDialog(workspace, self.window.selected(), self.commit, self.window).show()
 
     def _find(self) -> None:
         self.window.show_panel("Groups")

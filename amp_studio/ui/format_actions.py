@@ -37,7 +37,7 @@ class FormatActions:
         self.window = window
         self.actions = [
             window.action("&Import…", self.read),
-            window.action("&Export…", self.write, None, "file"),
+            window.action("Ex&port…", self.write, None, "file"),
         ]
 
     def read(self) -> None:

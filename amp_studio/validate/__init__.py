@@ -1,8 +1,21 @@
 """Findings: range, choice, state and cross-parameter rules, each with its page and its repair."""
 
+from .calculators import Argument, Calculator, calculate, calculators, shown_result
 from .expressions import RuleFault
 from .finding import SEVERITIES, Finding, Repair
 from .formulas import formulas
 from .validator import Validator
 
-__all__ = ["SEVERITIES", "Finding", "Repair", "RuleFault", "Validator", "formulas"]
+__all__ = [
+    "SEVERITIES",
+    "Argument",
+    "Calculator",
+    "Finding",
+    "Repair",
+    "RuleFault",
+    "Validator",
+    "calculate",
+    "calculators",
+    "formulas",
+    "shown_result",
+]

@@ -1,0 +1,83 @@
+"""The published formulas as calculators; a result that is a number can become the value of a parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QDialog, QFormLayout, QLabel, QLineEdit, QPushButton, QWidget
+
+from amp_studio.schema import Address, shown
+from amp_studio.validate import calculate, calculators, shown_result
+
+from .workspace import Workspace
+
+
+class CalculatorDialog(QDialog):
+    """Works a formula out while its arguments are typed."""
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        address: Address | None,
+        commit: Callable[[Address, str], bool],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle("Calculator")
+        self.setMinimumWidth(520)
+        self._workspace, self._address, self._commit = workspace, address, commit
+        self._family = workspace.file.schema.family.family
+        self._known = calculators(self._family)
+        own = workspace.file.schema.parameters[address[0]].formulas if address else ()
+        self.formula = QComboBox()
+        self.formula.addItems([*own, *(name for name in sorted(self._known) if name not in own)])
+        self.told, self.outcome = QLabel(), QLabel()
+        for label in (self.told, self.outcome):
+            label.setWordWrap(True)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.use = QPushButton()
+        self.use.clicked.connect(self._use)
+        self.fields: dict[str, QLineEdit] = {}
+        self._form = QFormLayout(self)
+        self._form.addRow("&Formula", self.formula)
+        self._form.addRow(self.told)
+        self._form.addRow("Result", self.outcome)
+        self._form.addRow(self.use)
+        self.formula.currentTextChanged.connect(self._choose)
+        workspace.closed.connect(self.close)
+        self._choose()
+
+    def _choose(self, *_: object) -> None:
+        for field in self.fields.values():
+            self._form.removeRow(field)
+        self.fields.clear()
+        calculator = self._known[self.formula.currentText()]
+        self.told.setText(calculator.told)
+        for n, argument in enumerate(calculator.arguments):
+            field = self.fields[argument.name] = QLineEdit()
+            field.setPlaceholderText(argument.default or argument.example)
+            field.textChanged.connect(self._work_out)
+            self._form.insertRow(2 + n, argument.name.replace("_", " "), field)
+        self._work_out()
+
+    def _work_out(self, *_: object) -> None:
+        texts = {name: field.text() for name, field in self.fields.items()}
+        self.use.setEnabled(False)
+        self.use.setText("Use the result as a value")
+        try:
+            result = calculate(self._family, self.formula.currentText(), texts)
+        except ValueError as error:
+            self.outcome.setText(f"{error}.".replace("..", "."))
+            return
+        self.outcome.setText(shown_result(result))
+        if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
+            label = self._workspace.file.schema.label(self._address, self._workspace.file.machine)
+            unit = shown(self._workspace.typed_unit(self._address))
+            self.use.setText(f"Use the result as the value of {label}{f', in {unit}' if unit else ''}")
+            self.use.setEnabled(self._workspace.may_edit)
+
+    def _use(self) -> None:
+        if self._address and self._commit(self._address, self.outcome.text()):
+            self.close()

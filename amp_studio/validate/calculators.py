@@ -1,0 +1,117 @@
+"""The published formulas as calculators: what they ask for, read as a person writes it, and what comes out."""
+
+from __future__ import annotations
+
+import inspect
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, get_type_hints
+
+from pydantic import TypeAdapter, ValidationError
+
+from amp_studio.schema import ValueFault, read_number, write_number
+
+from .formulas import formulas
+
+_YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One thing a calculator asks for."""
+
+    name: str
+    kind: Any
+    """Its type, as the formula declares it."""
+    default: str | None
+    """What counts where nothing is given; None where it has to be."""
+
+    @property
+    def example(self) -> str:
+        """How it is written, where it is more than a number."""
+        if self.kind is bool:
+            return "yes or no"
+        if self.kind in (float, int):
+            return ""
+        return "text" if self.kind is str else "numbers with commas, pairs in [ ]"
+
+
+@dataclass(frozen=True)
+class Calculator:
+    """One formula: its name, what it says of itself, and its arguments."""
+
+    name: str
+    told: str
+    arguments: tuple[Argument, ...]
+
+
+@cache
+def calculators(family: str) -> dict[str, Calculator]:
+    """Return name -> calculator of every published formula of a family."""
+    return {name: _calculator(name, function) for name, function in formulas(family).items()}
+
+
+def _calculator(name: str, function: Any) -> Calculator:
+    hints = get_type_hints(function)
+    arguments = []
+    for parameter in inspect.signature(function).parameters.values():
+        required = parameter.default is inspect.Parameter.empty
+        default = None if required else shown_result(parameter.default)
+        arguments.append(Argument(parameter.name, hints[parameter.name], default))
+    return Calculator(name, inspect.getdoc(function) or "", tuple(arguments))
+
+
+def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
+    """Return what a formula gives for arguments as a person writes them.
+
+    Raises ValueError with one sentence: an unknown formula or argument, one that is missing, a text that is none, or
+    an argument that makes no sense to the formula.
+    """
+    calculator = calculators(family).get(name)
+    if calculator is None:
+        raise ValueError(f"there is no formula '{name}'")
+    unknown = set(texts) - {argument.name for argument in calculator.arguments}
+    if unknown:
+        raise ValueError(f"{name} has no '{min(unknown)}'")
+    values = {}
+    for argument in calculator.arguments:
+        text = texts.get(argument.name, "").strip()
+        if text:
+            values[argument.name] = _read(argument, text)
+        elif argument.default is None:
+            raise ValueError(f"{name} needs {argument.name}")
+    return formulas(family)[name](**values)
+
+
+def _read(argument: Argument, text: str) -> Any:
+    if argument.kind is str:
+        return text
+    try:
+        if argument.kind is bool:
+            return _YES_NO[text.casefold()]
+        if argument.kind in (float, int):
+            number, rest = read_number(text)
+            if rest.strip():
+                raise ValueFault(f"'{text}' is no plain number")
+            return TypeAdapter(argument.kind).validate_python(number)
+        several = getattr(argument.kind, "__args__", ())
+        plain = text if several and str in several else f"[{text}]"
+        return TypeAdapter(argument.kind).validate_python(json.loads(plain) if plain[:1] == "[" else text)
+    except (ValueFault, ValidationError, KeyError, json.JSONDecodeError):
+        told = f" ({argument.example})" if argument.example else ""
+        raise ValueError(f"'{text}' is no {argument.name}{told}") from None
+
+
+def shown_result(result: Any) -> str:
+    """Return what comes out of a formula as a person reads it."""
+    if result is None:
+        return "none"
+    if isinstance(result, bool):
+        return "yes" if result else "no"
+    if isinstance(result, (int, float)):
+        return write_number(float(f"{result:.9g}") if isinstance(result, float) else result)
+    if isinstance(result, (tuple, list)):
+        return ", ".join(shown_result(part) for part in result)
+    return str(result)

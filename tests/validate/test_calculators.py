@@ -1,0 +1,57 @@
+"""The published formulas as calculators, with arguments as a person writes them."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.cli import run
+from amp_studio.validate import calculate, calculators, formulas, shown_result
+
+
+@pytest.mark.parametrize(
+    ("name", "texts", "expected"),
+    [
+        ("gain_break_point", {"max_contouring": "5000", "gain": "1"}, "5"),
+        ("gain_break_point", {"max_contouring": "5000", "gain": "0,5"}, "10"),  # a decimal comma
+        ("synchronized_speed", {"requested": "1500", "controlling": "1000, 3000", "follower": "1800,3200"}, "1800"),
+        ("synchronized_speed", {"requested": "1500", "controlling": "1000, 3000", "follower": "100,300"}, "none"),
+        ("inside_zone", {"position": "5, 5", "limits": "[0, 10], [0, 10]"}, "yes"),
+        ("sercos_cycles", {"scan_ms": "6"}, "1, 2, 3, 6"),
+    ],
+)  # fmt: skip
+def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str) -> None:
+    """Pages 7-22, 14-2, 6-4 and 7-4."""
+    assert shown_result(calculate("9pc", name, texts)) == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "texts", "said"),
+    [
+        ("nonsense", {}, "there is no formula 'nonsense'"),
+        ("gain_break_point", {"gain": "1"}, "needs max_contouring"),
+        ("gain_break_point", {"max_contouring": "x", "gain": "1"}, "'x' is no max_contouring"),
+        ("gain_break_point", {"max_contouring": "1 mm", "gain": "1"}, "'1 mm' is no max_contouring"),
+        ("gain_break_point", {"max_contouring": "1", "gain": "1", "speed": "2"}, "has no 'speed'"),
+        ("gain_break_point", {"max_contouring": "1", "gain": "0"}, "greater than zero"),
+        ("inside_zone", {"position": "5, 5", "limits": "0, 10"}, r"'0, 10' is no limits"),
+    ],
+)
+def test_what_cannot_be_meant_is_told_in_one_sentence(name: str, texts: dict[str, str], said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        calculate("9pc", name, texts)
+
+
+def test_every_formula_tells_itself_and_its_arguments() -> None:
+    known = calculators("9pc")
+    assert known.keys() == formulas("9pc").keys()
+    assert [name for name, calculator in known.items() if not calculator.told.strip()] == []
+
+
+def test_the_verb_lists_tells_and_works_out(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["calculate", "9pc"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == len(formulas("9pc"))
+    assert run(["calculate", "9pc", "gain_break_point"]) == 0
+    assert "  gain=…" in capsys.readouterr().out
+    assert run(["calculate", "9pc", "gain_break_point", "max_contouring=5000", "gain=1"]) == 0
+    assert capsys.readouterr().out == "5\n"
+    assert run(["calculate", "9pc", "gain_break_poin", "gain=1"]) == 2
