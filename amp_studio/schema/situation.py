@@ -10,7 +10,7 @@ import contextlib
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 from .catalog import Address, Schema, UnknownParameter, part_of, read_address, whole_of
@@ -64,7 +64,6 @@ class Situation:
         self._states_alike: dict[tuple[int, str, str | None], StateInfo] = {}
         """The state of all parameters of an instance that have the same state rules."""
         self._readers: dict[Address, set[_Asked]] = {}
-        self._readings: dict[_Asked, Reading] = {}
 
     @property
     def machine(self) -> str:
@@ -90,10 +89,11 @@ class Situation:
 
         With the ``scope`` of the instance, axis 1 is not taken for process 1; without it equal names are enough.
         """
+        readings = _readings(self.schema, self.machine)
         key = (text, instance, scope)
-        found = self._readings.get(key)
+        found = readings.get(key)
         if found is None:
-            found = self._readings[key] = self._resolve(text, instance, scope)
+            found = readings[key] = self._resolve(text, instance, scope)
         return found
 
     def _resolve(self, text: str, instance: str, scope: str | None) -> Reading:
@@ -129,7 +129,11 @@ class Situation:
 
     def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
         """Tell whether a named condition holds for an instance (of a ``scope``); one over an unset value does not."""
-        key = (name, instance, scope)
+        key = (
+            (name, "", None)
+            if name in _same_everywhere(self.schema, self.machine)
+            else (name, instance, scope)
+        )
         found = self._holds.get(key)
         if found is None:
             found = self._holds[key] = self._evaluate(key)
@@ -280,9 +284,9 @@ class Situation:
                 self._states.pop(dependent, None)
 
     def _dependents(self, name: str, instance: str) -> Iterable[Address]:
-        return [
-            a for a in self._states if a[1] == instance and name in _state_names(self.schema.parameters[a[0]])
-        ]
+        everywhere = name in _same_everywhere(self.schema, self.machine)
+        names = _state_names(self.schema)
+        return [a for a in self._states if (everywhere or a[1] == instance) and name in names[a[0]]]
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""
@@ -292,7 +296,6 @@ class Situation:
             self._states,
             self._states_alike,
             self._readers,
-            self._readings,
         ):
             memory.clear()
 
@@ -307,8 +310,30 @@ def _offered(instances: tuple[str, ...]) -> str:
     return f"has {span}" + (", and one without '@'" if "" in instances else "")
 
 
-def _state_names(parameter: Parameter) -> set[str]:
-    return {r.when or r.unless or "" for r in parameter.states}
+@lru_cache(maxsize=32)
+def _readings(schema: Schema, machine: str) -> dict[_Asked, Reading]:  # noqa: ARG001  # they are the key
+    """Return the entries of ``reads`` that have been resolved; they depend on no value."""
+    return {}
+
+
+@lru_cache(maxsize=32)
+def _same_everywhere(schema: Schema, machine: str) -> frozenset[str]:
+    """Return the conditions that hold for every instance or for none: they read what belongs to the control."""
+    return frozenset(name for name, c in schema.family.conditions.items() if _is_same(schema, machine, c))
+
+
+def _is_same(schema: Schema, machine: str, condition: Condition) -> bool:
+    for parameter_id, which in map(read_address, condition.reads.values()):
+        alone = schema.instances(schema.parameters[parameter_id], machine) == ("",)
+        if which in ("<", ">", ".") or (which == "" and not alone):
+            return False
+    return not {"instance", "part"} & set(program(condition.when).variables())
+
+
+@lru_cache(maxsize=32)
+def _state_names(schema: Schema) -> dict[str, frozenset[str]]:
+    """Return parameter id -> the conditions its state depends on."""
+    return {p.id: frozenset(r.when or r.unless or "" for r in p.states) for p in schema.parameters.values()}
 
 
 def same_value(a: Value | None, b: Value | None) -> bool:
