@@ -82,7 +82,7 @@ def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
     lines = []
     for name in parameter.formulas:
         function = formulas(schema.family.family)[name]
-        told = (inspect.getdoc(function) or "").partition("\n")[0]
+        told = (inspect.getdoc(function) or "").partition("\n")[0].replace("``", "")
         lines.append(f"{name}({', '.join(inspect.signature(function).parameters)}): {told}")
     return lines
 

@@ -214,11 +214,13 @@ class ParameterTable(QAbstractTableModel):
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
-        """Return the number a row is known by: the one of its first value that exists."""
+        """Return the number a row is known by: the one of its first value that exists, if it is its own."""
         schema, machine = self.workspace.file.schema, self.workspace.file.machine
         first = self.first_of(row)
         address = self.address_at(row, first.column()) if first.isValid() else None
-        return (schema.number(address, machine) if address else None) or "–"
+        if address is None or schema.is_disputed(address[0], machine):
+            return "–"
+        return schema.number(address, machine) or "–"
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if not index.isValid():

@@ -60,7 +60,7 @@ def _calculator(name: str, function: Any) -> Calculator:
         required = parameter.default is inspect.Parameter.empty
         default = None if required else shown_result(parameter.default)
         arguments.append(Argument(parameter.name, hints[parameter.name], default))
-    return Calculator(name, inspect.getdoc(function) or "", tuple(arguments))
+    return Calculator(name, (inspect.getdoc(function) or "").replace("``", ""), tuple(arguments))
 
 
 def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:

@@ -57,6 +57,7 @@ def test_a_row_a_process_a_gear_and_a_macro_call(table: ParameterTable) -> None:
     assert rows["901"].endswith(", Spindle 1, Gear 2")
     assert rows["742"].endswith(", Macro call 15")
     assert rows["1300"] == "Home Calibration", "its axes are columns"
+    assert rows["1020"] == "Software Overtravel Used", "page 7-46 prints it for another parameter by mistake"
 
 
 def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: ParameterFile) -> None:
