@@ -51,6 +51,9 @@ class ParameterTable(QAbstractTableModel):
         """Show also what does not exist for this configuration."""
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
+        family = workspace.file.schema.family
+        every = workspace.file.schema.parameters.values()
+        self._commands = any((p.effect or family.effect).level == "command" for p in every)
         self._heads: dict[int, str] = {}
         """Row -> its head, as it was made for the rows that are shown."""
         self._machine = ""
@@ -115,8 +118,20 @@ class ParameterTable(QAbstractTableModel):
     def _exists(self, address: Address) -> bool:
         return self.workspace.file.situation.state(address).state != "hidden"
 
+    @property
+    def tells_commands(self) -> bool:
+        """Whether a last column tells which command makes the control read a value."""
+        return bool(self.columns) and self._commands
+
+    def command(self, row: int) -> str:
+        """Return the command that makes the control read the values of a row."""
+        effect = self.rows[row].parameter.effect or self.workspace.file.schema.family.effect
+        return effect.command or "" if effect.level == "command" else ""
+
     def address_at(self, row: int, column: int) -> Address | None:
         """Return the address a cell shows; None where the parameter has no such instance."""
+        if column >= len(self.columns):
+            return None
         return self.rows[row].cells.get(self.columns[column])
 
     def index_of(self, address: Address) -> QModelIndex:
@@ -169,7 +184,7 @@ class ParameterTable(QAbstractTableModel):
         return 0 if parent.isValid() else len(self.rows)
 
     def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
-        return 0 if parent.isValid() else len(self.columns)
+        return 0 if parent.isValid() else len(self.columns) + self.tells_commands
 
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
@@ -177,7 +192,7 @@ class ParameterTable(QAbstractTableModel):
         if orientation == Qt.Orientation.Vertical:
             return self._row_head(section, role)
         if role == Qt.ItemDataRole.DisplayRole:
-            return self.column_title(self.columns[section])
+            return self.column_title(self.columns[section]) if section < len(self.columns) else "Read by"
         return None
 
     def column_title(self, column: str) -> str:
@@ -225,6 +240,8 @@ class ParameterTable(QAbstractTableModel):
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if not index.isValid():
             return None
+        if index.column() == len(self.columns):
+            return self.command(index.row()) if role == Qt.ItemDataRole.DisplayRole else None
         address = self.address_at(index.row(), index.column())
         return None if address is None else self._cell(address, role)
 

@@ -130,6 +130,9 @@ class ValueTable(QTableView):
             if sum(widths) <= self.viewport().width():
                 break
             widths = [max(figures, min(most, choices)) for figures, choices in wanted]
+        if self._table.tells_commands:
+            texts = map(self._table.command, range(len(self._table.rows)))
+            widths.append(round(max(_NARROWEST, _widest(QFontMetrics(self.font()), texts) + 16)))
         for column, width in enumerate(widths):
             self.setColumnWidth(column, width)
         self._fit_names(sum(widths))
