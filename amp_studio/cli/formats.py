@@ -19,7 +19,11 @@ def import_verb(options: argparse.Namespace) -> int:
         raise UsageFault(f"{options.output} exists already: an import gets a new name")
     try:
         file = import_file(
-            options.text, options.family, format_key=options.format, keep_unknown=options.keep_unknown
+            options.text,
+            options.family,
+            format_key=options.format,
+            keep_unknown=options.keep_unknown,
+            tell=note,
         )
     except FamilyUntold as error:
         raise UsageFault(f"{options.text}: {error} (--family tells it)") from None

@@ -24,10 +24,10 @@ def axis_instances(file: ParameterFile) -> tuple[str, ...]:
 
 
 def axis_type(file: ParameterFile, axis: str) -> str:
-    """Return the type key of an axis; the unfitted one when it is not set."""
+    """Return the type key of an axis; when it is not set the unfitted one, or the usual one where there is none."""
     profile = _profile(file)
     value = file.get((profile.type, axis))
-    return str(value.value) if value else profile.unfitted
+    return str(value.value) if value else profile.unfitted or profile.usual_type
 
 
 def axis_title(file: ParameterFile, axis: str) -> str:
@@ -36,15 +36,19 @@ def axis_title(file: ParameterFile, axis: str) -> str:
     name = file.get((profile.name, axis))
     parameter = file.schema.parameters[profile.name]
     labels = {c.key: c.label for c in parameter.choices or ()}
-    return f"{axis} {labels.get(str(name.value), '?') if name else '–'} {axis_type(file, axis)}"
+    own = str(name.value) if name else "–"
+    return f"{axis} {labels.get(own, '?') if name and labels else own} {axis_type(file, axis)}"
 
 
 def fitted_axes(file: ParameterFile) -> tuple[str, ...]:
     """Return the axes that are not unfitted."""
-    if file.schema.family.axes is None:
+    profile = file.schema.family.axes
+    if profile is None:
         return ()
-    unfitted = file.schema.family.axes.unfitted
-    return tuple(a for a in axis_instances(file) if axis_type(file, a) != unfitted)
+    if profile.fitted_by:
+        switches = {a: file.get((profile.fitted_by, a)) for a in axis_instances(file)}
+        return tuple(a for a, switch in switches.items() if switch is None or switch.value != 0)
+    return tuple(a for a in axis_instances(file) if axis_type(file, a) != profile.unfitted)
 
 
 def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
@@ -66,7 +70,7 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
             raise AxisFault(str(error)) from None
         wanted[(profile.type, axis)] = Value(profile.types.get(name.upper(), profile.usual_type))
     for axis in instances[len(names) :]:
-        wanted[(profile.type, axis)] = Value(profile.unfitted)
+        wanted.update(_unfitted(profile, axis))
     return file.set_many(wanted)
 
 
@@ -109,7 +113,7 @@ def refitted(unit: str, turns: bool, metric: str) -> str:
 
 
 def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
-    """Copy every per-axis value of one axis to another of the same type, except its name.
+    """Copy every per-axis value of one axis to another of the same type, except its name and what it is fitted by.
 
     Raises AxisFault when the types differ or an axis does not exist.
     """
@@ -126,7 +130,8 @@ def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
         )
     changes = []
     for parameter_id, instance in file.addresses():
-        if instance == target and parameter_id != profile.name and _is_axis(file, parameter_id):
+        own = parameter_id in (profile.name, profile.fitted_by)
+        if instance == target and not own and _is_axis(file, parameter_id):
             change = file.set((parameter_id, target), file.get((parameter_id, source)))
             if change:
                 changes.append(change)
@@ -139,19 +144,26 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     if axis not in axis_instances(file):
         raise AxisFault(f"there is no axis {axis}")
     changes = []
-    change = file.set((profile.type, axis), Value(profile.unfitted))
-    if change:
-        changes.append(change)
+    unfitted = _unfitted(profile, axis)
+    changes += [change for a, value in unfitted.items() if (change := file.set(a, value))]
     for address in file.addresses():
         if (
             address[1] == axis
-            and address[0] not in (profile.type, profile.name)
+            and address not in unfitted
+            and address[0] != profile.name
             and _is_axis(file, address[0])
         ):
             change = file.set(address, file.default(address))
             if change:
                 changes.append(change)
     return changes
+
+
+def _unfitted(profile: AxisProfile, axis: str) -> dict[Address, Value]:
+    """Return the value that says that an axis is not there."""
+    if profile.fitted_by:
+        return {(profile.fitted_by, axis): Value(0)}
+    return {(profile.type, axis): Value(profile.unfitted or "")}
 
 
 def _is_axis(file: ParameterFile, parameter_id: str) -> bool:

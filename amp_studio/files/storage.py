@@ -190,7 +190,9 @@ def _value(schema: Schema, file: ParameterFile, address: Address, said: str) -> 
 
 def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:
     """Read a stored value, which names its own unit; raises ValueFault."""
-    if parameter.choices or parameter.type in ("text", "format"):
+    if parameter.type == "text":
+        return Value(said)  # with the blanks at its ends, which a person's entry would lose
+    if parameter.choices or parameter.type == "format":
         return read_value(parameter, said, "")
     units = schema.units_of(parameter)
     named = "" if said.startswith(("0x", "0X", "$")) else read_number(said)[1]

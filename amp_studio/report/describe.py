@@ -45,6 +45,7 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         or None,
         "effect": (parameter.effect or schema.family.effect).model_dump(exclude_none=True),
         "patch": parameter.patchable,
+        "access": parameter.access,
     }
     if parameter.range_variants:
         found["range_variants"] = [
@@ -57,6 +58,8 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         found["numbers_by_machine"] = numbers
     if any(schema.is_disputed(parameter.id, m) for m in machines):
         found["numbers_disputed"] = True
+    if parameter.optional:
+        found["optional"] = True
     if parameter.formulas:
         found["formulas"] = list(parameter.formulas)
     if parameter.needs:

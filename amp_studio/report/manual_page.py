@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import textwrap
 from collections.abc import Iterable, Iterator
 from itertools import groupby, pairwise, zip_longest
@@ -17,7 +18,7 @@ from amp_studio.schema import (
     shown,
     write_number,
 )
-from amp_studio.schema.model import BoundRef, Choice, Erratum, Range, Table
+from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, Range, Table
 from amp_studio.validate import formulas
 
 _WIDTH = 100
@@ -130,16 +131,22 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
     ]
     found += [("Range", text) for text in _ranges(schema, parameter)]
     found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
+    found += [("Bits", text) for text in _bits(parameter)]
     found.append(("Default", _default(parameter)))
     found += [("At the control", text) for text in _at_the_control(parameter)]
+    found += [("Command", text) for text in _command(schema, parameter)]
     effect = parameter.effect or schema.family.effect
     levels = {
         "at-once": "at once",
         "reset": "on reset",
         "restart": "on restart of the control",
         "command": f"when {effect.command} reads it",
+        "unknown": "the manual does not say",
     }
-    found.append(("Takes effect", levels[effect.level]))
+    read_only = "only read: the control writes it itself"
+    found.append(
+        ("Access", read_only) if parameter.access == "read" else ("Takes effect", levels[effect.level])
+    )
     for state in parameter.states:
         condition = schema.family.conditions[state.when or state.unless or ""]
         page = state.page or condition.page
@@ -176,8 +183,15 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
 
 def _even(members: list[tuple[str, str]]) -> bool:
     """Tell whether the numbers go up by the same step, so that first, second and last say it all."""
-    numbers = [int(number) for _, number in members if number.isdecimal()]
-    return len(numbers) == len(members) > 2 and len({b - a for a, b in pairwise(numbers)}) == 1
+    split = [_counted(number) for _, number in members]
+    steps = {b[1] - a[1] for a, b in pairwise(split)}
+    return len(split) > 2 and len({head for head, _ in split}) == len(steps) == 1 and steps != {0}
+
+
+def _counted(text: str) -> tuple[str, int]:
+    """Return a text without the digits at its end, and these as a number; 0 where there are none."""
+    head = text.rstrip("0123456789")
+    return head, int(text[len(head) :] or 0)
 
 
 def _run(schema: Schema, parameter: Parameter, machine: str, run: list[tuple[str, str]]) -> str:
@@ -200,6 +214,9 @@ def range_text(ranges: dict[str, Range] | None, schema: Schema) -> list[str]:
     """Return one line for each printed unit: ``0 to 214.1 mm``."""
     lines = []
     for unit, (low, high) in (ranges or {}).items():
+        if low is None and high is None:
+            lines.append(f"no bounds printed{f', in {shown(unit)}' if unit else ''}")
+            continue
         ends = [_end(schema, bound) for bound in (low, high)]
         lines.append(f"{ends[0]} to {ends[1]} {shown(unit)}".rstrip())
     return lines
@@ -220,6 +237,29 @@ def _choice(choice: Choice, patchable: bool) -> str:
     return f"{code}{choice.label}{raw}{unprinted}{f'; {choice.note}' if choice.note else ''}"
 
 
+def _bits(parameter: Parameter) -> Iterator[str]:
+    """Yield a line for each field of a packed word; bits that are called alike and counted up share one."""
+    fields = list(parameter.bits or ())
+    while fields:
+        run = [fields.pop(0)]
+        while fields and _goes_on(run[-1], fields[0]):
+            run.append(fields.pop(0))
+        first, last = run[0], run[-1]
+        end = last.bit + last.width - 1
+        where = f"{first.bit}" if end == first.bit else f"{first.bit} to {end}"
+        what = first.label if first is last else f"{first.label} to {last.label}"
+        unknown = " (the manual's figure is lost: kept as it stands)" if first.unknown else ""
+        yield f"{where}: {what}{unknown}"
+        yield from (f"    {_choice(choice, patchable=False)}" for choice in first.choices or ())
+
+
+def _goes_on(a: Bit, b: Bit) -> bool:
+    """Tell whether a bit is the next one of a row: Axis 3 after Axis 2."""
+    (head, number), (other, following) = _counted(a.label), _counted(b.label)
+    plain = a.width == b.width == 1 and not a.choices and not b.choices and a.unknown == b.unknown
+    return plain and head == other and following == number + 1 and b.bit == a.bit + 1
+
+
 def _default(parameter: Parameter) -> str:
     default = parameter.default
     if default is None:
@@ -234,6 +274,14 @@ def _default(parameter: Parameter) -> str:
         for i, v in (default.instances or {}).items()
     )
     return f"{value}{others} (page {default.page})"
+
+
+def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield the command that sets the first instance, with a gap for each value: ``NOTCH X(…, …)``."""
+    if parameter.storage and parameter.storage.command:
+        first = schema.instances(parameter, schema.family.default_machine)[0]
+        known = {"{i}": first, "{n}": "0"}
+        yield re.sub("{.*?}", lambda gap: known.get(gap[0], "…"), parameter.storage.command)
 
 
 def _at_the_control(parameter: Parameter) -> Iterator[str]:

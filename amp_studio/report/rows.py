@@ -33,7 +33,10 @@ class Rows:
 
 
 def rows_of(file: ParameterFile) -> Rows:
-    """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted."""
+    """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted.
+
+    Of what a file is complete without (the entries of a tool table) only the values that are set are printed.
+    """
     axes = printed_axes(file)
     rows, hidden, unfitted = [], 0, 0
     marks: dict[tuple[str, str], str] = {}
@@ -42,7 +45,7 @@ def rows_of(file: ParameterFile) -> Rows:
             unfitted += 1
         elif (state := file.situation.state(address)).state == "hidden":
             hidden += 1
-        else:
+        elif address in file.values or not file.schema.parameters[address[0]].optional:
             rows.append(row_of(file, address, _state_mark(state, marks)))
     return Rows(tuple(rows), hidden, unfitted)
 

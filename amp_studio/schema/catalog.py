@@ -134,6 +134,16 @@ class Schema:
             }
         return self._number_tables[machine]
 
+    def kin(self, scope: str | None, other: str | None) -> bool:
+        """Tell whether instances of two scopes belong together: the same scope, or one has the parts of the other."""
+        return scope == other or bool(
+            scope and other and (self._wholes.get(scope) == other or self._wholes.get(other) == scope)
+        )
+
+    @cached_property
+    def _wholes(self) -> dict[str, str | None]:
+        return {scope: info.of for scope, info in self.family.scopes.items()}
+
     @cached_property
     def machines(self) -> frozenset[str]:
         """The keys of the machine types."""
@@ -142,8 +152,8 @@ class Schema:
     @cached_property
     def states_alike(self) -> dict[str, int]:
         """Parameter id -> a number that is the same for parameters with the same state rules."""
-        kinds: dict[tuple[StateRule, ...], int] = {}
-        return {p.id: kinds.setdefault(p.states, len(kinds)) for p in self.parameters.values()}
+        kinds: dict[tuple[tuple[StateRule, ...], str], int] = {}
+        return {p.id: kinds.setdefault((p.states, p.access), len(kinds)) for p in self.parameters.values()}
 
     @cached_property
     def _scopes(self) -> dict[str, dict[str, Scope | None]]:
@@ -231,6 +241,9 @@ class Schema:
             choices = _codes(parameter.choices)
             bits = [(b.bit, b.width, b.label, _codes(b.choices)) for b in parameter.bits or ()]
             storage = parameter.storage.model_dump() if parameter.storage else None
+            for word in ("code", "command"):
+                if storage and storage[word] is None:
+                    del storage[word]  # files of a family without codes or commands keep their checksum
             lines.append([parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit,
                           instances, numbers, choices, bits, storage])  # fmt: skip
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
@@ -251,6 +264,9 @@ def number_of(numbers: Numbers, index: int, instance: str) -> str:
     """Return the number of the instance at ``index``."""
     if numbers.listed is not None:
         return numbers.listed[instance]
+    if numbers.starts is not None:
+        whole, _, part = instance.partition(".")
+        return numbers.format.format(n=numbers.starts[whole] + int(part) * numbers.step, i=instance)
     plain = "" if numbers.start is None else numbers.start + index * numbers.step
     return numbers.format.format(n=plain, i=instance)
 

@@ -7,7 +7,10 @@ prompt_toolkit: 0.2 s of every start), so the compiled module is loaded alone.
 from __future__ import annotations
 
 import importlib.util
+import logging
+import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -31,3 +34,35 @@ _module = _engine()
 Program = Any
 compile_expression = _module.compile
 Context = _module.Context
+
+# A function that makes no sense of its arguments ends the expression, and that is all there is to say; CEL also logs
+# it, which without a handler would come out on standard error.
+logging.getLogger("cel").addHandler(logging.NullHandler())
+
+LANGUAGE_FUNCTIONS = frozenset(
+    {"size", "contains", "startsWith", "endsWith", "matches", "int", "uint", "double", "string", "bytes", "type",
+     "dyn", "timestamp", "duration"}
+)  # fmt: skip
+"""Functions of the language itself; those of dates are left out, no parameter is one."""
+
+
+def _bit(word: float | None, n: float) -> bool | None:
+    """Tell whether a bit of a word is set; null of an unset word, which ends an expression like any other null."""
+    return None if word is None else int(word) >> int(n) & 1 == 1
+
+
+def _field(word: float | None, n: float, width: float) -> float | None:
+    """Return the number in the bits of a word that begin at ``n``; null of an unset word."""
+    return None if word is None else float(int(word) >> int(n) & (1 << int(width)) - 1)
+
+
+WORD_FUNCTIONS: dict[str, Callable[..., Any]] = {"bit": _bit, "field": _field}
+"""What conditions and rules may ask of the bits of a word: CEL has no operators for them."""
+
+_OPERATOR = re.compile(r"[^a-zA-Z]")
+
+
+def functions_called(compiled: Program) -> frozenset[str]:
+    """Return the functions an expression calls that the language itself does not have."""
+    named = {name for name in compiled.references()["functions"] if not _OPERATOR.match(name)}
+    return frozenset(named - LANGUAGE_FUNCTIONS)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from .cel_engine import compile_expression
+from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
 from .model import BoundRef, Family, Group, Parameter
 
 Place = tuple[str | int, ...]
@@ -40,7 +41,10 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
     for name, condition in family.conditions.items():
         here: Place = ("conditions", name)
         try:
-            compile_expression(condition.when)
+            unknown = sorted(functions_called(compile_expression(condition.when)) - WORD_FUNCTIONS.keys())
+            if unknown:
+                what = f"condition {name} calls '{unknown[0]}', which is no function"
+                yield Inconsistency(None, (*here, "when"), what)
         except ValueError as error:
             yield Inconsistency(None, (*here, "when"), f"condition {name}: {_first_line(error)}")
         for short, text in condition.reads.items():
@@ -50,10 +54,10 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
                 )
     if family.angular_when is not None and family.angular_when not in family.conditions:
         yield Inconsistency(None, ("angular_when",), f"there is no condition '{family.angular_when}'")
-    if family.machine_parameter is not None and family.machine_parameter not in ids:
-        yield Inconsistency(
-            None, ("machine_parameter",), f"there is no parameter '{family.machine_parameter}'"
-        )
+    for key in ("machine_parameter", "unit_parameter"):
+        named = getattr(family, key)
+        if named is not None and named not in ids:
+            yield Inconsistency(None, (key,), f"there is no parameter '{named}'")
 
 
 def _first_line(error: Exception) -> str:
@@ -68,6 +72,10 @@ def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterat
     for n, variant in enumerate(parameter.range_variants):
         if variant.when not in family.conditions:
             yield ("range_variants", n, "when"), f"there is no condition '{variant.when}'"
+    command = parameter.storage.command if parameter.storage else None
+    for named in re.findall(r"{(.*?)}", command or ""):
+        if named not in ("i", "n", "v") and named not in ids:
+            yield ("storage", "command"), f"there is no parameter '{named}' for its command"
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
             for end, bound in enumerate(pair):

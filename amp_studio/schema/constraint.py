@@ -19,7 +19,7 @@ from .values import Value, digits_of, field_value, write_number
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The bounds that hold for one instance in one unit; None where the manual prints none."""
+    """The bounds that hold for one instance in one unit; None where there is none."""
 
     low: float | None
     high: float | None
@@ -52,17 +52,37 @@ def ranges_of(situation: Situation, address: Address) -> dict[str, Range]:
 
 
 def limits(situation: Situation, address: Address, unit: str) -> Limits | None:
-    """Return the bounds of one instance in ``unit``; None when it has no range."""
+    """Return the bounds of one instance in ``unit``: the range, as far as the control's words can hold it.
+
+    None when there is neither.
+    """
+    parameter = situation.schema.parameters[address[0]]
     ranges = ranges_of(situation, address)
-    if not ranges:
-        return None
+    held = _held(parameter, unit)
     printed, borrowed = _printed(ranges, unit)
     if printed is None:
-        return None
+        return Limits(*held, unit) if held else None
     reference = ranges[printed]
     low, low_from = _bound(situation, address, reference[0], printed, unit)
     high, high_from = _bound(situation, address, reference[1], printed, unit)
+    if held and (low is None or low < held[0]):
+        low, low_from = held[0], None
+    if held and (high is None or high > held[1]):
+        high, high_from = held[1], None
     return Limits(low, high, unit, low_from, high_from, borrowed)
+
+
+def _held(parameter: Parameter, unit: str) -> tuple[float, float] | None:
+    """Return the smallest and the largest number that the control's words can hold, in ``unit``."""
+    storage = parameter.storage
+    if storage is None or storage.bits is None or parameter.type not in ("integer", "real"):
+        return None
+    stored = unit if storage.unit is None else storage.unit
+    if dimension(stored) != dimension(unit):
+        return None
+    numbers = 1 << storage.bits
+    low, high = (-numbers / 2, numbers / 2 - 1) if storage.signed else (0.0, numbers - 1.0)
+    return convert(low / storage.scale, stored, unit), convert(high / storage.scale, stored, unit)
 
 
 def _printed(ranges: dict[str, Range], unit: str) -> tuple[str | None, bool]:
@@ -105,8 +125,10 @@ def fault(situation: Situation, address: Address, value: Value) -> str | None:
     """Return one sentence why a value is not allowed, or None; bounds set by other parameters count."""
     parameter = situation.schema.parameters[address[0]]
     found = value.value
+    if parameter.access == "read":
+        return f"{parameter.name} can only be read: the control writes it itself"
     if isinstance(found, str):
-        if parameter.choices and found.startswith("raw:"):
+        if parameter.choices and found.startswith("raw:") and not parameter.more_codes:
             return f"{found[4:]} is no code of {parameter.name}"
         return _format_fault(situation, address, found) if parameter.type == "format" else None
     if isinstance(found, bool):

@@ -12,7 +12,15 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    field_validator,
+    model_validator,
+)
 
 from .units import UNITS
 
@@ -28,6 +36,23 @@ def _known_unit(unit: str) -> str:
 
 
 Unit = Annotated[str, AfterValidator(_known_unit)]
+
+
+def _counted_out(instances: object) -> object:
+    """Write out the spans of a list of instances: ``["1..400"]`` are 400 of them, ``["X.0..9"]`` ten parts of X."""
+    if not isinstance(instances, list):
+        return instances
+    found: list[object] = []
+    for name in instances:
+        span = re.fullmatch(r"(.+\.)?(\d+)\.\.(\d+)", name) if isinstance(name, str) else None
+        if span:
+            found += [f"{span[1] or ''}{n}" for n in range(int(span[2]), int(span[3]) + 1)]
+        else:
+            found.append(name)
+    return found
+
+
+Instances = Annotated[tuple[str, ...], BeforeValidator(_counted_out)]
 
 Scope = Literal["global", "axis", "spindle", "process", "group", "word", "register"]
 ValueType = Literal["integer", "real", "choice", "boolean", "bits", "text", "format"]
@@ -48,6 +73,7 @@ Quantity = Literal[
     "frequency",
     "rotation",
     "counts",
+    "counts-per-length",
     "power",
     "register",
 ]
@@ -95,6 +121,8 @@ class Bit(Model):
     width: int = 1
     label: str
     choices: tuple[Choice, ...] | None = None
+    signed: bool = False
+    """A field of several bits that holds a number with its sign (two's complement)."""
     unknown: bool = False
     """The manual's figure is lost: the bit is kept and shown raw."""
 
@@ -111,13 +139,21 @@ class Storage(Model):
     notation: Literal["decimal", "hex", "binary", "ascii"] = "decimal"
     words: int = 1
     word_order: Literal["high-first", "low-first"] = "high-first"
+    code: int | None = None
+    """The control's own code of the type of word, which its files name (NUM: 6 for 32 bits in hexadecimal)."""
+    command: str | None = None
+    """The command that sets it: ``{i}`` is the instance, ``{n}`` its place from 0, ``{v}`` the value, ``{other.id}`` that of another.
+
+    A command of several values stands the same at each of them: ``NOTCH {i}({notch.frequency}, {notch.width})``.
+    """
 
 
 class Numbers(Model):
     """By which numbers people and controls address the instances of a parameter.
 
     Instance number k (counting from 0) has number ``start + k * step`` written
-    through ``format``; ``listed`` names instances one by one instead.
+    through ``format``; ``listed`` names instances one by one instead, and ``starts``
+    gives the first number of each array of parts.
     """
 
     start: int | None = None
@@ -125,13 +161,16 @@ class Numbers(Model):
     format: str = "{n}"
     """``{n}`` is the number, ``{i}`` the instance (``P21N{i}``, ``Pr{n}``, ``R{n}``)."""
     listed: dict[str, str] | None = None
+    starts: dict[str, int] | None = None
+    """What stands before the point of an instance -> number of its part 0; the parts follow ``step`` by ``step``."""
     disputed: bool = False
     """The manual prints this number for another parameter too, and that other one is right."""
 
     @model_validator(mode="after")
     def _one_way(self) -> Numbers:
-        if self.start is None and self.listed is None and "{n}" in self.format:
-            raise ValueError("numbers need 'start', 'listed' or a format without {n}")
+        ways = [self.start, self.listed, self.starts]
+        if ways.count(None) == len(ways) and "{n}" in self.format:
+            raise ValueError("numbers need 'start', 'listed', 'starts' or a format without {n}")
         try:
             self.format.format(n=0, i="")
         except (LookupError, ValueError):
@@ -146,7 +185,7 @@ class Layout(Model):
 
     machines: tuple[str, ...] | None = None
     scope: Scope
-    instances: tuple[str, ...] | None = None
+    instances: Instances | None = None
     """Only where they differ from those of the scope in the family (``("0", …, "31")`` for 32 words)."""
     numbers: Numbers | None = None
     """None for a field that has no number at all."""
@@ -170,7 +209,8 @@ class StateRule(Model):
 class Effect(Model):
     """When a change takes effect."""
 
-    level: Literal["at-once", "reset", "restart", "command"]
+    level: Literal["at-once", "reset", "restart", "command", "unknown"]
+    """``unknown`` where the manual does not say."""
     command: str | None = None
     """The command that makes the device read the value (level ``command``)."""
 
@@ -209,7 +249,7 @@ class Parameter(Model):
     name: str
     scope: Scope = "global"
     numbers: Numbers | None = None
-    instances: tuple[str, ...] | None = None
+    instances: Instances | None = None
     """Only where they differ from those of the scope; ``1.3`` is a part of instance 1 (spindle 1, gear 3)."""
     each: str | None = None
     """What one instance is called where that is not the scope's own label: ``Macro call {i}``, ``Gear {j}``.
@@ -226,15 +266,21 @@ class Parameter(Model):
     ranges: dict[Unit, Range] | None = None
     range_variants: tuple[RangeVariant, ...] = ()
     choices: tuple[Choice, ...] | None = None
+    more_codes: bool = False
+    """The control has codes that the manual does not print: any code may stand, as ``raw:<code>``."""
     bits: tuple[Bit, ...] | None = None
     default: Default | None = None
     storage: Storage | None = None
     states: tuple[StateRule, ...] = ()
     effect: Effect | None = None
+    access: Literal["read-write", "read"] = "read-write"
+    """``read``: the control writes it and a person can only look at it; no value of a file."""
     tunable: bool = False
     """Can be changed on line, at the running machine."""
     patchable: bool = False
     """Stands in the table of values that can be keyed in at the control."""
+    optional: bool = False
+    """A file is complete without it: a table an operator fills as he goes (tool offsets), a filter that is not used."""
     needs: tuple[Need, ...] = ()
     formulas: tuple[str, ...] = ()
     """Names of the family's published formulas that give its value or use it."""
@@ -292,9 +338,11 @@ class Condition(Model):
 class ScopeInfo(Model):
     """The instances a scope has in this family."""
 
-    instances: tuple[str, ...]
+    instances: Instances
     label: str
     """``Axis {i}``."""
+    of: Scope | None = None
+    """The scope whose instances these are parts of: register ``X.3`` belongs to axis ``X``, and reads what is its."""
 
 
 class Machine(Model):
@@ -309,13 +357,24 @@ class AxisProfile(Model):
 
     name: ParameterId
     type: ParameterId
-    unfitted: Key
+    unfitted: Key | None = None
+    """Type of an axis that is not there; None where no type says so, and ``fitted_by`` does."""
+    fitted_by: ParameterId | None = None
+    """A number that is 0 for an axis that is not there (its port), where that is no matter of the type."""
     usual_type: Key
     """Type of an axis that is only named."""
     types: dict[str, Key] = {}
     """Types that go with a name (``S`` with spindle)."""
     hardware: ParameterId | None = None
     loop: ParameterId | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> AxisProfile:
+        if (self.unfitted is None) == (self.fitted_by is None):
+            raise ValueError(
+                "an axis is left out either by its type ('unfitted') or by a number ('fitted_by')"
+            )
+        return self
 
 
 class Family(Model):
@@ -334,6 +393,8 @@ class Family(Model):
     scopes: dict[Scope, ScopeInfo]
     units: dict[str, dict[str, Unit]]
     """Per unit system (``metric``, ``inch``) the unit of each quantity."""
+    unit_parameter: ParameterId | None = None
+    """The parameter whose choice keys are the unit systems, where the control keeps bare figures in the chosen one."""
     angular_when: str | None = None
     """Condition under which length-like quantities of an axis are entered in degrees."""
     axes: AxisProfile | None = None

@@ -14,7 +14,7 @@ from functools import cache, lru_cache
 from typing import Any
 
 from .catalog import Address, Schema, UnknownParameter, part_of, read_address, whole_of
-from .cel_engine import Program, compile_expression
+from .cel_engine import WORD_FUNCTIONS, Context, Program, compile_expression, functions_called
 from .model import Condition, Parameter, Scope, State, StateRule
 from .units import canonical, dimension
 from .values import Value
@@ -35,6 +35,7 @@ class StateInfo:
 
 
 IN_FORCE = StateInfo("in-force")
+READ_ONLY = StateInfo("unusable", "it can only be read: the control writes it itself")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +50,11 @@ class Reading:
 def program(expression: str) -> Program:
     """Return a compiled CEL expression; raises ValueError for a syntax error."""
     return compile_expression(expression)
+
+
+@cache
+def _functions(expression: str) -> frozenset[str]:
+    return functions_called(program(expression))
 
 
 class Situation:
@@ -100,7 +106,7 @@ class Situation:
         parameter_id, which = read_address(text)
         parameter = self.schema.parameter(parameter_id)
         instances = self.schema.instances(parameter, self.machine)
-        if scope is not None and self.scope((parameter_id, "")) != scope:
+        if scope is not None and not self.schema.kin(self.scope((parameter_id, "")), scope):
             instance = ""
         if which == "":
             own = next((i for i in (instance, whole_of(instance), "") if i in instances), None)
@@ -154,9 +160,15 @@ class Situation:
                 self._readers.setdefault(address, set()).add(asked)
             got = [self.canonical(a) for a in reading.addresses]
             names[short] = got if reading.is_list else got[0]
+        context = Context(names)
+        for called in _functions(condition.when):
+            context.add_function(called, WORD_FUNCTIONS[called])
         try:
-            return program(condition.when).execute(names) is True
-        except TypeError:  # CEL refuses to compare an unset value
+            return program(condition.when).execute(context) is True
+        except (
+            TypeError,
+            RuntimeError,
+        ):  # neither CEL nor the functions of words make sense of an unset value
             return False
 
     # -- states ----------------------------------------------------------------
@@ -181,7 +193,7 @@ class Situation:
             if self._applies(rule, address):
                 condition = self.condition(rule.when or rule.unless or "")
                 return StateInfo(rule.state, condition.why, rule.page or condition.page)
-        return IN_FORCE
+        return READ_ONLY if parameter.access == "read" else IN_FORCE
 
     def _applies(self, rule: StateRule, address: Address) -> bool:
         name = rule.when or rule.unless or ""
@@ -280,13 +292,21 @@ class Situation:
             self._states_alike.clear()
         for key in readers:
             self._holds.pop(key, None)
-            for dependent in self._dependents(key[0], key[1]):
-                self._states.pop(dependent, None)
+        for dependent in self._dependents(readers):
+            self._states.pop(dependent, None)
 
-    def _dependents(self, name: str, instance: str) -> Iterable[Address]:
-        everywhere = name in _same_everywhere(self.schema, self.machine)
-        names = _state_names(self.schema)
-        return [a for a in self._states if (everywhere or a[1] == instance) and name in names[a[0]]]
+    def _dependents(self, asked: Iterable[_Asked]) -> Iterable[Address]:
+        """Return the known states that hang on conditions which were asked for."""
+        same, everywhere = _same_everywhere(self.schema, self.machine), set[str]()
+        here: dict[str, set[str]] = {}
+        for name, instance, _ in asked:
+            (everywhere if name in same else here.setdefault(instance, set())).add(name)
+        names, nothing = _state_names(self.schema), frozenset[str]()
+        return [
+            a
+            for a in self._states
+            if not names[a[0]].isdisjoint(everywhere) or not names[a[0]].isdisjoint(here.get(a[1], nothing))
+        ]
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""

@@ -35,15 +35,37 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "ms": ("time", Fraction(1)),
     "s": ("time", Fraction(1000)),
     "us": ("time", Fraction(1, 1000)),
+    "ms/100": ("time", Fraction(1, 100)),
     "%": ("percent", Fraction(1)),
     "V": ("voltage", Fraction(1)),
+    "mV": ("voltage", Fraction(1, 1000)),
     "A": ("current", Fraction(1)),
     "Hz": ("frequency", Fraction(1)),
     "rpm": ("rotation", Fraction(1)),
+    "rev/s2": ("rotary acceleration", Fraction(1)),
+    "rpm/rev": ("rotation per turn", Fraction(1)),
+    "kbytes": ("memory", Fraction(1)),
     "counts": ("counts", Fraction(1)),
     "counts/s": ("count rate", Fraction(1)),
     "counts/s2": ("count acceleration", Fraction(1)),
+    "counts/mm": ("resolution", Fraction(1)),
+    "counts/in": ("resolution", Fraction(10, 254)),
     "W": ("power", Fraction(1)),
+    # An arc is no angle here: a degree is no exact number of radians.
+    "rad": ("arc", Fraction(1)),
+    # The gains of a loop from counts of following error to volts: proportional, integral, and with the rate of change
+    # of the error or the speed, and with the acceleration, in counts.
+    "V/count": ("gain", Fraction(1)),
+    "V/count/s": ("integral gain", Fraction(1)),
+    "Vs/count": ("derivative gain", Fraction(1)),
+    "Vs2/count": ("acceleration gain", Fraction(1)),
+    "V/rpm": ("voltage per speed", Fraction(1)),
+    # What the control counts a dimension in; another parameter says how long one is (NUM P4).
+    "iu": ("internal units", Fraction(1)),
+    "um/sample": ("travel per sample", Fraction(1)),
+    "BLU": ("basic length unit", Fraction(1)),
+    "LIU": ("least input unit", Fraction(1)),
+    "pulse/rev": ("pulses per turn", Fraction(1)),
 }
 
 # How people write them.
@@ -59,12 +81,19 @@ ALIASES: dict[str, str] = {
     "deg/sec/sec/sec": "deg/s3", "deg/s³": "deg/s3", "msec": "ms", "sec": "s", "second": "s", "seconds": "s",
     "µm": "um", "μm": "um", "micron": "um", "microns": "um", "µs": "us", "μs": "us", "usec": "us",
     "counts/sec": "counts/s", "cts/s": "counts/s", "counts/s/s": "counts/s2", "counts/sec/sec": "counts/s2",
-    "percent": "%", "volt": "V", "volts": "V", "v": "V", "amp": "A", "amps": "A", "a": "A", "hz": "Hz",
-    "r/min": "rpm", "1/min": "rpm", "count": "counts", "cts": "counts", "watt": "W", "w": "W", "teeth": "",
+    "percent": "%", "volt": "V", "volts": "V", "v": "V", "mv": "mV", "amp": "A", "amps": "A", "a": "A", "hz": "Hz",
+    "r/min": "rpm", "1/min": "rpm", "rev/s/s": "rev/s2", "internalunit": "iu", "internalunits": "iu",
+    "µm/sample": "um/sample", "μm/sample": "um/sample", "µm/smp": "um/sample",
+    "counts/inch": "counts/in", "radian": "rad", "radians": "rad", "volts/rpm": "V/rpm", "v/rpm": "V/rpm",
+    "v/count": "V/count", "v/pulse": "V/count", "v/count/s": "V/count/s", "v/s/count": "V/count/s", "vs/count": "Vs/count",
+    "v·s/count": "Vs/count", "vs2/count": "Vs2/count", "v·s²/count": "Vs2/count",
+    "count": "counts", "cts": "counts", "watt": "W", "w": "W", "teeth": "",
+    "blu": "BLU", "liu": "LIU", "pulses/rev": "pulse/rev",
 }  # fmt: skip
 
 SHOWN: dict[str, str] = {"mm/s2": "mm/s²", "in/s2": "in/s²", "deg/s2": "deg/s²", "mm/s3": "mm/s³",
-                         "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°", "um": "µm", "us": "µs", "counts/s2": "counts/s²"}  # fmt: skip
+                         "in/s3": "in/s³", "deg/s3": "deg/s³", "deg": "°", "um": "µm", "us": "µs", "counts/s2": "counts/s²",
+                         "rev/s2": "rev/s²", "um/sample": "µm/sample", "Vs/count": "V·s/count", "Vs2/count": "V·s²/count"}  # fmt: skip
 
 _SIGNS = {sign: unit for unit, sign in SHOWN.items()}
 

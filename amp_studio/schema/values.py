@@ -100,6 +100,12 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
         hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
     ):
         return Value(int(hexadecimal[1], 16), unit)
+    if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
+        # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and 6.
+        if not text.isdecimal():
+            raise ValueFault(f"'{text}' is not a decimal number: write 0x{text}")
+        if text.startswith("0") and int(text, 16) != int(text):
+            raise ValueFault(f"'{text}' can be read two ways: write 0x{text} or {int(text)}")
     number, rest = read_number(text)
     if rest:
         try:
@@ -120,6 +126,15 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
             raise ValueFault(f"{write_number(number)} is too large for {parameter.name}")
         return Value(int(number), unit)
     return Value(number, unit)
+
+
+def _is_hex(parameter: Parameter) -> bool:
+    """Tell whether the control shows the word in hexadecimal."""
+    return (
+        parameter.type in ("bits", "integer")
+        and parameter.storage is not None
+        and parameter.storage.notation == "hex"
+    )
 
 
 def _read_format(parameter: Parameter, text: str) -> Value:
@@ -189,15 +204,9 @@ def write_value(parameter: Parameter, value: Value | None) -> str:
 
 
 def _number_text(parameter: Parameter, value: Value) -> str:
-    """Write a number; a word of bits that the control shows in hexadecimal, so."""
+    """Write a number; a word that the control shows in hexadecimal, so."""
     number, storage = value.value, parameter.storage
-    if (
-        parameter.type == "bits"
-        and storage
-        and storage.notation == "hex"
-        and isinstance(number, int)
-        and number >= 0
-    ):
+    if storage and _is_hex(parameter) and isinstance(number, int) and number >= 0:
         return f"0x{number:0{(storage.bits or 0) // 4}X}"
     return write_number(float(number) if not isinstance(number, int) else number)
 
@@ -233,7 +242,8 @@ def field_at(parameter: Parameter, bit: int) -> Bit:
 
 def field_value(field: Bit, word: int) -> int:
     """Return the number that stands in a field of a word."""
-    return (word >> field.bit) & ((1 << field.width) - 1)
+    number = (word >> field.bit) & ((1 << field.width) - 1)
+    return number - (1 << field.width) if field.signed and number >> (field.width - 1) else number
 
 
 def with_field(field: Bit, word: int, text: str) -> int:
@@ -246,13 +256,15 @@ def with_field(field: Bit, word: int, text: str) -> int:
             break
     else:
         switch = {"yes": 1, "true": 1, "on": 1, "no": 0, "false": 0, "off": 0} if field.width == 1 else {}
-        highest = (1 << field.width) - 1
+        mask = (1 << field.width) - 1
+        lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
         try:
             number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
         except ValueError:
-            number = -1
-        if not 0 <= number <= highest:
-            raise ValueFault(f"'{text}' does not fit {field.label}, which takes 0 to {highest}")
+            number = lowest - 1
+        if not lowest <= number <= highest:
+            raise ValueFault(f"'{text}' does not fit {field.label}, which takes {lowest} to {highest}")
+        number &= mask
     return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
 
 

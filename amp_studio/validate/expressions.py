@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from string import Formatter
 
 from amp_studio.schema import Rule, program
-from amp_studio.schema.cel_engine import Program
+from amp_studio.schema.cel_engine import Program, functions_called
 from amp_studio.schema.units import UNITS
 
-ALWAYS_THERE = ("machine", "instance", "part")
-"""Names that a rule need not read: machine type, the instance it runs for, which part of its whole that is."""
+ALWAYS_THERE = ("machine", "application", "instance", "part")
+"""Names that a rule need not read: machine type and model of the control, the instance it runs for, its part."""
 
 _TYPES = {
     "int",
@@ -32,10 +32,6 @@ _TYPES = {
     "timestamp",
     "duration",
 }
-_FUNCTIONS = {"size", "contains", "startsWith", "endsWith", "matches", "int", "uint", "double", "string", "bytes", "type",
-              "dyn", "timestamp", "duration"}  # fmt: skip
-"""Functions of the language itself; those of dates are left out, no parameter is one."""
-_OPERATOR = re.compile(r"[^a-zA-Z]")
 _OVER_A_LIST = re.compile(r"\.(?:all|exists|exists_one|filter|map)\(\s*([a-zA-Z_]\w*)\s*,")
 
 
@@ -64,14 +60,15 @@ class Expressions:
 
 def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
     """Compile a rule that may call ``functions``; raises RuleFault."""
-    called, always = set(), set()
+    called: set[str] = set()
+    always: set[str] = set()
     for place, text in _texts(rule):
-        references = _compiled(rule, place, text).references()
-        variables = set(references["variables"]) - set(_OVER_A_LIST.findall(text)) - _TYPES
+        compiled = _compiled(rule, place, text)
+        variables = set(compiled.references()["variables"]) - set(_OVER_A_LIST.findall(text)) - _TYPES
         for name in sorted(variables - set(rule.reads) - set(ALWAYS_THERE)):
             raise RuleFault(rule.id, f"{place} speaks of '{name}', which it does not read")
-        named = {name for name in references["functions"] if not _OPERATOR.match(name)}
-        for name in sorted(named - _FUNCTIONS - set(functions)):
+        named = functions_called(compiled)
+        for name in sorted(named - set(functions)):
             raise RuleFault(rule.id, f"{place} calls '{name}', which is no function")
         called |= named & set(functions)
         always |= variables & set(ALWAYS_THERE)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import logging
 import math
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from typing import Any
 
-# Families with formulas of their own, and the package of this room that holds them.
-FAMILY_MODULES = {"9pc": "ninepc"}
+from amp_studio.schema.cel_engine import WORD_FUNCTIONS
 
-# A function that makes no sense of its arguments ends the expression, and that is all there is to say; CEL also logs
-# it, which without a handler would come out on standard error.
-logging.getLogger("cel").addHandler(logging.NullHandler())
+# Families with formulas of their own, and the package of this room that holds them.
+FAMILY_MODULES = {
+    "9pc": "ninepc",
+    "57c422b": "servo57c422b",
+    "acromill": "acromill",
+    "num": "num",
+    "syntec": "syntec",
+}
 
 
 def _mod(a: float, b: float) -> float:
@@ -49,6 +52,7 @@ GENERAL: dict[str, Callable[..., Any]] = {
     "round": _round,
     "min": _min,
     "max": _max,
+    **WORD_FUNCTIONS,
 }
 
 

@@ -109,6 +109,8 @@ class ValueChecks:
     def _within(self, facts: _Facts, address: Address, value: Value) -> bool:
         """Tell quickly whether a value lies in a range that depends on nothing; False says that it has to be asked."""
         found = value.value
+        if facts.parameter.access == "read":
+            return False
         if isinstance(found, (str, bool)):
             return isinstance(found, bool) or found in facts.keys or facts.parameter.type == "text"
         if not facts.own_range or facts.parameter.type == "bits":

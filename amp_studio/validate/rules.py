@@ -116,7 +116,11 @@ class RuleChecks:
         context = Context()
         for name in check.expressions.functions:
             context.add_function(name, self._functions[name])
-        always = {"machine": self._machine, "instance": check.instance, "part": part_of(check.instance)}
+        always: dict[str, Canonical] = {
+            "machine": self._machine,
+            "application": self._file.header.application,
+        }
+        always |= {"instance": check.instance, "part": part_of(check.instance)}
         context.update({name: always[name] for name in check.expressions.always})
         return context
 
@@ -144,6 +148,7 @@ class RuleChecks:
     def _finding(self, check: RuleCheck, given: _Given) -> Finding:
         rule, situation = check.rule, self._file.situation
         texts = {"instance": check.instance, "machine": self._machine}
+        texts["application"] = self._file.header.application
         texts["part"] = check.instance.partition(".")[2]
         for single in check.singles:
             texts[single.name] = self._shown(single.address)
@@ -224,4 +229,4 @@ class RuleChecks:
         number = float(f"{convert(float(found), canonical_unit(unit), unit):.12g}")
         if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
             number = round(number, parameter.decimals)
-        return Value(int(number) if parameter.type == "integer" else number, unit)
+        return Value(int(number) if parameter.type in ("integer", "bits") else number, unit)

@@ -27,8 +27,8 @@ class Validator:
     def __init__(self, file: ParameterFile, extra_rules: Iterable[Rule] = ()) -> None:
         self.file = file
         self.extra = tuple(extra_rules)
-        self._light: tuple[str, str] | None = None
-        """Machine type and unit system of the present findings."""
+        self._light: tuple[str, str, str] | None = None
+        """Machine type, model and unit system of the present findings."""
         self._unset: set[Address] = set()
         self._unset_advice: list[tuple[_Order, Finding]] | None = None
         """What is said of them, until they change."""
@@ -41,13 +41,13 @@ class Validator:
         self._plan: Plan = make_plan(self.file.schema, machine, self.extra)
         self._value_checks = ValueChecks(self.file, machine)
         self._rule_checks = RuleChecks(self.file, machine)
-        self._machine = machine
+        self._machine, self._application = machine, self.file.header.application
 
     def run(self) -> tuple[Finding, ...]:
         """Check everything; returns the findings, errors first, in the manual's order."""
-        if self.file.machine != self._machine:
+        if (self.file.machine, self.file.header.application) != (self._machine, self._application):
             self._prepare()
-        self._light = (self._machine, self.file.header.units)
+        self._light = self._present_light()
         self._ranges.clear()
         self._unset.clear()
         self._unset_advice = None
@@ -57,7 +57,7 @@ class Validator:
 
     def update(self, changed: Iterable[Address]) -> tuple[Finding, ...]:
         """Check again what reads the changed addresses; returns all findings."""
-        if self._light != (self.file.machine, self.file.header.units):
+        if self._light != self._present_light():
             return self.run()
         addresses: set[Address] = set()
         checks: dict[int, RuleCheck] = {}
@@ -67,6 +67,10 @@ class Validator:
                 checks[check.place] = check
         self._check(addresses, checks.values())
         return self.findings()
+
+    def _present_light(self) -> tuple[str, str, str]:
+        header = self.file.header
+        return self.file.machine, header.application, header.units
 
     def findings(self) -> tuple[Finding, ...]:
         """Return the present findings, errors first, in the manual's order."""
@@ -100,7 +104,8 @@ class Validator:
     def _check_address(self, address: Address) -> Finding | None:
         state = self.file.situation.state(address).state
         value = self.file.values.get(address)
-        if (value is None and state == "in-force") != (address in self._unset):
+        asked = value is None and state == "in-force" and not self.file.schema.parameters[address[0]].optional
+        if asked != (address in self._unset):
             self._unset ^= {address}
             self._unset_advice = None
         if value is None or (state in ("hidden", "ignored") and address not in self.file.forced):

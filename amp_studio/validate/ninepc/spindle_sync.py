@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from .arguments import finite, not_negative
+from amp_studio.validate.arguments import finite, not_negative
+
 from .feedback import lowest_terms
 
 LARGEST_RATIO = 10
