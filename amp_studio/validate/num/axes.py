@@ -1,0 +1,50 @@
+"""Axes, their names and groups, and the pairs they make: chapter 4."""
+
+from __future__ import annotations
+
+_NAMES = ("X", "Y", "Z", "U", "V", "W", "A", "B", "C")
+"""In the order of their codes in P9 (pages 4-3 and 4-24)."""
+_NONE = 255
+
+
+def axis_name(word: float) -> str:
+    """Name and group that a word of P9 gives an axis (page 4-24): 0x15 is "W of group 2", 0xFF "no axis"."""
+    code = _checked(word)
+    if code == _NONE:
+        return "no axis"
+    group, name = divmod(code, 16)
+    return f"{_NAMES[name] if name < len(_NAMES) else '?'} of group {group + 1}"
+
+
+def assignment_word(name: str, group: int) -> int:
+    """Word of P9 for an axis name and a group of 1 to 8 (page 4-24): C of group 3 is 0x28."""
+    if name not in _NAMES:
+        raise ValueError(f"An axis name is one of {', '.join(_NAMES)}, not {name!r}.")
+    if not 1 <= group <= 8:
+        raise ValueError(f"An axis group is 1 to 8, not {group}.")
+    return (group - 1) * 16 + _NAMES.index(name)
+
+
+def carried_partner(word: float) -> float:
+    """Word of P9 of the axis that makes a carrier and carried pair with this one (page 4-34): U for X, X for U.
+
+    -1 for an axis that has no such partner, a rotary one or none at all.
+    """
+    code = _checked(word)
+    name = code % 16
+    if name < 3:
+        return float(code + 3)
+    return float(code - 3) if name < 6 else -1.0
+
+
+def indexing_increment(degrees: float) -> float:
+    """Value of P65 for an indexing step in degrees (page 4-36): 0.5 degrees are 5000."""
+    if degrees < 0.0:
+        raise ValueError(f"A step is not negative, as {degrees:g} is.")
+    return round(degrees * 10000.0, 6)
+
+
+def _checked(word: float) -> int:
+    if not 0.0 <= word <= _NONE or word != int(word):
+        raise ValueError(f"A word of P9 has 8 bits, {word:g} does not fit.")
+    return int(word)

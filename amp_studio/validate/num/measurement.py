@@ -1,0 +1,76 @@
+"""Encoders, scales and handwheels, and the words that adapt them: chapter 5."""
+
+from __future__ import annotations
+
+from math import gcd
+
+from amp_studio.validate.arguments import positive, whole
+
+_LARGEST = 32767
+"""MULTI and DIVI must be below 32768 (page 5-6)."""
+
+
+def encoder_measurement(periods: float, interpolation: float = 1.0) -> float:
+    """Increments the CNC counts of an encoder (page 5-6): four for each line or period, times the interpolation.
+
+    2500 lines with an EXE that interpolates by 10 are 100,000.
+    """
+    return positive("The number of lines", periods) * 4.0 * positive("The interpolation", interpolation)
+
+
+def multi_divi(movement: float, measurement: float) -> tuple[int, int]:
+    """MULTI and DIVI in lowest terms for a movement in internal units and the increments counted for it (page 5-6).
+
+    50,000 units in 100,000 increments are 1 and 2. For handwheels it is the same (page 5-12).
+    """
+    multi, divi = _lowest(whole("The movement", movement), whole("The measurement", measurement))
+    if max(multi, divi) > _LARGEST:
+        raise ValueError(f"{multi} / {divi} cannot be written with numbers below 32768.")
+    return multi, divi
+
+
+def ssi_divi_factor(bits: float) -> float:
+    """Factor of DIVI for a sensor whose measurement arrives in so many bits (page 5-8): 16 for 12 bits, 1 from 16 on.
+
+    The control shifts a shorter measurement to the left until it fills 16 bits.
+    """
+    return 2.0 ** max(0, 16 - whole("The number of bits", bits))
+
+
+def coded_conversion(period: float, interpolation: float) -> tuple[int, int]:
+    """MULTI and DIVI of a scale that moves with the axis, from its period in internal units (page 5-22).
+
+    Period 20 with an EXE of 10 gives 1 and 2. A scale behind a gear needs its factor k on top of it.
+    """
+    return multi_divi(period, 4 * whole("The interpolation", interpolation))
+
+
+def coded_graduation(period: float, multi: float, divi: float) -> float:
+    """Graduation p of a scale with coded marks in measurement increments (page 5-22): its period over MULTI / DIVI.
+
+    20 internal units at 1/2 are 40, the value of P36 N0 to N31; N32 to N63 take the graduations between two marks.
+    """
+    return positive("The period", period) * positive("DIVI", divi) / positive("MULTI", multi)
+
+
+def combined_ratio(bits: float, periods: float, interpolation: float = 1.0) -> tuple[int, int]:
+    """Numerator and denominator of P36 for a combined sensor, in lowest terms (page 5-23).
+
+    Steps of the SSI frame over increments in one turn: 13 bits with 1024 periods and an IBV of 10 are 8192 / 40960,
+    that is 1 / 5 (the manual prints 8 / 40, which is the same).
+    """
+    increments = 4 * whole("The number of periods", periods) * whole("The interpolation", interpolation)
+    return _lowest(2 ** whole("The number of bits", bits), increments)
+
+
+def signal_fault(axis: float) -> int:
+    """Number of the error that a bad encoder signal shows (page 5-18): 210 and the address of the axis."""
+    address = whole("The address", axis, 0)
+    if address > 31:
+        raise ValueError(f"An address is 0 to 31, not {address}.")
+    return 210 + address
+
+
+def _lowest(above: int, below: int) -> tuple[int, int]:
+    common = gcd(above, below)
+    return above // common, below // common
