@@ -6,15 +6,23 @@ the ending of the file; each format is a module of its own.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from amp_studio.files import Header, ParameterFile, SaveFault, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 
-from . import patch_sheet, values_csv
+from . import acr_script, automax, num_table, patch_sheet, values_csv
 from .text_format import FamilyUntold, FormatFault, TextFormat, TextRead
 
-FORMATS: tuple[TextFormat, ...] = (values_csv.FORMAT, patch_sheet.FORMAT)
+FORMATS: tuple[TextFormat, ...] = (
+    values_csv.FORMAT,
+    patch_sheet.FORMAT,
+    num_table.FORMAT,
+    acr_script.FORMAT,
+    automax.TASK,
+    automax.TABLE,
+)
 """In the order in which a text is looked at."""
 
 
@@ -25,10 +33,12 @@ def formats_of(family: str) -> tuple[TextFormat, ...]:
 
 
 def import_file(
-    path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False
-) -> ParameterFile:
+    path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False,
+    tell: Callable[[str], None] = lambda _said: None,
+) -> ParameterFile:  # fmt: skip
     """Return the parameters a text file holds, in a file that holds nothing else; values out of range are in it too.
 
+    ``tell`` is called with what a person should know of a text that was taken: words it leaves out.
     Without a family, the format or the text has to tell it. Raises FormatFault with line and column, KeyError for a
     family that does not exist, OSError.
     """
@@ -40,7 +50,10 @@ def import_file(
         line = content[: error.start].count(b"\n") + 1
         raise FormatFault(f"there is a byte that is no {chosen.encoding} text", line) from None
     schema = load_schema(family or _only_family(chosen))
-    return file_of(schema, chosen.read(text, schema, keep_unknown), path.stem)
+    read = chosen.read(text, schema, keep_unknown)
+    for said in read.notes:
+        tell(said)
+    return file_of(schema, read, path.stem)
 
 
 def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
@@ -56,9 +69,10 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     machine_parameter = schema.family.machine_parameter
     if machine_parameter and read.machine and (machine_parameter, "") not in read.values:
         file.set((machine_parameter, ""), Value(read.machine))
-    for address, value in read.values.items():
-        file.set(address, value)
+    file.values.update(read.values)
+    file.situation.forget()
     file.unknown.update(read.unknown)
+    file.header.extra.update(read.extra)
     return file
 
 
@@ -68,7 +82,14 @@ def export_file(file: ParameterFile, path: Path, format_key: str | None = None) 
     Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
     """
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
-    content = chosen.write(file).replace("\n", chosen.newline).encode(chosen.encoding)
+    text = chosen.write(file).replace("\n", chosen.newline)
+    try:
+        content = text.encode(chosen.encoding)
+    except UnicodeEncodeError as error:
+        sign, line = text[error.start], text.count("\n", 0, error.start) + 1
+        raise FormatFault(
+            f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
+        ) from None
     write_atomic(path, content)
     return chosen
 
@@ -88,7 +109,7 @@ def _format_for_writing(family: str, path: Path, format_key: str | None) -> Text
     offered = formats_of(family)
     if format_key is not None:
         return _named(format_key, offered)
-    found = next((f for f in offered if f.ending == path.suffix.lower()), None)
+    found = next((f for f in offered if path.suffix.lower() in f.endings), None)
     if found is None:
         raise FormatFault(
             f"'{path.name}': no format is written to such a name; endings are "

@@ -37,6 +37,10 @@ class TextRead:
     name: str = ""
     machine: str = ""
     """Machine type, where the text tells it."""
+    extra: dict[str, object] = field(default_factory=dict)
+    """What the format needs to write the same text again: kept in the header of the parameter file."""
+    notes: list[str] = field(default_factory=list)
+    """What a person should know of a text that can be taken: words it leaves out."""
 
 
 @dataclass(frozen=True)
@@ -58,3 +62,10 @@ class TextFormat:
     """Writes a file; raises FormatFault for a value it cannot write."""
     encoding: str = "utf-8"
     newline: str = "\n"
+    other_endings: tuple[str, ...] = ()
+    """Names that are as good for its files."""
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Endings of its files, that of the files it writes first."""
+        return (self.ending, *self.other_endings)

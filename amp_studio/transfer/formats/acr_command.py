@@ -1,0 +1,130 @@
+"""The form of a command that sets parameters, taken from the schema: ``NOTCH {i}({notch.frequency}, {notch.width})``.
+
+``{i}`` is the instance, ``{n}`` its place from 0, ``{v}`` the value of the parameter that names the command, and
+``{other.id}`` that of another one. Blanks between signs may be there or not (``TLM X 2``, ``TLM X4``, page 115).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from amp_studio.schema import Address, Parameter, Schema
+
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]+)?"
+_PART = re.compile(r"\{(?P<place>.*?)\}|(?P<word>[A-Za-z0-9]+)|(?P<blank>\s+)|(?P<sign>.)")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One command for one instance: it sets a value or, as NOTCH does, several."""
+
+    template: str
+    instance: str
+    place: int
+    addresses: tuple[Address, ...]
+
+    def write(self, figures: list[str]) -> str:
+        """Return the command with these figures."""
+        left = iter(figures)
+        fill = {"i": self.instance, "n": str(self.place)}
+        return _PART.sub(
+            lambda found: (
+                found[0]
+                if found["place"] is None
+                else fill[found["place"]]
+                if found["place"] in fill
+                else next(left)
+            ),
+            self.template,
+        )
+
+    @property
+    def name(self) -> str:
+        """What a person is told of it: ``PPU X``, ``EXC AXIS0``."""
+        return self.write(["" for _ in self.addresses]).split("(")[0].rstrip(" =")
+
+
+@dataclass(frozen=True)
+class Argument:
+    """A setting as it stands in a line: its figures, each with its column, and where it ends."""
+
+    setting: Setting
+    figures: tuple[tuple[str, int], ...]
+    column: int
+    end: int
+
+
+class Command:
+    """One form of a command, for all its instances."""
+
+    def __init__(self, template: str, settings: tuple[Setting, ...]) -> None:
+        head, _, tail = template.partition(" ")
+        self.word, self.form = ("", template) if "{" in head else (head.upper(), tail)
+        """A word in front of all arguments, which need not be said again: PPU, but not the DAC of ``DAC{n} GAIN``."""
+        self.settings = settings
+        self._by_instance = {s.instance.casefold(): s for s in settings}
+        self._by_place = {s.place: s for s in settings}
+
+    @property
+    def instances(self) -> list[str]:
+        return [s.instance for s in self.settings]
+
+    @property
+    def example(self) -> str:
+        return self.settings[0].write(["1" for _ in self.settings[0].addresses])
+
+    def read(self, text: str, at: int) -> Argument | None:
+        """Return the setting that stands at a place of a line; None where there is none."""
+        found = self._pattern.match(text, at)
+        if found is None:
+            return None
+        groups = found.groupdict()
+        setting: Setting | None = self.settings[0]
+        if "n" in groups:
+            setting = self._by_place.get(int(groups["n"]))
+        elif "i" in groups:
+            setting = self._by_instance.get(groups["i"].casefold())
+        if setting is None:
+            return None
+        figures = tuple((found[f"v{n}"], found.start(f"v{n}") + 1) for n in range(len(setting.addresses)))
+        return Argument(setting, figures, at + 1, found.end())
+
+    @cached_property
+    def _pattern(self) -> re.Pattern[str]:
+        names = "|".join(re.escape(i) for i in sorted(self.instances, key=len, reverse=True))
+        places = {"i": rf"\s*(?P<i>{names})\s*", "n": "(?P<n>[0-9]+)"}
+        text, count = "", 0
+        for part in _PART.finditer(self.form):
+            if part["place"] is not None:
+                if part["place"] not in places:
+                    places[part["place"]] = rf"(?P<v{count}>{_NUMBER})"
+                    count += 1
+                text += places[part["place"]]
+            elif part["blank"]:
+                text += r"(?:\s+|(?<=[^A-Za-z0-9.])|(?=[^A-Za-z0-9.+-]))"
+            else:
+                text += re.escape(part[0]) if part["word"] else rf"\s*{re.escape(part[0])}\s*"
+        return re.compile(rf"{text}(?:\s+|$)", re.IGNORECASE)
+
+
+def commands_of(schema: Schema, machine: str) -> list[Command]:
+    """Return the commands of a family; parameters with one form (``P{i}={v}``) share it, by their instances."""
+    found: dict[str, dict[tuple[Address, ...], Setting]] = {}
+    for parameter in schema.parameters.values():
+        template = parameter.storage.command if parameter.storage else None
+        if template:
+            settings = found.setdefault(template, {})
+            for setting in _settings(schema, machine, parameter, template):
+                settings.setdefault(setting.addresses, setting)
+    return [Command(template, tuple(settings.values())) for template, settings in found.items() if settings]
+
+
+def _settings(schema: Schema, machine: str, parameter: Parameter, template: str) -> Iterator[Setting]:
+    places = [m["place"] for m in _PART.finditer(template) if m["place"] not in (None, "i", "n")]
+    ids = [parameter.id if place == "v" else place for place in places]
+    for n, instance in enumerate(schema.instances(parameter, machine)):
+        if all(instance in schema.instances(schema.parameters[name], machine) for name in ids):
+            yield Setting(template, instance, n, tuple((name, instance) for name in ids))
