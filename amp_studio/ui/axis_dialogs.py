@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QComboBox, QDialog, QDialogButtonBox, QFormLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QLabel,
+    QLineEdit,
+    QVBoxLayout,
+    QWidget,
+)
 
 from amp_studio.files import axis_instances, axis_title, axis_type
-from amp_studio.schema import Address
+from amp_studio.schema import Address, write_value
 
 from .choice_box import ChoiceBox
 from .workspace import Workspace
 
 
 class AxisDialog(QDialog):
-    """Asks for an axis and, below it, for choices of that axis or for another axis."""
+    """Asks for an axis and, below it, for choices and texts of that axis or for another axis."""
 
     def __init__(self, workspace: Workspace, title: str, axis: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
         self.setMinimumWidth(380)
         self._workspace = workspace
-        self._fields: dict[str, QComboBox] = {}
+        self._fields: dict[str, ChoiceBox | QLineEdit] = {}
         self.axis_box = self._axis_list(axis)
         self.axis_box.currentIndexChanged.connect(lambda _: self._fill())
         self._form = QFormLayout()
@@ -45,7 +54,7 @@ class AxisDialog(QDialog):
         return box
 
     def ask_for(self, parameter_ids: list[str]) -> None:
-        """Offer the choices of these parameters of the chosen axis."""
+        """Offer these parameters of the chosen axis, choices as lists."""
         self._wanted = parameter_ids
         self._fill()
 
@@ -67,9 +76,15 @@ class AxisDialog(QDialog):
             self._form.removeRow(box)
         self._fields = {}
         for parameter_id in self._wanted:
-            box = ChoiceBox(self._workspace, (parameter_id, self.axis()))
-            self._form.addRow(self._workspace.file.schema.parameters[parameter_id].name, box)
-            self._fields[parameter_id] = box
+            file, address = self._workspace.file, (parameter_id, self.axis())
+            parameter = file.schema.parameters[parameter_id]
+            field: ChoiceBox | QLineEdit
+            if parameter.choices:
+                field = ChoiceBox(self._workspace, address)
+            else:
+                field = QLineEdit(write_value(parameter, file.get(address)))
+            self._form.addRow(parameter.name, field)
+            self._fields[parameter_id] = field
 
     def done(self, result: int) -> None:
         """Leave the dialog; what was chosen can be read until the next event."""
@@ -81,7 +96,11 @@ class AxisDialog(QDialog):
         return str(self.axis_box.currentData())
 
     def texts(self) -> dict[Address, str]:
-        """Return the chosen label of each parameter."""
-        return {
-            (p, self.axis()): str(b.currentData()) for p, b in self._fields.items() if b.currentIndex() >= 0
-        }
+        """Return the chosen label, or the text, of each parameter."""
+        found = {}
+        for parameter_id, field in self._fields.items():
+            if isinstance(field, QLineEdit):
+                found[parameter_id, self.axis()] = field.text()
+            elif field.currentIndex() >= 0:
+                found[parameter_id, self.axis()] = str(field.currentData())
+        return found

@@ -99,11 +99,12 @@ class FileActions:
 
         if not self.window.may_leave():
             return
-        dialog = NewFileDialog(self.window)
+        project, workspace = self.window.projects.project, self.window.workspace
+        now = project.info.family if project else workspace.file.schema.family.family if workspace else ""
+        dialog = NewFileDialog(self.window, now)
         if not dialog.exec():
             return
         file = dialog.make()
-        project = self.window.projects.project
         if project and project.info.family == file.schema.family.family:
             path: Path | None = project.path(file.header.name)
             if path and path.exists():

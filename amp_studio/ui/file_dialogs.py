@@ -62,11 +62,12 @@ def _family_box() -> QComboBox:
 
 
 class NewFileDialog(_Form):
-    """Family, machine type, name and axes of a new file."""
+    """Family, machine type, name and axes of a new file; offers the family that is worked with first."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None, family: str = "") -> None:
         super().__init__("New parameter file", parent)
         self.family = _family_box()
+        self.family.setCurrentIndex(max(self.family.findData(family), 0))
         self.machine = QComboBox()
         self.name = QLineEdit("MACHINE_1")
         self.axes = QLineEdit()

@@ -10,20 +10,13 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 from amp_studio.files import Document, ParameterFile
 from amp_studio.files.lock import now
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.transfer.formats import (
-    FORMATS,
-    FamilyUntold,
-    FormatFault,
-    export_file,
-    formats_of,
-    import_file,
-)
-from amp_studio.transfer.parameters import out_of_range
 
 from .questions import ask
 from .task import in_background
 
 if TYPE_CHECKING:
+    from amp_studio.transfer.formats import FormatFault
+
     from .main_window import MainWindow
 
 _SHOWN = 8
@@ -35,6 +28,8 @@ class FormatActions:
 
     def __init__(self, window: MainWindow) -> None:
         self.window = window
+        self._told: list[str] = []
+        """What a person should know of the text that was read last."""
         self.actions = [
             window.action("&Import…", self.read),
             window.action("Ex&port…", self.write, None, "file"),
@@ -42,9 +37,11 @@ class FormatActions:
 
     def read(self) -> None:
         """Ask for a text and for a name, and show the parameter file it makes; a text that cannot be meant makes none."""
+        from amp_studio.transfer.formats import FORMATS  # a room that a start does not need
+
         if not self.window.may_leave():
             return
-        endings = " ".join(f"*{f.ending}" for f in FORMATS)
+        endings = " ".join(f"*{ending}" for f in FORMATS for ending in f.endings)
         text, _ = QFileDialog.getOpenFileName(
             self.window, "Import", "", f"Text formats ({endings});;All files (*)"
         )
@@ -57,9 +54,13 @@ class FormatActions:
         if path is not None:
             file.header.name = path.stem
             self.window.files.write_new(path, lambda: Document.create(file, path))
+            if self._told:
+                self.window.say("; ".join(self._told))
 
     def _understood(self, path: Path) -> ParameterFile | None:
         """Return what a text holds; asks for the family, and whether to keep what is not understood."""
+        from amp_studio.transfer.formats import FamilyUntold, FormatFault
+
         try:
             file = self._import(path, None, False)
         except FamilyUntold:
@@ -83,6 +84,8 @@ class FormatActions:
 
     def _kept(self, path: Path, family: str | None, error: FormatFault) -> ParameterFile | None:
         """Return what a text holds with what is not understood kept, if that is wanted; raises where it cannot be."""
+        from amp_studio.transfer.formats import FormatFault
+
         try:
             file = self._import(path, family, True)
         except FormatFault:
@@ -93,9 +96,15 @@ class FormatActions:
         return file if wanted == "&Keep it" else None
 
     def _import(self, path: Path, family: str | None, keep: bool) -> ParameterFile:
-        return in_background(self.window, "Importing", lambda: import_file(path, family, keep_unknown=keep))
+        from amp_studio.transfer.formats import import_file
+
+        self._told.clear()
+        read = lambda: import_file(path, family, keep_unknown=keep, tell=self._told.append)  # noqa: E731  # one line to hand over
+        return in_background(self.window, "Importing", read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
+        from amp_studio.transfer.parameters import out_of_range
+
         faults = out_of_range(file)
         if not faults:
             return True
@@ -110,10 +119,15 @@ class FormatActions:
 
     def write(self) -> None:
         """Ask for a name and write the open file in the format of its ending."""
+        from amp_studio.transfer.formats import export_file, formats_of
+
         workspace = self.window.workspace
         assert workspace is not None
         offered = formats_of(workspace.file.schema.family.family)
-        filters = {f"{f.title[:1].upper()}{f.title[1:]} (*{f.ending})": f for f in offered}
+        filters = {
+            f"{f.title[:1].upper()}{f.title[1:]} ({' '.join(f'*{ending}' for ending in f.endings)})": f
+            for f in offered
+        }
         near = workspace.path.with_suffix(offered[0].ending)
         text, chosen = QFileDialog.getSaveFileName(self.window, "Export", str(near), ";;".join(filters))
         if not text:

@@ -295,7 +295,8 @@ class ParameterTable(QAbstractTableModel):
         if address is None:
             return Qt.ItemFlag.NoItemFlags
         flags = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
-        if self.workspace.may_edit and (self.hidden_too or self._exists(address)):
+        can_be_set = self.rows[index.row()].parameter.access != "read"
+        if self.workspace.may_edit and can_be_set and (self.hidden_too or self._exists(address)):
             flags |= Qt.ItemFlag.ItemIsEditable
         return flags
 
