@@ -78,6 +78,55 @@ class StoredRow:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ListedParameter:
+    """A row of a list of all parameters."""
+
+    line: int
+    number: str
+    category: str = ""
+    type: str = ""
+    name: str = ""
+    page: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedSize:
+    """How many words a parameter has, and of which type."""
+
+    line: int
+    number: str
+    words: int
+    type: str = ""
+    category: str = ""
+    place: str = "head"
+    """``head`` (of the section that describes it) or ``listing`` (an example of a file)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedWord:
+    """A word of a parameter, or a run of words (``N0-N31``), and bits of it."""
+
+    line: int
+    number: str
+    word: str = ""
+    bits: str = ""
+    """``5``, or ``31-27``: the first one printed stands first."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedDefault:
+    """A value that a word, or a field of it, has unless another is set."""
+
+    line: int
+    number: str
+    value: str
+    unit: str = ""
+    word: str = ""
+    note: str = ""
+    """Whether the manual calls it a default or a basic value, or what a table is headed by."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Section:
     """A heading with the facts that stand under it."""
 
@@ -88,14 +137,30 @@ class Section:
     within: str = ""
     """The heading above, where this one only divides the description of that parameter."""
     within_page: str = ""
+    parameter: str = ""
+    """The number of the parameter it describes, where a list of parameters tells its page."""
     numbers: tuple[PrintedNumber, ...] = ()
     ranges: tuple[PrintedRange, ...] = ()
     choices: tuple[PrintedChoice, ...] = ()
     stored: tuple[StoredRow, ...] = ()
+    listed: tuple[ListedParameter, ...] = ()
+    sizes: tuple[PrintedSize, ...] = ()
+    words: tuple[PrintedWord, ...] = ()
+    bits: tuple[PrintedWord, ...] = ()
+    defaults: tuple[PrintedDefault, ...] = ()
 
 
-Fact = PrintedNumber | PrintedRange | PrintedChoice | StoredRow
-KINDS = ("numbers", "ranges", "choices", "stored")
+Fact = (
+    PrintedNumber
+    | PrintedRange
+    | PrintedChoice
+    | StoredRow
+    | ListedParameter
+    | PrintedSize
+    | PrintedWord
+    | PrintedDefault
+)
+KINDS = ("numbers", "ranges", "choices", "stored", "listed", "sizes", "words", "bits", "defaults")
 
 
 def written(sections: Iterable[Section], head: str) -> str:
@@ -106,6 +171,8 @@ def written(sections: Iterable[Section], head: str) -> str:
         lines.append("")
         lines += [f"{'- ' if key == 'heading' else '  '}{key}: {_plain(said)}" for key, said in place.items()]
         lines.append(f"  line: {section.line}")
+        if section.parameter:
+            lines.append(f"  parameter: {section.parameter}")
         if section.within:
             lines += [f"  within: {_plain(section.within)}", f"  within_page: {_plain(section.within_page)}"]
         for kind in KINDS:

@@ -125,7 +125,7 @@ class Book:
             and not (held and all(mentions(erratum.taken, one) for one in said))
             for erratum in (self.schema.errata[key] for key in parameter.errata)
             for reading in erratum.readings
-            if page in re.findall(r"\w+-\d+", reading.page)
+            if page in re.findall(r"\w+(?:[-.]\d+)*", reading.page)
         )
 
 
@@ -289,10 +289,10 @@ class Exempt:
         )
 
 
-def exemptions() -> tuple[Exempt, ...]:
+def exemptions(path: Path = EXEMPTIONS) -> tuple[Exempt, ...]:
     """Return the hand-kept list."""
     return TypeAdapter(tuple[Exempt, ...]).validate_python(
-        YAML(typ="safe").load(EXEMPTIONS.read_text("utf-8"))
+        YAML(typ="safe").load(path.read_text("utf-8")) or ()
     )
 
 

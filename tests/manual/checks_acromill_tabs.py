@@ -1,0 +1,177 @@
+"""Names, units, defaults and ranges of the AcroMill database against the tabs of its guide, pictures included."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from book_9pc import Book, Disagreement, mentions, squashed
+from manual_facts import PrintedChoice, PrintedRange, Section, StoredRow
+
+from amp_studio.schema import Parameter
+
+NOWHERE = "says nothing"
+KINDS = {"Boolean": "boolean", "Integer": "integer", "Float": "real", "Sign": "choice", "NA": ""}
+"""Words of the column of units that are no units, and the type they stand for."""
+UNITS = {
+    "volts/pulses of following error": "V/count",
+    "volts/second/pulses of following error": "V/count/s",
+    "volts/pulses of following error/second": "Vs/count",
+    "volts/incoming setpoint pulses/second": "Vs/count",
+    "volts/incoming setpoint pulses/sec ²": "Vs2/count",
+    "Inch or mm per minute": "in/min",
+    "Inch or mm per second": "in/min",
+    "Inch or mm per sec per second": "in/s2",
+    "Inch or mm per sec per sec": "in/s2",
+    "Inch or mm": "in",
+    "Degrees": "deg",
+    "Radians": "rad",
+    "second": "s",
+    "volts": "V",
+}
+NO_FIGURES = {"Disable": "-1"}
+"""What an integer without a figure is held as (erratum e-io-disable)."""
+SHORT = {"spd": "speed", "mach": "machine", "for": "forward", "back": "backward", "upm": "", "reqd": "required",
+         "src": "source", "mult": "multiplier", "tangen": "tangent", "compensat": "compensation", "pos": "position",
+         "excesserr": "excesserror", "units": "", "per": "", "linear": "", "unit": "", "travel": "", "in": "", "sec": "",
+         "msec": "", "disp": "display", "big": "", "small": "", "stp": "stop", "colorviadcodes": "colorviadcodes"}  # fmt: skip
+
+
+def odd(check: str, section: Section, line: int, about: str, manual: str, database: str) -> Disagreement:
+    return Disagreement(check, line, about, f"{section.page} {section.heading}", manual, database)
+
+
+def nowhere(check: str, about: str, database: str) -> Disagreement:
+    return Disagreement(check, 0, about, "the tabs", NOWHERE, database)
+
+
+def long(name: str) -> str:
+    """Return a name with its short forms spelled out, squashed."""
+    return "".join(SHORT.get(word, word) for word in re.findall(r"[a-z]+|[^a-z\s./()]+", name.lower()))
+
+
+class Guide(Book):
+    """The facts of the tabs and the database they are held against."""
+
+    def of_tab(self, section: Section) -> list[Parameter]:
+        return [p for p in self.schema.parameters.values() if p.page == section.page]
+
+    def called(self, section: Section, name: str) -> list[Parameter]:
+        """Return what a name of a tab means: the same name, a longer form of it, or one told by an erratum."""
+        here = self.of_tab(section)
+        if found := [p for p in here if squashed(p.name) == squashed(name)]:
+            return found
+        if numbered := re.fullmatch(r"Pos (\d+)", name):
+            positions = [p for p in here if p.name == f"{section.heading} Position"]
+            return [p for p in positions if numbered[1] in self.schema.instances(p, "mill")]
+        if found := [p for p in here if long(name) in {long(p.name), long(section.heading + " " + p.name)}]:
+            return found
+        return [p for p in here if self.told(p, name)]
+
+    def told(self, parameter: Parameter, name: str) -> bool:
+        """Tell whether an erratum of the parameter names what is printed."""
+        readings = [r.says for key in parameter.errata for r in self.schema.errata[key].readings]
+        return any(mentions(says, name) for says in readings)
+
+
+def check_names(book: Guide) -> Iterator[Disagreement]:
+    """Every printed name is that of one parameter of its tab, and every parameter of a tab is printed."""
+    printed: set[str] = set()
+    for section in book.sections:
+        for row in section.stored:
+            found = book.called(section, row.name)
+            if len(found) != 1:
+                held = ", ".join(parameter.id for parameter in found) or "nothing"
+                yield odd("names", section, row.line, row.name, f"is called {row.name!r}", f"calls so {held}")
+            elif (
+                row.default
+                and squashed(found[0].name) != squashed(row.name)
+                and not book.told(found[0], row.name)
+            ):
+                yield odd("names", section, row.line, row.name, f"is {row.name!r}", f"is {found[0].name!r}")
+            printed |= {parameter.id for parameter in found}
+    pages = {section.page for section in book.sections}
+    for parameter in book.schema.parameters.values():
+        if parameter.page in pages and parameter.id not in printed:
+            yield nowhere("names", parameter.id, f"is called {parameter.name!r}")
+
+
+def check_values(book: Guide) -> Iterator[Disagreement]:
+    """Every printed default and unit is held or explained, and every held default is printed."""
+    printed: set[str] = set()
+    for section in book.sections:
+        for row in section.stored:
+            for parameter in book.called(section, row.name)[:1]:
+                printed |= {parameter.id} if row.default not in {"", "NA"} else set()
+                yield from value_of(book, section, row, parameter)
+    pages = {section.page for section in book.sections}
+    for parameter in book.schema.parameters.values():
+        if parameter.page in pages and parameter.default and parameter.id not in printed:
+            yield nowhere("values", parameter.id, f"default {parameter.default.value}")
+
+
+def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter) -> Iterator[Disagreement]:
+    """Tell the disagreements on a printed default, unit or value of a picture."""
+    default = parameter.default
+    labels = {choice.key: choice.label for choice in parameter.choices or ()}
+    held = labels.get(str(default.value), str(default.value)) if default else "NA"
+    errata = [book.schema.errata[key] for key in parameter.errata]
+    if row.default and not alike(
+        row.default if parameter.choices else NO_FIGURES.get(row.default, row.default), held
+    ):
+        doubted = any(
+            any(mentions(reading.says, row.default) for reading in erratum.readings)
+            and mentions(erratum.taken, held)
+            for erratum in errata
+        )
+        if not doubted:
+            yield odd("values", section, row.line, row.name, f"default {row.default}", f"default {held}")
+    if row.unit in KINDS:
+        types = {KINDS[row.unit] or parameter.type, "bits" if row.unit == "Integer" else ""}
+        if parameter.type not in types:
+            yield odd("values", section, row.line, row.name, row.unit, f"is {parameter.type}")
+    elif row.unit:
+        units = book.schema.units_of(parameter)
+        doubted = any(mentions(reading.says, row.unit) for erratum in errata for reading in erratum.readings)
+        if UNITS.get(row.unit) not in units and not doubted and not (parameter.choices and row.unit in UNITS):
+            yield odd("values", section, row.line, row.name, f"unit {row.unit}", f"units {units}")
+    shown = row.codes.get("shown", "")
+    known = {"Disable", *labels.values(), *(choice.code for choice in parameter.choices or ())}
+    if (
+        shown
+        and parameter.choices
+        and not any(one and shown.casefold().startswith(one.casefold()) for one in known)
+    ):
+        yield odd("values", section, row.line, row.name, f"shows {shown}", f"has {labels}")
+
+
+def alike(printed: str, held: str) -> bool:
+    """Tell whether a printed value is the held one, as a figure or as a word."""
+    try:
+        return float(printed) == float(held)
+    except ValueError:
+        return printed.casefold() == held.casefold()
+
+
+def check_ranges(book: Guide) -> Iterator[Disagreement]:
+    """Every range in brackets is held."""
+    for section in book.sections:
+        for fact in section.ranges:
+            yield from range_of(book, section, fact)
+        for choice in section.choices:
+            yield from choice_of(book, section, choice)
+
+
+def range_of(book: Guide, section: Section, fact: PrintedRange) -> Iterator[Disagreement]:
+    found = book.called(section, fact.applies)
+    held = [tuple(both) for p in found for both in (p.ranges or {}).values()]
+    if (float(fact.low), float(fact.high)) not in held:
+        yield odd("ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", f"{held}")
+
+
+def choice_of(book: Guide, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:
+    """Tell where a value that is explained in words is told by no help."""
+    found = book.called(section, fact.number)
+    told = " ".join(f"{p.help.what} {p.help.find}" for p in found)
+    if not any(mentions(told, fact.letter) and p.type == "integer" for p in found):
+        yield odd("ranges", section, fact.line, fact.number, f"{fact.letter} {fact.text}", "does not tell it")

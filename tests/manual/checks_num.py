@@ -1,0 +1,403 @@
+"""The NUM database against the bare facts of its manual: parameters, words, bits, defaults and bounds."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+from book_9pc import Disagreement, mentions
+from manual_facts import ListedParameter, PrintedChoice, PrintedDefault, PrintedRange, PrintedWord, Section
+
+from amp_studio.schema import Choice, Parameter, Schema
+
+FACTS = Path(__file__).with_name("num.yaml")
+EXEMPTIONS = Path(__file__).with_name("exceptions_num.yaml")
+MACHINE = "cnc"
+
+
+class Claim(NamedTuple):
+    """An instance of a parameter that claims a word."""
+
+    parameter: Parameter
+    instance: str
+
+
+@dataclass(frozen=True, eq=False)
+class Book:
+    """The facts of the manual and the database they are held against."""
+
+    schema: Schema
+    sections: tuple[Section, ...]
+
+    @cached_property
+    def words(self) -> dict[str, dict[int, tuple[Claim, ...]]]:
+        """``P35`` -> word -> who claims it."""
+        found: dict[str, dict[int, tuple[Claim, ...]]] = {}
+        for parameter in self.schema.parameters.values():
+            for instance, said in self.schema.numbers(parameter, MACHINE).items():
+                number, _, word = said.partition("N")
+                claimed = found.setdefault(number, {})
+                claimed[int(word)] = (*claimed.get(int(word), ()), Claim(parameter, instance))
+        return found
+
+    @cached_property
+    def pages(self) -> dict[str, str]:
+        """``P35`` -> the page that the list of chapter 2 sends to, or that of the list where it sends nowhere."""
+        return {row.number: row.page for section in self.sections for row in section.listed}
+
+    @cached_property
+    def printed_words(self) -> dict[str, set[int]]:
+        """``P35`` -> the words that the head of its section counts and the text names."""
+        found: dict[str, set[int]] = {}
+        for section in self.sections:
+            for size in section.sizes:
+                found.setdefault(size.number, set()).update(range(size.words))
+            for fact in section.words:
+                found.setdefault(fact.number, set()).update(span(fact.word))
+        return found
+
+    @cached_property
+    def type_ranges(self) -> dict[str, tuple[float, float]]:
+        """Type code -> the bounds that the table of types prints."""
+        return {
+            fact.applies.removeprefix("type "): (
+                figure(fact.low, hexadecimal=True),
+                figure(fact.high, hexadecimal=True),
+            )
+            for section in self.sections
+            for fact in section.ranges
+            if fact.applies.startswith("type ")
+        }
+
+    def claims(self, number: str, word: str = "") -> tuple[Claim, ...]:
+        """Return who claims these words of a parameter, or any word of it."""
+        held = self.words.get(number, {})
+        return tuple(claim for n in (span(word) if word else held) for claim in held.get(n, ()))
+
+    def explained(self, number: str, said: str, held: Iterable[object] = ()) -> bool:
+        """Tell whether an erratum of this parameter names what is printed and takes what is held."""
+        errata = {key for claim in self.claims(number) for key in claim.parameter.errata}
+        return any(
+            any(mentions(reading.says, said) for reading in self.schema.errata[key].readings)
+            and all(mentions(self.schema.errata[key].taken, str(one)) for one in held)
+            for key in errata
+        )
+
+
+def span(word: str) -> list[int]:
+    """Return 0 to 31 for ``N0-N31``; several runs may stand in a row."""
+    found: list[int] = []
+    for part in re.split(r",\s*", word):
+        first, _, last = part.replace("N", "").partition("-")
+        found += range(int(first), int(last or first) + 1)
+    return found
+
+
+def runs(words: Iterable[int]) -> str:
+    """Return ``N0-N31`` for a set of words."""
+    said: list[list[int]] = []
+    for word in sorted(words):
+        if said and word == said[-1][-1] + 1:
+            said[-1].append(word)
+        else:
+            said.append([word])
+    return ", ".join(f"N{run[0]}" if len(run) == 1 else f"N{run[0]}-N{run[-1]}" for run in said)
+
+
+def figure(said: str, *, hexadecimal: bool = False) -> float:
+    """Return the value of a printed figure; those with a dollar are hexadecimal."""
+    if said.startswith("$") or (hexadecimal and re.fullmatch(r"F+|0{4,}", said)):
+        return float(int(said.lstrip("$"), 16))
+    return float(said)
+
+
+# -- the list of chapter 2 --------------------------------------------------------------------------------
+
+
+def check_list(book: Book) -> Iterator[Disagreement]:
+    """Every P of chapter 2 is there with its type, category and page, and there is no other."""
+    for section in book.sections:
+        for row in section.listed:
+            yield from row_of(book, row)
+    for number in book.words.keys() - book.pages.keys():
+        yield Disagreement("list", 0, number, "chapter 2", "does not list it", "claims words of it")
+
+
+def row_of(book: Book, row: ListedParameter) -> Iterator[Disagreement]:
+    """Tell the disagreements on one row of the list."""
+
+    def differs(manual: str, database: str) -> Disagreement:
+        return Disagreement("list", row.line, row.number, "chapter 2", manual, database)
+
+    claims = book.claims(row.number)
+    if not claims:
+        yield differs("lists it", "has no such parameter")
+    codes = {claim.parameter.storage.code if claim.parameter.storage else None for claim in claims}
+    wrong = sorted(str(code) for code in codes if str(code) != row.type and (code is not None or row.type))
+    if wrong and not book.explained(row.number, row.type, wrong):
+        yield differs(f"type {row.type}", f"type {', '.join(wrong)}")
+    pages = {book.schema.page((claim.parameter.id, claim.instance)) for claim in claims}
+    if row.page[:1].isdigit():
+        odd = {page for page in pages if page != row.page}
+    else:
+        odd = {page for page in pages if not page.startswith("2-")}
+    if odd and not book.explained(row.number, row.page, odd):
+        yield differs(f"page {row.page}", f"page {', '.join(sorted(odd))}")
+    groups = {book.schema.group_of[claim.parameter.id].key for claim in claims}
+    category = re.sub(r"[^a-z]", "_", row.category.lower()) or "reserved"
+    if any(not group.startswith(category) for group in groups):
+        yield differs(f"category {row.category or 'none'}", f"group {', '.join(sorted(groups))}")
+
+
+# -- words and bits ---------------------------------------------------------------------------------------
+
+
+def check_words(book: Book) -> Iterator[Disagreement]:
+    """The words of the database are those that are printed, each once, and every type is that of the section."""
+    for section in book.sections:
+        yield from words_of(book, section)
+    for number, held in book.words.items():
+        printed = book.printed_words.get(number, set())
+        more = held.keys() - printed
+        if more and not (printed and book.explained(number, runs(more))):
+            says = f"prints {runs(printed) or 'no words'}"
+            yield Disagreement("words", 0, number, book.pages.get(number, ""), says, f"has {runs(more)}")
+        twice = [word for word, claims in held.items() if len(claims) > 1]
+        if twice:
+            names = sorted({claim.parameter.id for word in twice for claim in held[word]})
+            yield Disagreement("words", 0, number, "twice", f"prints {runs(twice)} once", ", ".join(names))
+
+
+def words_of(book: Book, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the words of one section."""
+    for size in section.sizes:
+        held = book.words.get(size.number, {})
+        codes = {str(c.parameter.storage and c.parameter.storage.code) for c in book.claims(size.number)}
+        odd = codes - {size.type}
+        where = f"{section.page} {section.heading}"
+        if odd and not book.explained(size.number, size.type, odd):
+            says = f"type {size.type}"
+            yield Disagreement("words", size.line, size.number, where, says, f"type {', '.join(sorted(odd))}")
+        if len(held) != size.words and not book.explained(size.number, str(size.words)):
+            says = f"{size.words} words"
+            yield Disagreement("words", size.line, size.number, where, says, f"{len(held)} words")
+    for fact in section.words:
+        lost = [n for n in span(fact.word) if n not in book.words.get(fact.number, {})]
+        if lost and not book.explained(fact.number, fact.word):
+            where = f"{section.page} {section.heading}"
+            yield Disagreement("words", fact.line, fact.number, where, fact.word, f"lacks {runs(lost)}")
+
+
+def check_bits(book: Book) -> Iterator[Disagreement]:
+    """Every printed bit is one that its word has, and stands at the ends of a field there."""
+    for section in book.sections:
+        yield from bits_of(book, section)
+
+
+def bits_of(book: Book, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the bits of one section."""
+    for fact in section.bits:
+        if not any(has_bits(claim.parameter, fact) for claim in book.claims(fact.number, fact.word)):
+            about = f"{fact.number} {fact.word}".strip()
+            held = ", ".join(
+                sorted(
+                    {
+                        f"{claim.parameter.id} {fields(claim.parameter)}"
+                        for claim in book.claims(fact.number, fact.word)
+                    }
+                )
+            )
+            where = f"{section.page} {section.heading}"
+            yield Disagreement(
+                "bits", fact.line, about, where, f"bit {fact.bits}", held or "has no such word"
+            )
+
+
+def fields(parameter: Parameter) -> list[tuple[int, int]]:
+    """Return the first and the last bit of every field."""
+    if parameter.bits:
+        return [(bit.bit, bit.bit + bit.width - 1) for bit in parameter.bits]
+    return [(bit, bit) for bit in range((parameter.storage and parameter.storage.bits) or 0)]
+
+
+def has_bits(parameter: Parameter, fact: PrintedWord) -> bool:
+    """Tell whether the printed bits are whole fields of a parameter."""
+    said = sorted(map(int, fact.bits.split("-")))
+    return said[0] in {low for low, _ in fields(parameter)} and said[-1] in {
+        high for _, high in fields(parameter)
+    }
+
+
+# -- codes of bits ----------------------------------------------------------------------------------------
+
+
+def check_codes(book: Book) -> Iterator[Disagreement]:
+    """Every printed code of a field of bits has its text in the database, and the field has no other."""
+    for section in book.sections:
+        yield from codes_of(book, section)
+
+
+def codes_of(book: Book, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the codes of one section, and the choices of its fields that no code prints."""
+    where = f"{section.page} {section.heading}"
+    told: dict[tuple[str, str], list[int]] = {}
+    for fact in section.choices:
+        held = choices_of(book, fact)
+        told.setdefault((fact.number, fact.applies), []).append(int(fact.letter, 2))
+        if not any(
+            choice.raw == int(fact.letter, 2) and same_text(choice.label, fact.text) for choice in held
+        ):
+            labels = ", ".join(f"{choice.raw} {choice.label}" for choice in held) or "has no such field"
+            about, says = f"{fact.number} bits {fact.applies}", f"{fact.letter} {fact.text}"
+            yield Disagreement("codes", fact.line, about, where, says, labels)
+    for (number, bits), codes in told.items():
+        fact = PrintedChoice(line=0, letter="", text="", number=number, applies=bits)
+        for choice in choices_of(book, fact):
+            if choice.raw not in codes:
+                says, held_one = "does not print it", f"{choice.raw} {choice.label}"
+                yield Disagreement("codes", 0, f"{number} bits {bits}", where, says, held_one)
+
+
+def choices_of(book: Book, fact: PrintedChoice) -> list[Choice]:
+    """Return the choices of the field of bits that a code is printed for."""
+    low, high = sorted(map(int, fact.applies.split("-")))
+    found = {claim.parameter.id: claim.parameter for claim in book.claims(fact.number)}
+    return [
+        choice
+        for parameter in found.values()
+        for bit in parameter.bits or ()
+        if (bit.bit, bit.bit + bit.width - 1) == (low, high)
+        for choice in bit.choices or ()
+    ]
+
+
+def same_text(label: str, said: str) -> bool:
+    """Tell whether a label is the printed one, without what stands before or behind it."""
+    short, whole = (re.sub(r"[^a-z0-9.µ]", "", text.lower()) for text in (label, said))
+    return whole.startswith(short) if short[:1].isdigit() else short in whole
+
+
+# -- defaults and bounds ----------------------------------------------------------------------------------
+
+
+def check_defaults(book: Book) -> Iterator[Disagreement]:
+    """Every printed default is the one of its word, and no other is held."""
+    printed: set[str] = set()
+    for section in book.sections:
+        yield from defaults_of(book, section)
+        printed |= {
+            claim.parameter.id for fact in section.defaults for claim in book.claims(fact.number, fact.word)
+        }
+    for parameter in book.schema.parameters.values():
+        if parameter.default is not None and parameter.id not in printed:
+            says = f"default {parameter.default.value}"
+            yield Disagreement("defaults", 0, parameter.id, parameter.page, "prints none", says)
+
+
+def defaults_of(book: Book, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the defaults of one section; without a word, one of its words must have it."""
+    for fact in section.defaults:
+        claims = book.claims(fact.number, fact.word)
+        agreed = [default_is(claim, fact) for claim in claims]
+        whole = all(agreed) if fact.word else any(agreed)
+        if not (agreed and whole) and not book.explained(fact.number, fact.value):
+            about = f"{fact.number} {fact.word}".strip()
+            held = sorted({f"{c.parameter.id} {held_default(c)}" for c in claims}) or ["has no such word"]
+            says = f"{fact.note} {fact.value} {fact.unit}".strip()
+            where = f"{section.page} {section.heading}"
+            yield Disagreement("defaults", fact.line, about, where, says, ", ".join(held))
+
+
+def held_default(claim: Claim) -> float | bool | str | None:
+    """Return the default of an instance; that of a choice is its code."""
+    default = claim.parameter.default
+    if default is None:
+        return None
+    value = (default.instances or {}).get(claim.instance, default.value)
+    codes = {choice.key: choice.raw for choice in claim.parameter.choices or ()}
+    return codes.get(str(value)) if str(value) in codes else value
+
+
+def default_is(claim: Claim, fact: PrintedDefault) -> bool:
+    """Tell whether an instance has the printed default, in the printed unit."""
+    held, default = held_default(claim), claim.parameter.default
+    if held is None or default is None:
+        return False
+    unit = fact.unit.replace("µ", "u")
+    try:
+        return figure(fact.value) == held and (not default.unit or not unit or default.unit == unit)
+    except ValueError:
+        labels = {choice.key: choice.label for choice in claim.parameter.choices or ()}
+        return fact.value.lower() in {str(default.value).lower(), labels.get(str(default.value), "").lower()}
+
+
+def check_ranges(book: Book) -> Iterator[Disagreement]:
+    """Every printed bound is held, and what is held is either printed or the whole range of the type."""
+    printed: set[str] = set()
+    for section in book.sections:
+        yield from ranges_of(book, section)
+        printed |= {
+            claim.parameter.id
+            for fact in section.ranges
+            for claim in book.claims(*place_of(fact))
+            if place_of(fact)[0]
+        }
+    for parameter in book.schema.parameters.values():
+        code = str(parameter.storage.code) if parameter.storage else ""
+        for bounds in (parameter.ranges or {}).values():
+            whole = book.type_ranges.get(code)
+            if parameter.id not in printed and whole is not None and tuple(bounds) != whole:
+                says = f"type {code} has {whole[0]:g} to {whole[1]:g}"
+                yield Disagreement(
+                    "ranges", 0, parameter.id, parameter.page, says, f"has {bounds[0]} to {bounds[1]}"
+                )
+
+
+def place_of(fact: PrintedRange) -> tuple[str, str]:
+    """Return parameter and words that a printed range is of; nothing for the range of a type."""
+    number, _, word = fact.applies.partition(" ")
+    return ("", "") if number == "type" else (number, word)
+
+
+def ranges_of(book: Book, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the bounds of one section."""
+    for fact in section.ranges:
+        number, word = place_of(fact)
+        claims = book.claims(number, word)
+        if not number or (claims and all(range_is(claim.parameter, fact) for claim in claims)):
+            continue
+        if fact.note == "recommended" or all(
+            book.explained(number, said) for said in (fact.low, fact.high) if said
+        ):
+            continue
+        held = sorted({f"{claim.parameter.id} {held_range(claim.parameter)}" for claim in claims})
+        where = f"{section.page} {section.heading}"
+        says = f"{fact.low} to {fact.high} {fact.unit}".strip()
+        yield Disagreement(
+            "ranges", fact.line, fact.applies, where, says, ", ".join(held) or "has no such word"
+        )
+
+
+def held_range(parameter: Parameter) -> str:
+    """Return the bounds or the codes of a parameter."""
+    codes = [choice.raw for choice in parameter.choices or ()]
+    return str(codes or [f"{low} to {high}" for low, high in (parameter.ranges or {}).values()])
+
+
+def range_is(parameter: Parameter, fact: PrintedRange) -> bool:
+    """Tell whether printed bounds are held, or for a choice whether all their codes are choices."""
+    low, high = (figure(said) if said else None for said in (fact.low, fact.high))
+    codes = {choice.raw for choice in parameter.choices or ()}
+    if codes:
+        ends = [int(end) for end in (low, high) if end is not None]
+        return set(range(min(ends), max(ends) + 1)) <= codes
+    if high is not None and fact.note == "less than":
+        high -= 1
+    return any(
+        (low is None or low == held[0]) and (high is None or high == held[1])
+        for held in (parameter.ranges or {}).values()
+    )
