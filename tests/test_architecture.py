@@ -160,3 +160,7 @@ def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path
     compiled = compile_family(tmp_path / "parameter_db" / "57c422b")
     numbers, axes = compiled.groups[0].parameters[0].numbers, compiled.family.scopes["axis"].instances
     assert [number_of(numbers, k, axis) for k, axis in enumerate(axes)] == ["R10", "R2058"]
+    shown, held = compiled.groups[0].parameters[0], load_schema("57c422b").parameters
+    same = {"name", "scope", "numbers", "type", "quantity", "ranges", "storage", "page"}
+    assert held[shown.id].model_dump(include=same) == shown.model_dump(include=same)
+    assert load_schema("57c422b").family.title == compiled.family.title

@@ -139,6 +139,17 @@ def test_a_printed_table_stands_on_the_page_of_what_is_looked_up_in_it(amp) -> N
     assert row[3:] == ["3000", "6000", "9000", "22500", "26214", "18000", "30000", "10800", "66000"]
 
 
+def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) -> None:
+    mask = amp("show", "num", "P3N0").out
+    assert "Number         P3N0\n" in mask
+    assert "Bits           0 to 31: Axis 0 to Axis 31\n" in mask
+    word = amp("show", "num", "P34N5").out
+    assert "Number         P34N0, P34N1 … P34N31 (Axis 0 to Axis 31)\n" in word
+    assert "25 to 26: Sensor type\n                   incremental sensor, stored as 0\n" in word
+    lost = amp("show", "num", "P5N0").out
+    assert "0 to 7: Bit 0 to Bit 7 (the manual's figure is lost: kept as it stands)" in lost
+
+
 def test_no_line_of_any_page_is_wider_than_a_terminal(amp) -> None:
     for parameter in load_schema("9pc").parameters:
         assert [line for line in amp("show", "9pc", parameter).out.splitlines() if len(line) > 100] == []

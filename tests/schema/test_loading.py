@@ -71,7 +71,7 @@ def test_good_facts_load(facts, head) -> None:
         ("scope: axis", "scope: word", "scope: word", "a.kind: the family has no scope 'word'"),
         ('page: "1"\n- id: a.kind', 'page: page one\n- id: a.kind', "page: page one", "a.speed: page: String should match"),
         ("name: Kind", "numbers: {format: 'P{x}'}\n  name: Kind", "numbers", "the format 'P{x}' may hold"),
-        ("name: Kind", "numbers: {step: 3}\n  name: Kind", "numbers", "numbers need 'start', 'listed' or a format without"),
+        ("name: Kind", "numbers: {step: 3}\n  name: Kind", "numbers", "numbers need 'start', 'listed', 'starts' or a format without"),
         ("name: Kind", "name: Kind\n  name: Sort", "name: Sort", "duplicate key"),
         ("name: Kind", "name: [Kind", "scope: axis", "expected"),
     ],

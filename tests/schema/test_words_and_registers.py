@@ -8,6 +8,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.schema import (
+    DatabaseFault,
     UnknownParameter,
     Value,
     ValueFault,
@@ -106,6 +107,17 @@ def test_a_mask_has_a_bit_an_axis_and_is_written_in_hexadecimal(mask, machine) -
     assert fault(here.situation, ("axes.displayed", "0"), Value(0xFFFFFFFF)) is None
     assert "does not fit its 32 bits" in str(fault(here.situation, ("axes.displayed", "0"), Value(2**32)))
     assert "does not fit its 32 bits" in str(fault(here.situation, ("axes.displayed", "0"), Value(-1)))
+
+
+def test_a_word_in_hexadecimal_is_not_guessed_from_digits_that_mean_two_numbers(mask) -> None:
+    """NUM P10: the manual prints 00000044 for bits 2 and 6 (page 5-4)."""
+    parameter = mask.parameter("axes.displayed")
+    with pytest.raises(ValueFault, match="'00000044' can be read two ways: write 0x00000044 or 44"):
+        read_value(parameter, "00000044", "")
+    assert read_value(parameter, "00000001", "") == Value(1), "the same either way"
+    assert read_value(parameter, "44", "") == Value(44)
+    with pytest.raises(ValueFault, match="'7F' is not a decimal number: write 0x7F"):
+        read_value(parameter, "7F", "")
 
 
 def test_a_bit_of_a_mask_is_addressed_and_changed_by_itself(mask, machine) -> None:
@@ -219,6 +231,72 @@ def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, mac
         with_field(field_at(parameter, 0), word, "32")
 
 
+def test_a_condition_may_ask_for_a_bit_or_a_field_of_a_word(facts, machine) -> None:
+    """NUM P21 counts for axes whose bit of P3 is set; P36 for some of the types in bits 25 and 26 of P34."""
+    schema = facts.schema(
+        """
+        - id: axes.servoed
+          name: Servo-Controlled Axes
+          numbers: {format: P3N0}
+          type: bits
+          storage: {bits: 32, signed: false, notation: hex, code: 6}
+          help: {what: One bit for each axis that is controlled.}
+          page: "4-14"
+        - id: sensor.kind
+          name: Sensor
+          scope: axis
+          numbers: {format: "P34N{i}"}
+          type: bits
+          help: {what: The sensor of each axis.}
+          page: "5-18"
+        - id: sensor.graduation
+          name: Graduation
+          scope: axis
+          numbers: {format: "P36N{i}"}
+          type: integer
+          states: [{state: hidden, unless: servoed}, {state: ignored, unless: graduated}]
+          help: {what: The graduation of the scale of each axis.}
+          page: "5-22"
+        """,
+        NUM
+        + """
+conditions:
+  servoed: {reads: {servoed: axes.servoed}, when: "bit(servoed, double(instance))", why: it is controlled}
+  graduated: {reads: {kind: sensor.kind}, when: "field(kind, 25.0, 2.0) in [2.0, 3.0]", why: it is graduated}
+""",
+    )
+    assert schema.parameter("axes.servoed").storage.code == 6
+    values = {"axes.servoed": Value(0x80000004), "sensor.kind@2": Value(0x04000000)}
+    here = machine(schema, values)
+    states = [here.situation.state(("sensor.graduation", axis)).state for axis in "0123"]
+    assert states == ["hidden", "hidden", "in-force", "hidden"]
+    here.set("sensor.kind@2", Value(0x02000000))
+    assert here.situation.state(("sensor.graduation", "2")).state == "ignored"
+    here.set("axes.servoed", Value(0x80000008))
+    states = [here.situation.state(("sensor.graduation", axis)).state for axis in "23"]
+    assert states == ["hidden", "ignored"], "axis 3 has no sensor yet"
+
+
+def test_a_condition_that_calls_what_is_no_function_is_told(facts) -> None:
+    conditions = """
+conditions:
+  odd: {reads: {word: axes.word}, when: "bits(word, 0.0)", why: it is odd}
+"""
+    with pytest.raises(
+        DatabaseFault, match=r"family\.yaml, line \d+: condition odd calls 'bits', which is no function"
+    ):
+        facts.schema(
+            """
+            - id: axes.word
+              name: Word
+              type: bits
+              help: {what: A word.}
+              page: "1-1"
+            """,
+            NUM + conditions,
+        )
+
+
 # -- 57C422B: registers ------------------------------------------------------------------------------
 
 
@@ -286,6 +364,147 @@ def test_registers_are_read_on_a_command_and_the_second_axis_lies_2048_higher(fa
     assert Value(2000.0, "counts/s") == read_value(
         schema.parameter("homing.low_speed"), "2000 counts/sec", "counts/s"
     )
+
+
+MODULE = """
+family: small
+name: Small servo module
+document: module-manual
+title: Small Servo Module
+machines: [{key: module, name: Module}]
+default_machine: module
+scopes:
+  axis: {instances: [X, Y], label: "{i} axis"}
+  register: {instances: [X, Y], label: "{i} axis, point {j}", of: axis}
+units: {}
+effect: {level: at-once}
+groups: [all]
+"""
+CAM = """
+- id: cam.points
+  name: Number of Points
+  scope: axis
+  numbers: {start: 128, step: 2048, format: "R{n}"}
+  type: integer
+  storage: {bits: 16}
+  help: {what: How many points the table has.}
+  page: "4-54"
+- id: cam.data
+  name: Cam Data
+  scope: register
+  instances: ["X.0..1914", "Y.0..1914"]
+  numbers: {starts: {X: 132, Y: 2180}, step: 1, format: "R{n}"}
+  type: integer
+  storage: {bits: 16}
+  states: [{state: hidden, unless: point_used}]
+  help: {what: Travel of a step.}
+  page: "4-57"
+- id: cam.pairs
+  name: Cam Pairs
+  scope: register
+  instances: ["X.0..2", "Y.0..2"]
+  numbers: {starts: {X: 132, Y: 2180}, step: 2, format: "P{n}"}
+  type: bits
+  bits: [{bit: 0, width: 8, label: First, signed: true}, {bit: 8, width: 8, label: Second, signed: true}]
+  storage: {bits: 16, signed: false, notation: hex}
+  help: {what: Two values in a word.}
+  page: "4-49"
+"""
+POINT_USED = """
+conditions:
+  point_used: {reads: {points: cam.points}, when: part < points, why: only the points that are counted}
+"""
+
+
+def test_the_points_of_a_table_are_parts_of_their_axis(facts, machine) -> None:
+    schema = facts.schema(CAM, MODULE + POINT_USED)
+    here = machine(schema, {"cam.points@Y": Value(3)})
+    find, state = here.situation.find, here.situation.state
+    assert [find(n) for n in ("R132", "R2046", "R2180", "R4094")] == [
+        ("cam.data", i) for i in ("X.0", "X.1914", "Y.0", "Y.1914")
+    ]
+    assert [find(n) for n in ("P132", "P136", "P2182")] == [("cam.pairs", i) for i in ("X.0", "X.2", "Y.1")]
+    states = {i: state(("cam.data", i)).state for i in ("Y.0", "Y.2", "Y.3", "X.0")}
+    assert [i for i, found in states.items() if found == "in-force"] == ["Y.0", "Y.2"]
+    here.set("cam.points@X", Value(1))
+    assert [state(("cam.data", i)).state for i in ("X.0", "X.1")] == ["in-force", "hidden"]
+    assert schema.label(("cam.data", "Y.7"), "module") == "R2187 Cam Data"
+    assert schema.instance_label(("cam.data", "Y.7"), "module") == "Y axis, point 7"
+    assert len(here.situation.reading("cam.data@.", "Y", "axis").addresses) == 1915
+
+
+def test_a_field_of_a_word_may_hold_a_number_with_its_sign(facts) -> None:
+    parameter = facts.schema(CAM, MODULE + POINT_USED).parameter("cam.pairs")
+    word = with_field(field_at(parameter, 8), with_field(field_at(parameter, 0), 0, "-1"), "-128")
+    assert word == 0x80FF
+    assert [field_value(field_at(parameter, n), word) for n in (0, 8)] == [-1, -128]
+    assert with_field(field_at(parameter, 8), word, "127") == 0x7FFF
+    for text in ("128", "-129", "x"):
+        with pytest.raises(ValueFault, match="First, which takes -128 to 127"):
+            with_field(field_at(parameter, 0), 0, text)
+
+
+def test_a_value_has_to_fit_the_words_of_the_control(facts, machine) -> None:
+    schema = facts.schema(
+        """
+        - id: move.speed
+          name: Command Velocity
+          scope: axis
+          type: real
+          unit: counts/s
+          ranges: {counts/s: [null, 65536000]}
+          storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2}
+          help: {what: Speed of a move.}
+          page: "4-13"
+        - id: move.points
+          name: Points
+          scope: axis
+          type: integer
+          storage: {bits: 16, signed: false}
+          help: {what: How many.}
+          page: "4-54"
+        """,
+        MODULE,
+    )
+    here = machine(schema).situation
+    for parameter_id, value, allowed in (
+        ("move.speed", Value(32767999.9, "counts/s"), True),
+        ("move.speed", Value(32768000.0, "counts/s"), False),
+        ("move.speed", Value(-32768000.0, "counts/s"), True),
+        ("move.points", Value(65535), True),
+        ("move.points", Value(65536), False),
+        ("move.points", Value(-1), False),
+    ):
+        assert (fault(here, (parameter_id, "X"), value) is None) is allowed, value
+
+
+def test_what_can_only_be_read_is_not_set_and_not_asked_for(facts, machine) -> None:
+    schema = facts.schema(
+        """
+        - id: status.fault
+          name: Fault
+          scope: axis
+          numbers: {start: 73, step: 2048, format: "R{n}"}
+          type: bits
+          bits: [{bit: 5, label: Velocity error}]
+          storage: {bits: 16, signed: false, notation: hex}
+          access: read
+          help: {what: Faults of the axis.}
+          page: "4-37"
+        - id: status.reset
+          name: Reset
+          scope: axis
+          type: integer
+          help: {what: Takes the faults back.}
+          page: "4-37"
+        """,
+        MODULE,
+    )
+    here = machine(schema).situation
+    assert here.state(("status.fault", "X")).state == "unusable"
+    assert "only be read" in here.state(("status.fault", "X")).why
+    assert "only be read" in str(fault(here, ("status.fault", "X"), Value(0)))
+    assert here.state(("status.reset", "X")).state == "in-force"
 
 
 # -- Syntec and AcroMill ------------------------------------------------------------------------------

@@ -13,10 +13,14 @@ from typing import Any
 
 import pytest
 
+from amp_studio.schema import Schema
 from amp_studio.transfer import Control, Faults, Identity, LinkError, Session
 from amp_studio.transfer.faults import FaultyLine
 from amp_studio.transfer.link import Link
 from amp_studio.transfer.null_modem import NullModem, VirtualClock
+
+from .small_module import small_module
+from .small_num import small_num
 
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(12))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(14))
@@ -159,3 +163,15 @@ def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
         for stream in (process.stdin, process.stdout):
             if stream is not None:
                 stream.close()
+
+
+@pytest.fixture(scope="session")
+def num(tmp_path_factory: pytest.TempPathFactory) -> Schema:
+    """Return a small NUM family with a word of every type, and all words of the manual's example."""
+    return small_num(tmp_path_factory.mktemp("made") / "num")
+
+
+@pytest.fixture(scope="session")
+def module(tmp_path_factory: pytest.TempPathFactory) -> Schema:
+    """Return a small servo module with every kind of register."""
+    return small_module(tmp_path_factory.mktemp("made") / "small")

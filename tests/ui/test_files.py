@@ -195,6 +195,7 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
     window = open_window()
 
     def fill(dialog: file_dialogs.NewFileDialog) -> None:
+        dialog.family.setCurrentIndex(dialog.family.findData("9pc"))
         dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
         dialog.axes.setText("X, Z, S")
 
@@ -213,7 +214,7 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
 
 
 def test_an_axis_name_that_is_not_offered_is_told_and_asks_again(open_window, person: Person) -> None:
-    dialog = file_dialogs.NewFileDialog(open_window())
+    dialog = file_dialogs.NewFileDialog(open_window(), "9pc")
     dialog.axes.setText("X, Q")
     dialog.accept()
     assert "'Q'" in person.reads()

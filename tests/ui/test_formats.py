@@ -73,3 +73,11 @@ def test_values_that_are_not_allowed_are_taken_only_where_that_is_wanted(
     file = open_file(tmp_path / "far.amp").file
     assert file.get(CALIBRATION) == Value(9999999.0, "mm")
     assert file.forced[CALIBRATION].endswith("by an import")
+
+
+def test_what_a_text_leaves_out_is_said(window: MainWindow, person: Person, tmp_path: Path) -> None:
+    (tmp_path / "num.txt").write_bytes(b"%00000000;09\nP5N0:t0n2;09\n#1;02\n\x13")
+    person.chooses(tmp_path / "num.txt", tmp_path / "num.amp")
+    action(window, "Import").trigger()
+    assert window.workspace.path == tmp_path / "num.amp"
+    assert "; the table does not hold these words: P5N1" in window.statusBar().currentMessage()

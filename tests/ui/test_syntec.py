@@ -1,0 +1,66 @@
+"""A Syntec file in the program: axes whose names are texts, fitted by a port, and codes that are not printed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import Document, ParameterFile, fitted_axes, new_file
+from amp_studio.schema import Value
+from amp_studio.ui.axis_dialogs import AxisDialog
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.workspace import Workspace
+
+from .conftest import action
+
+
+@pytest.fixture
+def mill(open_window, tmp_path: Path) -> MainWindow:
+    """Return a window with a new file of three axes."""
+    window = open_window()
+    file = new_file("syntec", "generic", ["X", "Y", "Z"], "mill")
+    window.show_workspace(Workspace(Document.create(file, tmp_path / "mill.amp")))
+    return window
+
+
+@pytest.fixture
+def file(mill: MainWindow) -> ParameterFile:
+    return mill.workspace.file
+
+
+def fill(dialog: AxisDialog, axis: str, text: str) -> None:
+    dialog.axis_box.setCurrentIndex(dialog.axis_box.findData(axis))
+    (field,) = dialog._fields.values()
+    field.setText(text)
+
+
+def test_only_axes_that_may_have_a_port_have_a_column(mill: MainWindow) -> None:
+    assert [mill.table.column_title(axis) for axis in ("1", "2", "3")] == [
+        "1 X linear",
+        "2 Y linear",
+        "3 Z linear",
+    ]
+
+
+def test_an_axis_is_named_by_a_text(mill: MainWindow, file: ParameterFile, accept) -> None:
+    accept(AxisDialog, lambda dialog: fill(dialog, "2", "X2"))
+    action(mill, "Name Axis").trigger()
+    assert file.get(("axis.name", "2")) == Value("X2")
+    assert mill.table.column_title("2") == "2 X2 linear"
+    mill.edits.undo.trigger()
+    assert file.get(("axis.name", "2")) == Value("Y")
+
+
+def test_a_deleted_axis_has_no_port(mill: MainWindow, file: ParameterFile, accept) -> None:
+    accept(AxisDialog, lambda dialog: dialog.axis_box.setCurrentIndex(dialog.axis_box.findData("3")))
+    action(mill, "Delete Axis").trigger()
+    assert fitted_axes(file) == ("1", "2")
+
+
+def test_a_code_that_is_not_printed_is_entered_as_a_code(mill: MainWindow, file: ParameterFile) -> None:
+    """Section 3.3: that 2 is inside is printed, what outside is, is not."""
+    assert mill.edits.commit(("limit.second_scope", ""), "raw:1")
+    assert file.get(("limit.second_scope", "")) == Value("raw:1")
+    assert mill.edits.commit(("limit.second_scope", ""), "2")
+    assert file.get(("limit.second_scope", "")) == Value("inside")
