@@ -112,6 +112,8 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         "message": finding.message,
         "fix": [{"param": schema.short(r.address, machine), "value": write_value(schema.parameters[r.address[0]], r.value)}
                 for r in finding.repairs],
+        "effective": [{"param": schema.short(s.address, machine), "value": write_value(schema.parameters[s.address[0]], s.value)}
+                      for s in finding.effective],
         "source": finding.page,
     }  # fmt: skip
 
@@ -121,10 +123,13 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
     names = ", ".join(_named(file, a) for a in finding.addresses[:8])
     page = f" (page {finding.page})" if finding.page else ""
     lines = [f"{finding.severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
-    if finding.repairs:
-        mends = ", ".join(f"{_named(file, r.address)} = {write_value(file.schema.parameters[r.address[0]], r.value)}"
-                          for r in finding.repairs)  # fmt: skip
-        lines.append(f"         repair: {mends}")
+    for what, settings in (("the control uses", finding.effective), ("repair", finding.repairs)):
+        if settings:
+            told = ", ".join(
+                f"{_named(file, s.address)} = {write_value(file.schema.parameters[s.address[0]], s.value)}"
+                for s in settings
+            )
+            lines.append(f"         {what}: {told}")
     return "\n".join(lines)
 
 

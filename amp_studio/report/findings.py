@@ -7,7 +7,7 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, show_value
-from amp_studio.validate import Finding, Repair
+from amp_studio.validate import Finding, Setting
 
 from .model import Note
 from .rows import axis_label, scope_of
@@ -27,13 +27,14 @@ def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]
 def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:
     addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
     repairs = list(dict.fromkeys(r for f in same for r in f.repairs))
+    used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective))))
     return Note(
         severity=same[0].severity,
         count=len(same),
         place=_places(file, addresses),
         about=tuple(_links(file, addresses, printed)),
-        message=same[0].message,
-        repair="; ".join(_repairs(file, repairs)),
+        message=same[0].message + (f" The control uses {used}." if used else ""),
+        repair="; ".join(_settings(file, repairs)),
         page=same[0].page or "",
     )
 
@@ -77,11 +78,11 @@ def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool)
     return schema.label(address, machine) if is_first else schema.instance_label(address, machine)
 
 
-def _repairs(file: ParameterFile, repairs: Sequence[Repair]) -> Iterable[str]:
+def _settings(file: ParameterFile, settings: Sequence[Setting]) -> Iterable[str]:
     """Yield ``1300, 2300 Home Calibration = 0 mm`` for each parameter and new value."""
     wanted: dict[tuple[str, str], list[Address]] = {}
-    for repair in repairs:
-        text = show_value(file.schema.parameters[repair.address[0]], repair.value)
-        wanted.setdefault((repair.address[0], text), []).append(repair.address)
+    for setting in settings:
+        text = show_value(file.schema.parameters[setting.address[0]], setting.value)
+        wanted.setdefault((setting.address[0], text), []).append(setting.address)
     for (_, text), addresses in wanted.items():
         yield ", ".join(label for _, label in _links(file, addresses, set())) + f" = {text}"

@@ -403,13 +403,17 @@ class Family(Model):
     conditions: dict[str, Condition] = {}
 
 
-class Fix(Model):
-    """A repair: the parameter's new value as a CEL expression over the rule's names."""
+class Assignment(Model):
+    """A value for one of the parameters that a rule reads, as a CEL expression over the rule's names."""
 
     set: str
-    """The name, out of ``reads``, of the parameter to change."""
+    """The name, out of ``reads``, of the parameter."""
     value: str
-    unit: str = ""
+
+
+class Fix(Assignment):
+    """A repair: the parameter's new value."""
+
     safe: bool = False
     """Cannot change motion."""
 
@@ -441,6 +445,8 @@ class Rule(Model):
     units: dict[str, str] = {}
     """Unit of each of ``values`` that has one, in canonical units."""
     fix: tuple[Fix, ...] = ()
+    effective: tuple[Assignment, ...] = ()
+    """What the control really uses while the rule is broken: it corrects, clamps or forces the value silently."""
     page: Page
 
     @field_validator("reads")

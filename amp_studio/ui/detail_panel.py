@@ -92,6 +92,10 @@ class DetailPanel(QWidget):
             f"<h3>{title}</h3>",
             f"<p><b>{value}</b> &nbsp; <small>{', '.join(t for t in (place, told) if t)}</small>",
         ]
+        if (used := self._workspace.effective().get(address)) is not None:
+            lines.append(
+                f"<br><b>{html.escape(show_value(parameter, used))}</b> <small>is what the control uses</small>"
+            )
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
         lines.append("</p>")
         state = file.situation.state(address)

@@ -59,6 +59,7 @@ class ParameterTable(QAbstractTableModel):
         self._machine = ""
         self._layouts: dict[str, list[Row]] = {}
         self._worst: dict[Address, str] = {}
+        self._effective: dict[Address, Value] = {}
         self._bold, self._italic, self._both = (
             _font(*kind) for kind in ((True, False), (False, True), (True, True))
         )
@@ -153,13 +154,22 @@ class ParameterTable(QAbstractTableModel):
     # -- values as they are shown ----------------------------------------------
 
     def cell_text(self, address: Address) -> str:
-        """Return what stands in a cell: the value, or a point where it does not exist for this configuration."""
-        return self.shown_value(address) if self.hidden_too or self._exists(address) else "·"
+        """Return what stands in a cell: the value, or a point where it does not exist for this configuration.
+
+        Where the control uses another value than the file's, that stands behind an arrow.
+        """
+        if not self.hidden_too and not self._exists(address):
+            return "·"
+        used = self._effective.get(address)
+        return self.shown_value(address) + ("" if used is None else f" → {self._shown(address, used)}")
 
     def shown_value(self, address: Address) -> str:
         """Return a value as the table shows it."""
+        return self._shown(address, self.workspace.file.get(address))
+
+    def _shown(self, address: Address, value: Value | None) -> str:
         parameter = self.workspace.file.schema.parameters[address[0]]
-        return show_value(parameter, self._in_units(address, self.workspace.file.get(address)))
+        return show_value(parameter, self._in_units(address, value))
 
     def typed_value(self, address: Address) -> str:
         """Return a value as it is offered for editing."""
@@ -283,6 +293,8 @@ class ParameterTable(QAbstractTableModel):
             lines.append(
                 f"{state.state.capitalize()}: {state.why}" + (f" (page {state.page})" if state.page else "")
             )
+        if address in self._effective:
+            lines.append(f"The control uses {self._shown(address, self._effective[address])}")
         if address in file.forced:
             lines.append(f"Forced {file.forced[address]}")
         value = file.get(address)
@@ -318,7 +330,7 @@ class ParameterTable(QAbstractTableModel):
         for finding in self.workspace.findings:  # errors come first
             for address in finding.addresses:
                 worst.setdefault(address, finding.severity)
-        self._worst = worst
+        self._worst, self._effective = worst, self.workspace.effective()
 
 
 def _font(bold: bool, italic: bool) -> QFont:

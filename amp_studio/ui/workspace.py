@@ -205,6 +205,10 @@ class Workspace(QObject):
         """Return the findings that are about one address."""
         return tuple(f for f in self.findings if address in f.addresses)
 
+    def effective(self) -> dict[Address, Value]:
+        """Return the values that the control really uses, where they are others than the file's."""
+        return {s.address: s.value for f in reversed(self.findings) for s in f.effective}
+
     def count(self, severity: str) -> int:
         """Return how many findings of a severity there are."""
         return sum(f.severity == severity for f in self.findings)

@@ -2,7 +2,7 @@
 
 from .calculators import Argument, Calculator, calculate, calculators, shown_result
 from .expressions import RuleFault
-from .finding import SEVERITIES, Finding, Repair
+from .finding import SEVERITIES, Finding, Setting
 from .formulas import formulas
 from .validator import Validator
 
@@ -11,8 +11,8 @@ __all__ = [
     "Argument",
     "Calculator",
     "Finding",
-    "Repair",
     "RuleFault",
+    "Setting",
     "Validator",
     "calculate",
     "calculators",

@@ -52,6 +52,8 @@ class Expressions:
     values: tuple[tuple[str, Program], ...]
     fixes: tuple[tuple[str, Program], ...]
     """Name of the value to set, and the value."""
+    effective: tuple[tuple[str, Program], ...]
+    """Name of the value, and what the control uses instead."""
     functions: tuple[str, ...]
     """Functions offered to rules that these call."""
     always: tuple[str, ...]
@@ -78,6 +80,7 @@ def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
         _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)"),
         tuple((name, program(text)) for name, text in rule.values.items()),
         tuple((fix.set, program(fix.value)) for fix in rule.fix),
+        tuple((used.set, program(used.value)) for used in rule.effective),
         tuple(sorted(called)),
         tuple(sorted(always)),
     )
@@ -90,6 +93,8 @@ def _texts(rule: Rule) -> Iterator[tuple[str, str]]:
         yield f"value {name}", text
     for fix in rule.fix:
         yield f"fix of {fix.set}", fix.value
+    for used in rule.effective:
+        yield f"effective {used.set}", used.value
 
 
 def _compiled(rule: Rule, place: str, text: str) -> Program:
@@ -106,9 +111,9 @@ def _check_names(rule: Rule) -> None:
         for name in names:
             if name not in rule.reads:
                 raise RuleFault(rule.id, f"{place} names '{name}', which it does not read")
-    for fix in rule.fix:
-        if fix.set not in rule.reads or fix.set in lists:
-            raise RuleFault(rule.id, f"the fix sets '{fix.set}', which is no single value it reads")
+    for assignment in (*rule.fix, *rule.effective):
+        if assignment.set not in rule.reads or assignment.set in lists:
+            raise RuleFault(rule.id, f"it sets '{assignment.set}', which is no single value it reads")
     for name, unit in rule.units.items():
         if name not in rule.values:
             raise RuleFault(rule.id, f"units names '{name}', which is none of its values")

@@ -11,8 +11,8 @@ SEVERITIES: tuple[Severity, ...] = ("error", "warning", "advice")
 
 
 @dataclass(frozen=True, slots=True)
-class Repair:
-    """One value that would mend a finding."""
+class Setting:
+    """One value of one parameter."""
 
     address: Address
     value: Value
@@ -26,7 +26,9 @@ class Finding:
     severity: Severity
     addresses: tuple[Address, ...]
     message: str
-    repairs: tuple[Repair, ...] = ()
+    repairs: tuple[Setting, ...] = ()
     page: str | None = None
     safe: bool = False
     """Its repair cannot change motion."""
+    effective: tuple[Setting, ...] = ()
+    """What the control really uses instead of the values in the file."""

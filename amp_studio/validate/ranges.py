@@ -22,7 +22,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.model import BoundRef
 
-from .finding import Finding, Repair
+from .finding import Finding, Setting
 
 _FORMAT = re.compile(r"[0-9]+\.[0-9]+")
 
@@ -126,7 +126,7 @@ class ValueChecks:
     def _finding(self, address: Address, value: Value, said: str, mended: Value | None) -> Finding:
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value and not fault(self._file.situation, address, mended)
-        repairs = (Repair(address, mended),) if mended is not None and allowed else ()
+        repairs = (Setting(address, mended),) if mended is not None and allowed else ()
         forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
         kind = "schema.choice" if parameter.choices else "schema.range"
         return Finding(kind, "error", (address,), said + "." + forced, repairs, parameter.page)

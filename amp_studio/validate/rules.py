@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from operator import is_
 from typing import Any
 
@@ -23,7 +24,7 @@ from amp_studio.schema.cel_engine import Context, Program
 from amp_studio.schema.situation import Canonical
 from amp_studio.schema.units import angular
 
-from .finding import Finding, Repair
+from .finding import Finding, Setting
 from .formulas import rule_functions
 from .plan import RuleCheck
 
@@ -164,7 +165,14 @@ class RuleChecks:
         repairs = self._repairs(check, given)
         safe = bool(repairs) and all(fix.safe for fix in rule.fix)
         return Finding(
-            rule.id, rule.severity, about, rule.message.format_map(texts), repairs, rule.page, safe
+            rule.id,
+            rule.severity,
+            about,
+            rule.message.format_map(texts),
+            repairs,
+            rule.page,
+            safe,
+            tuple(self._set(check, given, check.expressions.effective)),
         )
 
     def _shown(self, address: Address) -> str:
@@ -184,20 +192,24 @@ class RuleChecks:
                 found, unit = convert(float(found), unit, inch), inch
         return f"{write_number(float(f'{found:.7g}'))} {shown(unit)}".rstrip()
 
-    def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Repair, ...]:
+    def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
         """Return what the rule would change; nothing if a part of it is not allowed, or if it would not help."""
-        repairs = []
-        for name, expression in check.expressions.fixes:
-            address = check.address_of(name)
-            value = self._mended(address, expression, given.context)
-            if value is None or value == self._file.values.get(address):
-                continue
-            if fault(self._file.situation, address, value):
-                return ()
-            repairs.append(Repair(address, value))
-        return tuple(repairs) if repairs and self._mends(check, given, repairs) else ()
+        repairs = tuple(self._set(check, given, check.expressions.fixes))
+        if any(fault(self._file.situation, repair.address, repair.value) for repair in repairs):
+            return ()
+        return repairs if repairs and self._mends(check, given, repairs) else ()
 
-    def _mends(self, check: RuleCheck, given: _Given, repairs: list[Repair]) -> bool:
+    def _set(
+        self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Program], ...]
+    ) -> Iterator[Setting]:
+        """Yield what the rule sets, where that is another value than the present one."""
+        for name, expression in assignments:
+            address = check.address_of(name)
+            value = self._worked_out(address, expression, given.context)
+            if value is not None and value != self._file.values.get(address):
+                yield Setting(address, value)
+
+    def _mends(self, check: RuleCheck, given: _Given, repairs: tuple[Setting, ...]) -> bool:
         """Tell whether the rule holds with its own repairs, which were rounded as the parameter wants it."""
         mended = {repair.address: canonical_value(repair.value) for repair in repairs}
         before = dict(zip(check.names, given.values or (), strict=True))
@@ -213,8 +225,8 @@ class RuleChecks:
         finally:
             given.context.update({name: before[name] for name in after})
 
-    def _mended(self, address: Address, expression: Program, context: Context) -> Value | None:
-        """Return a part of a repair in the unit of the value it replaces; None where there is none."""
+    def _worked_out(self, address: Address, expression: Program, context: Context) -> Value | None:
+        """Return a value as the parameter holds it, in the unit of the present one; None where there is none."""
         parameter = self._file.schema.parameters[address[0]]
         try:
             found = expression.execute(context)

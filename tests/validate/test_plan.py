@@ -212,11 +212,11 @@ LENGTH = {"length": "axis.length"}
         ),
         (
             rule(LENGTH, fix=[{"set": "room", "value": "1.0"}]),
-            "the fix sets 'room', which is no single value it reads",
+            "it sets 'room', which is no single value it reads",
         ),
         (
             rule({"all": "axis.length@*"}, fix=[{"set": "all", "value": "1.0"}]),
-            "the fix sets 'all', which is no single value",
+            "it sets 'all', which is no single value",
         ),
         (rule(LENGTH, optional=["room"]), "optional names 'room', which it does not read"),
         (rule(LENGTH, any_state=["room"]), "any_state names 'room', which it does not read"),

@@ -14,9 +14,19 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from amp_studio.files import Change, ParameterFile, retype_axis
-from amp_studio.schema import Address, DatabaseFault, Parameter, Value, load_schema, read_rules, same_value
+from amp_studio.report import finding_json, finding_text
+from amp_studio.schema import (
+    Address,
+    DatabaseFault,
+    Parameter,
+    Rule,
+    Value,
+    load_schema,
+    read_rules,
+    same_value,
+)
 from amp_studio.schema.units import UNITS
-from amp_studio.validate import SEVERITIES, Finding, Repair, RuleFault, Validator
+from amp_studio.validate import SEVERITIES, Finding, RuleFault, Setting, Validator
 
 RAPID = ("feedrate.rapid", "1")
 CUTTING = ("feedrate.max_cutting", "1")
@@ -50,7 +60,7 @@ def test_a_value_out_of_range_is_an_error_with_its_range_page_and_repair(mill) -
         severity="error",
         addresses=(("home.g28_speed", "1"),),
         message="G28 Home Speed 10161 mm/min is outside 0 to 10160 mm/min.",
-        repairs=(Repair(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
+        repairs=(Setting(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
         page="5-16",
     )
 
@@ -61,7 +71,7 @@ def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(400.0001, "in/min"))
     finding = the(mill, "schema.range")
     assert finding.message == "G28 Home Speed 400.0001 in/min is outside 0 to 400 in/min."
-    assert finding.repairs == (Repair(("home.g28_speed", "1"), Value(400.0, "in/min")),)
+    assert finding.repairs == (Setting(("home.g28_speed", "1"), Value(400.0, "in/min")),)
 
 
 def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
@@ -71,7 +81,7 @@ def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
         "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
         "(set by 1203 Rapid Feedrate for Positioning)."
     )
-    assert finding.repairs == (Repair(CUTTING, Value(12000.0, "mm/min")),)
+    assert finding.repairs == (Setting(CUTTING, Value(12000.0, "mm/min")),)
 
 
 def test_a_bound_that_moves_is_noticed(mill) -> None:
@@ -88,7 +98,7 @@ def test_a_code_without_a_choice_is_an_error_repaired_by_the_default(mill) -> No
         severity="error",
         addresses=(("servo.sercos_baud", ""),),
         message="999 is no code of Baud Rate for SERCOS.",
-        repairs=(Repair(("servo.sercos_baud", ""), Value("mhz2")),),
+        repairs=(Setting(("servo.sercos_baud", ""), Value("mhz2")),),
         page="7-3",
     )
 
@@ -143,7 +153,7 @@ def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
     mill.set(address, value)
     finding = the(mill, "schema.range")
     assert finding.message == said
-    assert finding.repairs == (Repair(address, mended),), "the control knows the figure only"
+    assert finding.repairs == (Setting(address, mended),), "the control knows the figure only"
 
 
 def test_an_axis_that_turns_wants_degrees(mill) -> None:
@@ -245,7 +255,7 @@ def test_a_finding_of_a_rule_has_its_values_page_and_repair(mill) -> None:
         "end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
     )
     assert (finding.page, finding.severity, finding.safe) == ("7-20", "warning", False)
-    assert finding.repairs == (Repair(EXCESS, Value(13.2, "mm")),)
+    assert finding.repairs == (Setting(EXCESS, Value(13.2, "mm")),)
 
 
 def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:
@@ -253,7 +263,7 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     mill.set(EXCESS, Value(0.4, "in"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
     assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in finding.message
-    assert finding.repairs == (Repair(EXCESS, Value(0.51969, "in")),), (
+    assert finding.repairs == (Setting(EXCESS, Value(0.51969, "in")),), (
         "five decimals, as the parameter has them"
     )
 
@@ -278,6 +288,27 @@ def test_another_unit_system_is_noticed(mill) -> None:
 def test_a_repair_that_cannot_change_motion_is_safe(mill) -> None:
     mill.set(("servo.sercos_transmit", "1"), Value("low"))
     assert the(mill, "9pc.servo.transmit-level-high").safe
+
+
+def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) -> None:
+    own = Rule(
+        id="own.clamp",
+        title="Rapid feedrate above what this control takes",
+        severity="warning",
+        reads={"rapid": "feedrate.rapid"},
+        check="rapid <= 2540.0",
+        message="{rapid}",
+        effective=({"set": "rapid", "value": "2540.0"},),
+        page="1",
+    )
+    mill.set(RAPID, Value(200.0, "in/min"))
+    mill.set(("feedrate.rapid", "2"), Value(2540.0, "mm/min"))
+    validator = Validator(mill, [own])
+    (finding,) = (f for f in validator.run() if f.rule == "own.clamp" and f.addresses == (RAPID,))
+    assert finding.effective == (Setting(RAPID, Value(100.0, "in/min")),)
+    assert finding.repairs == ()
+    assert "uses: 1203 Rapid Feedrate for Positioning = 100 in/min" in finding_text(mill, finding)
+    assert finding_json(mill, finding)["effective"] == [{"param": "1203", "value": "100 in/min"}]
 
 
 def test_a_repair_that_would_not_help_is_not_offered(mill) -> None:
@@ -367,7 +398,7 @@ def test_a_machine_builder_adds_rules(mill, tmp_path: Path) -> None:
     own = [finding for finding in validator.run() if finding.rule == "builder.rapid"]
     assert len(own) == 7
     assert own[0].message == "Rapid 12000 mm/min is more than the screws of this machine bear."
-    assert own[0].repairs == (Repair(RAPID, Value(10000.0, "mm/min")),)
+    assert own[0].repairs == (Setting(RAPID, Value(10000.0, "mm/min")),)
     mill.set(RAPID, Value(10000.0, "mm/min"))
     assert sum(finding.rule == "builder.rapid" for finding in validator.update([RAPID])) == 6
     assert found(mill, "builder.rapid") == [], "another validator does not know it"
