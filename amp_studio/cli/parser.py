@@ -70,7 +70,12 @@ def parser() -> argparse.ArgumentParser:
     json_option(sub)
     sub = verb("validate", "checks", "range, choice, state and cross-parameter findings")
     sub.add_argument("paths", nargs="+", type=Path, metavar="PATH")
-    sub.add_argument("--rules", type=Path, help="further rules in the same form")
+    sub.add_argument(
+        "--rules", type=Path, help="a builder's own rules instead of the rules.yaml beside the file"
+    )
+    sub.add_argument(
+        "--why", action="store_true", help="explain each finding: its rule, the values, the page"
+    )
     json_option(sub)
     sub = verb("diff", "files", "differences by parameter; A or B may be a control's address")
     sub.add_argument("a")

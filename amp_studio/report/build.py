@@ -11,9 +11,9 @@ from pathlib import Path
 from amp_studio import __version__
 from amp_studio.files import FileFault, ParameterFile, axis_instances, content_of, open_file
 from amp_studio.schema import Address, label_of
-from amp_studio.validate import Finding, Validator
+from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
-from .findings import joined_places, notes_of
+from .findings import joined_places, notes_of, suppressed_notes
 from .model import SORTS, Report, Row, Sort, counted
 from .rows import Rows, axis_name, printed_axes, row_of, rows_of, scope_of
 from .sections import number_span, sections_of
@@ -29,6 +29,7 @@ def build_report(
     changed_only: bool = False,
     source: Path | None = None,
     date: datetime | None = None,
+    own: BuilderRules = NO_RULES,
 ) -> Report:
     """Return the report of a file as it is in memory.
 
@@ -39,7 +40,8 @@ def build_report(
         raise ValueError(f"'{sort}' is no order of a report: {', '.join(SORTS)}")
     found = rows_of(file)
     printed = tuple(r for r in found.rows if r.is_changed) if changed_only else found.rows
-    findings = Validator(file).run()
+    validator = Validator(file, own)
+    findings = validator.run()
     heads, axes = _axes(file, found.rows, findings)
     family = file.schema.family
     name = source.name if source else ""
@@ -56,7 +58,8 @@ def build_report(
         remarks=file.header.notes.strip(),
         axis_heads=heads,
         axes=axes,
-        notes=notes_of(file, findings, {r.anchor for r in printed}),
+        notes=notes_of(file, findings, {r.anchor for r in printed})
+        + suppressed_notes(file, validator.suppressed, {r.anchor for r in printed}),
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, sort),

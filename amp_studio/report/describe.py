@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from amp_studio.files import ParameterFile
@@ -13,7 +14,7 @@ from amp_studio.schema import (
     write_value,
 )
 from amp_studio.schema.model import BoundRef, Choice, StateRule
-from amp_studio.validate import Finding
+from amp_studio.validate import Finding, Suppressed
 
 from .manual_page import erratum_text
 
@@ -131,6 +132,12 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
             )
             lines.append(f"         {what}: {told}")
     return "\n".join(lines)
+
+
+def suppressed_text(file: ParameterFile, left: Suppressed) -> str:
+    """Return a finding that a builder leaves as it is, in two lines for the terminal."""
+    said = finding_text(file, replace(left.finding, repairs=(), effective=()))
+    return f"suppressed {said}\n         by {left.suppression.by}: {left.suppression.reason}"
 
 
 def _named(file: ParameterFile, address: Address) -> str:

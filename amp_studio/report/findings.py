@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import groupby
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, show_value
-from amp_studio.validate import Finding, Setting
+from amp_studio.validate import Finding, Setting, Suppressed
 
 from .model import Note
 from .rows import axis_label, scope_of
@@ -22,6 +23,18 @@ def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]
     for finding in findings:
         alike.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
     return tuple(_note(file, same, printed) for same in alike.values())
+
+
+def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: set[str]) -> tuple[Note, ...]:
+    """Return the findings that a builder leaves as they are, with his name and the reason."""
+    alike: dict[tuple[str, str], list[Finding]] = {}
+    for suppressed in left:
+        finding, why = suppressed.finding, suppressed.suppression
+        said = f"{finding.message} Suppressed by {why.by}: {why.reason}"
+        alike.setdefault((finding.rule, said), []).append(
+            replace(finding, message=said, repairs=(), effective=())
+        )
+    return tuple(replace(_note(file, same, printed), severity="suppressed") for same in alike.values())
 
 
 def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:

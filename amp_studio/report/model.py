@@ -167,11 +167,14 @@ class Section:
     parts: tuple[Listing | Grid, ...]
 
 
+NoteKind = Severity | Literal["suppressed"]
+
+
 @dataclass(frozen=True, slots=True)
 class Note:
     """One finding, or several that say the same of other axes."""
 
-    severity: Severity
+    severity: NoteKind
     count: int
     place: str
     """``Axis 1 X, 2 Y``; empty for a finding about many values, whose message names the first of them."""
@@ -223,9 +226,9 @@ class Report:
             for part in section.parts:
                 yield from part.rows
 
-    def severities(self) -> dict[Severity, tuple[Note, ...]]:
-        """Return the findings by severity, errors first; no entry for a severity without one."""
-        names: tuple[Severity, ...] = ("error", "warning", "advice")
+    def severities(self) -> dict[NoteKind, tuple[Note, ...]]:
+        """Return the findings by severity, errors first, suppressed ones last; no entry for a severity without one."""
+        names: tuple[NoteKind, ...] = ("error", "warning", "advice", "suppressed")
         found = {name: tuple(n for n in self.notes if n.severity == name) for name in names}
         return {name: notes for name, notes in found.items() if notes}
 
@@ -234,6 +237,8 @@ def counted(number: int, noun: str) -> str:
     """Return ``1 error``, ``2 errors``, ``3 pieces of advice``."""
     if noun == "advice":
         return f"{number} {'piece' if number == 1 else 'pieces'} of advice"
+    if noun == "suppressed":
+        return f"{number} suppressed {'finding' if number == 1 else 'findings'}"
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 

@@ -7,6 +7,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import ParameterFile, write_atomic
+from amp_studio.validate import NO_RULES, BuilderRules
 
 from .build import build_report
 from .model import Report, Sort
@@ -31,16 +32,17 @@ def write_report(
     changed_only: bool = False,
     source: Path | None = None,
     date: datetime | None = None,
+    own: BuilderRules = NO_RULES,
 ) -> None:
     """Write the documentation of a file, whole or not at all; the format follows the ending of ``path``.
 
     ``sort`` is one of the documenter's three orders, ``changed_only`` keeps
     what differs from the printed default, ``source`` is where the file lies
-    on disk, and ``date`` is printed (now when left out). Raises ValueError
+    on disk, ``date`` is printed (now when left out), and ``own`` are the builder's rules. Raises ValueError
     for an ending or an order that is not known, SaveFault when it cannot be written.
     """
     render = FORMATS.get(path.suffix.lower())
     if render is None:
         raise ValueError(f"{path.name}: a report is written as {', '.join(FORMATS)}, as its ending says")
-    report = build_report(file, sort=sort, changed_only=changed_only, source=source, date=date)
+    report = build_report(file, sort=sort, changed_only=changed_only, source=source, date=date, own=own)
     write_atomic(path, render(report), keep_backup=False)

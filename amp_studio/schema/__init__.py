@@ -6,8 +6,19 @@ it; every other room asks here and knows no parameter by heart.
 
 from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
 from .constraint import Limits, clip, fault, limits
-from .load import DatabaseFault, database_folder, family_ids, read_rules
-from .model import AxisProfile, Choice, Condition, Erratum, Group, Parameter, Rule, Table
+from .load import DatabaseFault, database_folder, family_ids, read_entries
+from .model import (
+    AxisProfile,
+    BuilderRule,
+    Choice,
+    Condition,
+    Erratum,
+    Group,
+    Parameter,
+    Rule,
+    Suppression,
+    Table,
+)
 from .situation import IN_FORCE, Reading, Situation, StateInfo, canonical_value, program, same_value
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
 from .values import (
@@ -28,6 +39,7 @@ __all__ = [
     "IN_FORCE",
     "Address",
     "AxisProfile",
+    "BuilderRule",
     "Choice",
     "Condition",
     "DatabaseFault",
@@ -40,6 +52,7 @@ __all__ = [
     "Schema",
     "Situation",
     "StateInfo",
+    "Suppression",
     "Table",
     "UnitError",
     "UnknownParameter",
@@ -64,8 +77,8 @@ __all__ = [
     "part_of",
     "program",
     "read_address",
+    "read_entries",
     "read_number",
-    "read_rules",
     "read_value",
     "same_value",
     "show_value",

@@ -11,9 +11,10 @@ import contextlib
 import hashlib
 import os
 import tempfile
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import platformdirs
 from pydantic import TypeAdapter, ValidationError
@@ -81,7 +82,7 @@ def compile_family(folder: Path) -> Compiled:
     for key, group in zip(family.groups, groups, strict=True):
         if group.key != key:
             raise DatabaseFault(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
-    rules = tuple(rule for path in _of(family, folder / "rules") for rule in read_rules(path))
+    rules = tuple(rule for path in _of(family, folder / "rules") for rule in _read(path, Rules).rules)
     errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
     guides = tuple(g for path in sorted(folder.glob("guides/*.yaml")) for g in _read(path, Guides).guides)
@@ -98,29 +99,60 @@ def _of(family: Family, folder: Path) -> list[Path]:
     return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
 
 
-def read_rules(path: Path) -> tuple[Rule, ...]:
-    """Read a file of rules; raises DatabaseFault with file and line."""
-    return _read(path, Rules).rules
+def read_entries(
+    path: Path, models: Mapping[str, type[Model]]
+) -> tuple[list[tuple[Model, int | None]], list[DatabaseFault]]:
+    """Read a file of named lists entry by entry: those that can be used, with their lines, and what is wrong with the others.
+
+    ``models`` says which lists there may be, and of what.
+    """
+    try:
+        data = _parsed(path)
+    except DatabaseFault as fault:
+        return [], [fault]
+    if not isinstance(data, dict):
+        return [], [] if data is None else [DatabaseFault(path, 1, f"holds no {' and no '.join(models)}")]
+    entries: list[tuple[Model, int | None]] = []
+    faults: list[DatabaseFault] = []
+    for key, listed in data.items():
+        if key not in models or not isinstance(listed, list):
+            said = f"{key}: is no list" if key in models else f"{key}: here stand {', '.join(models)}"
+            faults.append(DatabaseFault(path, _line_of(path, (str(key),)), said))
+            continue
+        for n, entry in enumerate(listed):
+            try:
+                entries.append((_valid(path, entry, models[key], (key, n)), _line_of(path, (key, n))))
+            except DatabaseFault as fault:
+                faults.append(fault)
+    return entries, faults
 
 
 def _read(path: Path, model: type[T]) -> T:
+    return _valid(path, _parsed(path), model)
+
+
+def _parsed(path: Path) -> Any:
+    """Return what a YAML file holds; raises DatabaseFault."""
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
     try:
-        data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+        return YAML(typ="safe").load(path.read_text(encoding="utf-8"))
     except MarkedYAMLError as error:
         mark = error.problem_mark
         raise DatabaseFault(path, mark.line + 1 if mark else None, str(error.problem)) from None
     except (YAMLError, UnicodeDecodeError, OSError) as error:
         raise DatabaseFault(path, None, str(error).splitlines()[0]) from None
+
+
+def _valid(path: Path, data: Any, model: type[T], place: Place = ()) -> T:
+    """Return data of a file as a model; raises DatabaseFault. ``place`` is where the data stand in the file."""
     try:
         return TypeAdapter(model).validate_python(data)
     except ValidationError as error:
         first = error.errors()[0]
-        raise DatabaseFault(
-            path, _line_of(path, first["loc"]), f"{_place(data, first)}{first['msg']}"
-        ) from None
+        line = _line_of(path, (*place, *first["loc"]))
+        raise DatabaseFault(path, line, f"{_place(data, first)}{first['msg']}") from None
 
 
 def _line_of(path: Path, place: Place) -> int | None:
@@ -141,7 +173,7 @@ def _line_of(path: Path, place: Place) -> int | None:
 
 def _place(data: object, fault: ErrorDetails) -> str:
     """Name the parameter or rule a fault lies in, and the key."""
-    where, node = [], data
+    where, node = [str(data["id"])] if isinstance(data, dict) and "id" in data else [], data
     for step in fault["loc"]:
         try:
             node = node[step]  # type: ignore[index]  # walks plain YAML of unknown shape

@@ -459,9 +459,28 @@ class Rule(Model):
 
 
 class Rules(Model):
-    """A file of ``rules/``, or a machine builder's own ``rules.yaml``."""
+    """A file of ``rules/``."""
 
     rules: tuple[Rule, ...]
+
+
+class BuilderRule(Rule):
+    """A rule of a machine builder: no page of a manual stands behind it."""
+
+    family: str = ""
+    """The control family it is for, where files of several lie side by side."""
+    page: str = ""
+    """Where it is written, in the builder's own words."""
+
+
+class Suppression(Model):
+    """Findings that a builder has looked at and leaves as they are."""
+
+    rule: str
+    params: tuple[str, ...] = ()
+    """The parameters that the finding is about, by number or id; an id without instance is any, none at all whatever."""
+    reason: Annotated[str, Field(min_length=1)]
+    by: Annotated[str, Field(min_length=1)]
 
 
 class Table(Model):

@@ -9,9 +9,9 @@ from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QStyle
 
 from amp_studio.files import RangeFault, axis_type, describe, fitted_axes
-from amp_studio.files.lock import now
+from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, Value, ValueFault
-from amp_studio.validate import Finding, calculators
+from amp_studio.validate import RULES_FILE, Finding, calculators, repair_all_safe, suppress
 
 from .questions import ask, tell
 from .workspace import Workspace
@@ -38,12 +38,18 @@ class EditActions:
         calculator = act("Ca&lculator…", self.calculator, "F3", "file")
         find = act("&Find Parameter", self._find, keys.Find, "file")
         repair = act("Repa&ir Selected Finding", self._repair, "F8", "edit")
+        why = act("W&hy Is This Found", self._why, "Shift+F1", "file")
         safe = act("Repair All &Safe Findings", self.repair_safe, "Shift+F8", "edit")
         for action in (copy, paste, unset):  # a text field has its own
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
         self.of_a_cell: list[QAction] = [edit, copy, paste, default, unset, every]
         menu = window.menuBar().addMenu("&Edit")
-        for actions in ((self.undo, self.redo), self.of_a_cell, (quick, calculator, find), (repair, safe)):
+        for actions in (
+            (self.undo, self.redo),
+            self.of_a_cell,
+            (quick, calculator, find),
+            (repair, safe, why),
+        ):
             menu.addActions(list(actions))
             menu.addSeparator()
 
@@ -171,6 +177,30 @@ class EditActions:
             )
         self.repair(finding)
 
+    def _why(self) -> None:
+        finding = self.window.findings.current() if self.window.findings else None
+        if finding is None:
+            raise ValueError("No finding is selected.")
+        self.why(finding)
+
+    def why(self, finding: Finding) -> None:
+        """Open the explanation of a finding."""
+        from .finding_dialogs import WhyDialog
+
+        WhyDialog(self._workspace(), finding, self.window.go_to, self.window).show()
+
+    def suppress(self, finding: Finding) -> None:
+        """Leave a finding as it is, with a reason and a name that are asked for."""
+        from .finding_dialogs import SuppressDialog
+
+        workspace = self._workspace()
+        dialog = SuppressDialog(finding, user(), self.window)
+        if dialog.exec():
+            path = workspace.path.parent / RULES_FILE
+            suppress(path, finding.rule, dialog.params(), reason=dialog.reason.text(), by=dialog.name.text())
+            workspace.read_own_rules()
+            self.window.say(f"Kept in {path}")
+
     def repair(self, finding: Finding) -> None:
         """Apply the repair of a finding as one step."""
         self._workspace().edit("Repair", {r.address: r.value for r in finding.repairs})
@@ -178,8 +208,5 @@ class EditActions:
     def repair_safe(self) -> None:
         """Apply every repair that cannot change motion, as one step."""
         workspace = self._workspace()
-        wanted: dict[Address, Value | None] = {
-            r.address: r.value for f in workspace.findings if f.safe for r in f.repairs
-        }
-        if not workspace.edit("Repair all safe findings", wanted):
+        if not workspace.do("Repair all safe findings", lambda: repair_all_safe(workspace.validator)):
             self.window.say("No finding has a repair that cannot change motion.")

@@ -13,11 +13,11 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
 
 from amp_studio.files import Document, InUse, Unsaved, backup_path, open_file, recover_backup
 from amp_studio.files.lock import EditLock
-from amp_studio.schema import Address, DatabaseFault, read_rules
-from amp_studio.validate import RuleFault, Validator
+from amp_studio.schema import Address
+from amp_studio.validate import Validator, rules_beside
 
 from .format_actions import FormatActions
-from .questions import ask, tell
+from .questions import ask
 from .task import Progress, ProgressDialog, in_background
 from .workspace import Workspace
 
@@ -27,10 +27,9 @@ if TYPE_CHECKING:
     from .main_window import MainWindow
 
 FILTER = "Parameter files (*.amp);;All files (*)"
-OWN_RULES = "rules.yaml"
 _RECENT = 8
 
-Checked = tuple[Document, Validator, str]
+Checked = tuple[Document, Validator]
 """A document, its validator, which has run, and what is wrong with the rules beside it."""
 
 
@@ -143,7 +142,7 @@ class FileActions:
                     if not path.exists():
                         os.replace(backup_path(path), path)
                     raise
-            return document, *checked(document)
+            return document, checked(document)
 
         self._show(in_background(self.window, "Saving", work), here)
 
@@ -176,14 +175,12 @@ class FileActions:
         self._show(opened, here)
 
     def _show(self, opened: Checked, here: Address | None = None) -> None:
-        document, validator, said = opened
+        document, validator = opened
         self.window.show_workspace(Workspace(document, validator))
         self._remember(document.path)
         self.window.projects.notice(document.path.parent)
         if here:
             self.window.go_to(here)
-        if said:
-            tell(self.window, "Own rules", said)
         if document.is_locked:
             self._offer_unsaved(document)
 
@@ -280,7 +277,14 @@ class FileActions:
         def work(_: Progress, __: threading.Event) -> None:
             from amp_studio.report import write_report
 
-            write_report(file, path, sort=sort, changed_only=changed_only, source=workspace.path)
+            write_report(
+                file,
+                path,
+                sort=sort,
+                changed_only=changed_only,
+                source=workspace.path,
+                own=workspace.validator.own,
+            )
 
         ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()
         self.window.say(f"{path} written")
@@ -290,20 +294,11 @@ class FileActions:
 
 def _opened(how: Callable[[Path], Document], path: Path) -> Checked:
     document = how(path)
-    return document, *checked(document)
+    return document, checked(document)
 
 
-def checked(document: Document) -> tuple[Validator, str]:
-    """Return the validator of a document, which has run, and what is wrong with the rules beside the file, if anything.
-
-    A machine builder's own rules stand in a ``rules.yaml`` beside his files.
-    """
-    own, said = document.path.parent / OWN_RULES, ""
-    try:
-        validator = Validator(document.file, read_rules(own) if own.is_file() else ())
-        validator.run()
-    except (DatabaseFault, RuleFault) as error:
-        said = f"{error}\n\nThe file is checked without the rules of {own.name}."
-        validator = Validator(document.file)
-        validator.run()
-    return validator, said
+def checked(document: Document) -> Validator:
+    """Return the validator of a document, which has run, with the builder's rules beside the file."""
+    validator = Validator(document.file, rules_beside(document.path, document.file.schema))
+    validator.run()
+    return validator

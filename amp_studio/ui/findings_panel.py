@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, QTimer, Signal
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    Qt,
+    QTimer,
+    Signal,
+    SignalInstance,
+)
 from PySide6.QtGui import QBrush, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -118,6 +126,10 @@ class FindingsPanel(QWidget):
     """A finding whose parameter is wanted: double-clicked, or Enter."""
     repaired = Signal(object)
     """A finding whose repair is wanted."""
+    questioned = Signal(object)
+    """A finding whose explanation is wanted."""
+    suppressed = Signal(object)
+    """A finding that is to be left as it is."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -140,13 +152,25 @@ class FindingsPanel(QWidget):
         self.view.selectionModel().currentRowChanged.connect(self._select)
         self.counts = QLabel()
         self.show_button, self.repair_button = QPushButton("Sh&ow"), QPushButton("&Repair")
+        self.why_button, self.suppress_button = QPushButton("Wh&y"), QPushButton("Su&ppress…")
         self.show_button.setToolTip("Show the first parameter of the selected finding (Enter)")
         self.repair_button.setToolTip("Apply the repair of the selected finding (F8)")
+        self.why_button.setToolTip("Explain the selected finding: the rule with the values in it (Shift+F1)")
+        self.suppress_button.setToolTip("Leave the selected finding as it is, with a reason and a name")
         self.show_button.clicked.connect(self._activate)
+        self.why_button.clicked.connect(lambda: self._ask(self.questioned))
+        self.suppress_button.clicked.connect(lambda: self._ask(self.suppressed))
         self.repair_button.clicked.connect(self.repair)
         buttons = QHBoxLayout()
         buttons.setContentsMargins(6, 0, 6, 4)
-        for widget in (self.counts, None, self.show_button, self.repair_button):
+        for widget in (
+            self.counts,
+            None,
+            self.show_button,
+            self.why_button,
+            self.repair_button,
+            self.suppress_button,
+        ):
             buttons.addStretch() if widget is None else buttons.addWidget(widget)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -161,7 +185,16 @@ class FindingsPanel(QWidget):
         """Keep the finding that was selected, or its place in the list."""
         found = {s: self._workspace.count(s) for s in ("error", "warning", "advice")}
         told = [f"{n or 'no'} {what}{'' if n == 1 else 's'}" for what, n in list(found.items())[:2]]
-        self.counts.setText(", ".join([*told, f"{found['advice'] or 'no'} advice"]))
+        told.append(f"{found['advice'] or 'no'} advice")
+        left = self._workspace.validator.suppressed
+        if left:
+            told.append(f"{len(left)} suppressed")
+        self.counts.setText(", ".join(told))
+        self.counts.setToolTip(
+            "\n".join(
+                f"{s.finding.message} Suppressed by {s.suppression.by}: {s.suppression.reason}" for s in left
+            )
+        )
         self.view.fit()
         findings = self.model.findings
         if findings:
@@ -188,6 +221,11 @@ class FindingsPanel(QWidget):
         if finding and finding.repairs:
             self.repaired.emit(finding)
 
+    def _ask(self, signal: SignalInstance) -> None:
+        finding = self.current()
+        if finding:
+            signal.emit(finding)
+
     def _activate(self, *_: object) -> None:
         finding = self.current()
         if finding:
@@ -196,6 +234,8 @@ class FindingsPanel(QWidget):
     def _update_buttons(self) -> None:
         finding = self.current()
         self.show_button.setEnabled(bool(finding and finding.addresses))
+        self.why_button.setEnabled(finding is not None)
+        self.suppress_button.setEnabled(finding is not None and not finding.rule.startswith("rules."))
         self.repair_button.setEnabled(bool(finding and finding.repairs and self._workspace.may_edit))
 
 

@@ -195,6 +195,8 @@ class MainWindow(QMainWindow):
         self.detail.linked.connect(self._follow)
         self.findings.activated.connect(self._show_finding)
         self.findings.repaired.connect(self._repair)
+        self.findings.questioned.connect(self._why)
+        self.findings.suppressed.connect(self._suppress)
         workspace.changed.connect(self.enable)
         workspace.undo_stack.indexChanged.connect(
             self.enable
@@ -297,6 +299,12 @@ class MainWindow(QMainWindow):
         if finding.addresses and self.table_view is not None:
             self.go_to(finding.addresses[0])
             self.table_view.setFocus()
+
+    def _why(self, finding: Finding) -> None:
+        self.guarded(lambda: self.edits.why(finding), "Why")
+
+    def _suppress(self, finding: Finding) -> None:
+        self.guarded(lambda: self.edits.suppress(finding), "Suppress")
 
     def _repair(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.repair(finding), "Repair")

@@ -14,7 +14,7 @@ from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from amp_studio.files import Change, Comparison, Document, ParameterFile, compare, digest_of
 from amp_studio.schema import Address, Value, read_value
-from amp_studio.validate import Finding, Validator
+from amp_studio.validate import Finding, Validator, rules_beside
 
 JOURNAL_MS = 1500
 _KEPT_APART = ("units", "signature", "extra")
@@ -155,6 +155,12 @@ class Workspace(QObject):
         if units is not None:
             self.file.header.units = units
         self.findings = self.validator.run()  # messages name figures in these units
+        self.changed.emit([])
+
+    def read_own_rules(self) -> None:
+        """Check with the builder's rules as they lie beside the file now."""
+        self.validator = Validator(self.file, rules_beside(self.path, self.file.schema))
+        self.findings = self.validator.run()
         self.changed.emit([])
 
     # -- disk ------------------------------------------------------------------

@@ -1,21 +1,43 @@
 """Findings: range, choice, state and cross-parameter rules, each with its page and its repair."""
 
+from .builder_rules import (
+    NO_RULES,
+    RULES_FILE,
+    BuilderRules,
+    Suppressed,
+    read_builder_rules,
+    rules_beside,
+    suppress,
+)
 from .calculators import Argument, Calculator, calculate, calculators, shown_result
+from .explanation import Explanation, Seen, explain
 from .expressions import RuleFault
 from .finding import SEVERITIES, Finding, Setting
 from .formulas import formulas
+from .repairs import repair_all_safe
 from .validator import Validator
 
 __all__ = [
+    "NO_RULES",
+    "RULES_FILE",
     "SEVERITIES",
     "Argument",
+    "BuilderRules",
     "Calculator",
+    "Explanation",
     "Finding",
     "RuleFault",
+    "Seen",
     "Setting",
+    "Suppressed",
     "Validator",
     "calculate",
     "calculators",
+    "explain",
     "formulas",
+    "read_builder_rules",
+    "repair_all_safe",
+    "rules_beside",
     "shown_result",
+    "suppress",
 ]

@@ -95,6 +95,12 @@ class RuleChecks:
                 )
         return self._finding(check, given) if given.broken else None
 
+    def context_of(self, check: RuleCheck) -> Context:
+        """Return what the expressions of a check see now."""
+        given = _Given(self._new_context(check))
+        given.take(check.names, self._values(check) or [None] * len(check.names))
+        return given.context
+
     # -- values ----------------------------------------------------------------
 
     def _values(self, check: RuleCheck) -> list[Canonical | list[Canonical]] | None:

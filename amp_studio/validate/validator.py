@@ -6,7 +6,9 @@ from collections.abc import Iterable, Iterator
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule
+from amp_studio.schema.cel_engine import Context
 
+from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .finding import SEVERITIES, Finding
 from .plan import Plan, RuleCheck, make_plan
 from .ranges import ValueChecks
@@ -21,12 +23,14 @@ class Validator:
 
     ``run`` checks everything, ``update`` only what read the changed addresses;
     both leave the same findings. Any value whatever may stand in the file.
-    A further rule that cannot be used raises RuleFault.
+    ``own`` are a machine builder's rules.
     """
 
-    def __init__(self, file: ParameterFile, extra_rules: Iterable[Rule] = ()) -> None:
+    def __init__(self, file: ParameterFile, own: BuilderRules = NO_RULES) -> None:
         self.file = file
-        self.extra = tuple(extra_rules)
+        self.own = own
+        self.suppressed: tuple[Suppressed, ...] = ()
+        """Findings that the builder leaves as they are."""
         self._light: tuple[str, str, str] | None = None
         """Machine type, model and unit system of the present findings."""
         self._unset: set[Address] = set()
@@ -38,7 +42,7 @@ class Validator:
 
     def _prepare(self) -> None:
         machine = self.file.machine
-        self._plan: Plan = make_plan(self.file.schema, machine, self.extra)
+        self._plan: Plan = make_plan(self.file.schema, machine, self.own.rules)
         self._value_checks = ValueChecks(self.file, machine)
         self._rule_checks = RuleChecks(self.file, machine)
         self._machine, self._application = machine, self.file.header.application
@@ -77,12 +81,30 @@ class Validator:
         found = sorted(
             (*self._ranges.values(), *self._rules.values(), *self._general()), key=lambda filed: filed[0]
         )
-        return tuple(finding for _, finding in found)
+        stay, self.suppressed, unused = sort_out(
+            tuple(finding for _, finding in found), self.own.suppressions, self.file.situation
+        )
+        meets_nothing = (
+            Finding(
+                "rules.unused", "advice", (), f"The suppression of {s.rule} by {s.by} meets nothing here."
+            )
+            for s in unused
+        )
+        return (*self.own.faults, *stay, *meets_nothing)
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
         readers = self._plan.rule_readers.get(address, ())
         return tuple({check.rule.id: check.rule for check in readers if address in check.addresses}.values())
+
+    def check_of(self, finding: Finding) -> RuleCheck | None:
+        """Return the rule and the instance that a present finding is of; None for a range, a choice and the like."""
+        place = next((place for place, (_, filed) in self._rules.items() if filed == finding), None)
+        return None if place is None else self._plan.checks[place]
+
+    def context_of(self, check: RuleCheck) -> Context:
+        """Return what the expressions of a check see."""
+        return self._rule_checks.context_of(check)
 
     # -- filing ----------------------------------------------------------------
 

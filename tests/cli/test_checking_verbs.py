@@ -89,13 +89,13 @@ def test_rules_of_one_s_own_are_checked_too(amp, plain: Path, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("", "", "ours.yaml"),
         ("severity: error", "severity: fatal", "ours.yaml, line 4: ours.one: severity: "),
-        ("zone.group_count", "zone.nothing", "ours.one"),
-        ("groups > 5.0", "groups >", "ours.one"),
+        ("zone.group_count", "zone.nothing", "ours.yaml, line 2: rule ours.one: reads 'zone.nothing'"),
+        ("groups > 5.0", "groups >", "ours.yaml, line 2: rule ours.one: check: "),
+        ("rules:", "rules: [", "ours.yaml, line 2: "),
     ],
 )
-def test_rules_that_cannot_be_used_are_refused(
+def test_rules_that_cannot_be_used_are_a_finding_beside_the_others(
     amp, plain: Path, tmp_path: Path, old: str, new: str, said: str
 ) -> None:
     text = (
@@ -103,11 +103,38 @@ def test_rules_that_cannot_be_used_are_refused(
         '    check: groups > 5.0\n    message: no\n    page: "1"\n'
     )
     rules = tmp_path / "ours.yaml"
-    if old:
-        assert old in text
-        rules.write_text(text.replace(old, new))
-    refused = amp("validate", plain, "--rules", rules)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert old in text
+    rules.write_text(text.replace(old, new))
+    without = amp("validate", plain, "--json").json["findings"]
+    told = amp("validate", plain, "--rules", rules, "--json")
+    assert told.code == 1
+    first, *others = told.json["findings"]
+    assert (first["rule"], first["severity"]) == ("rules.unusable", "error")
+    assert first["message"].startswith(said)
+    assert others == without
+
+
+def test_rules_that_are_not_there_are_a_slip_of_the_hand(amp, plain: Path, tmp_path: Path) -> None:
+    for rules in (tmp_path / "ours.yaml", tmp_path):
+        refused = amp("validate", plain, "--rules", rules)
+        assert (refused.code, str(rules) in refused.err) == (2, True)
+
+
+def test_findings_are_suppressed_with_a_reason_and_a_name_beside_the_file(amp, plain: Path) -> None:
+    amp("set", plain, "20=1")
+    (plain.parent / "rules.yaml").write_text(
+        "rules:\n  - {id: ours.one, title: One, severity: error, reads: {groups: zone.group_count}, check: groups > 5.0,"
+        ' message: "Groups: {groups}."}\n'
+        "suppressions:\n  - {rule: ours.one, params: ['20'], reason: no zones here, by: J. Doe}\n"
+    )
+    told = amp("validate", plain, "--json")
+    assert told.code == 0
+    (left,) = told.json["suppressed"]
+    assert (left["rule"], left["by"], left["reason"]) == ("ours.one", "J. Doe", "no zones here")
+    assert "1 suppressed" in amp("validate", plain).out
+    report = plain.with_suffix(".txt")
+    assert amp("report", plain, "-o", report).code == 0
+    assert "Suppressed by J. Doe: no zones here" in " ".join(report.read_text().split())
 
 
 # -- diff ---------------------------------------------------------------------------------------------------------

@@ -13,7 +13,6 @@ VERBS = {
     "set by force": lambda bad, good, out: ("set", bad, "1300=1", "--force"),
     "validate": lambda bad, good, out: ("validate", bad),
     "validate json": lambda bad, good, out: ("validate", bad, "--json"),
-    "validate rules": lambda bad, good, out: ("validate", good, "--rules", bad),
     "diff a": lambda bad, good, out: ("diff", bad, good),
     "diff b": lambda bad, good, out: ("diff", good, bad, "--json"),
     "merge base": lambda bad, good, out: ("merge", bad, good, good, "-o", out),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QDialogButtonBox
 
 from amp_studio.schema import Value
+from amp_studio.ui.finding_dialogs import SuppressDialog, WhyDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.workspace import Workspace
 
@@ -104,3 +106,71 @@ def test_an_unfitted_axis_can_be_shown(window: MainWindow) -> None:
     window.go_to(("axis.type", "7"))
     assert window.view.all_axes.isChecked()
     assert window.selected() == ("axis.type", "7")
+
+
+def test_why_shows_the_rule_and_leads_to_its_parameters(wrong: MainWindow) -> None:
+    wrong.workspace.edit("speed", {("home.g28_speed", "1"): Value(10160.0, "mm/min")})
+    wrong.workspace.edit("rapid", {("feedrate.rapid", "1"): Value(9000.0, "mm/min")})
+    rule = "9pc.home.g28-speed-above-rapid"
+    row = next(n for n, f in enumerate(wrong.workspace.findings) if f.rule == rule)
+    wrong.findings.view.selectRow(row)
+
+    wrong.findings.why_button.click()
+
+    dialog = wrong.findChild(WhyDialog)
+    text = dialog.page.toPlainText()
+    assert "10160 mm/min <= 9000 mm/min" in text
+    dialog.page.anchorClicked.emit(QUrl("seen:1"))
+    assert wrong.selected() == ("feedrate.rapid", "1")
+    dialog.close()
+
+
+def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, path, monkeypatch) -> None:
+    finding = next(f for f in wrong.workspace.findings if f.addresses[0] == EXCESS)
+    wrong.findings.view.selectRow(wrong.workspace.findings.index(finding))
+
+    def fill(dialog: SuppressDialog) -> bool:
+        dialog.reason.setText("measured on the machine")
+        dialog.name.clear()
+        ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
+        assert not ok.isEnabled(), "a name is wanted"
+        dialog.name.setText("J. Doe")
+        assert ok.isEnabled()
+        return True
+
+    monkeypatch.setattr(SuppressDialog, "exec", fill)
+    wrong.findings.suppress_button.click()
+
+    assert all(EXCESS not in f.addresses or f.rule != finding.rule for f in wrong.workspace.findings)
+    assert [s.suppression.by for s in wrong.workspace.validator.suppressed] == ["J. Doe"]
+    assert "1 suppressed" in wrong.findings.counts.text()
+    assert "measured on the machine" in path.with_name("rules.yaml").read_text()
+
+
+def test_safe_repairs_are_one_step_that_can_be_undone(window: MainWindow) -> None:
+    patched = ("oci.connections", "")
+    rule = next(r for r in window.workspace.file.schema.rules if r.id == "9pc.oci.one-connection")
+    assert rule.fix[0].safe
+    assert rule.reads[rule.fix[0].set] == patched[0]
+    before = window.workspace.file.get(patched)
+    window.workspace.edit("wrong", {patched: Value(2)}, force="on a day")
+    steps = window.workspace.undo_stack.count()
+
+    window.edits.repair_safe()
+
+    assert window.workspace.undo_stack.count() == steps + 1
+    assert not [f for f in window.workspace.findings if f.rule == rule.id]
+    window.edits.undo.trigger()
+    window.edits.undo.trigger()
+    assert window.workspace.file.get(patched) == before
+
+
+def test_what_the_control_uses_instead_stands_behind_an_arrow(path, open_window) -> None:
+    path.with_name("rules.yaml").write_text(
+        "rules:\n  - {id: own.clamp, title: Clamp, severity: warning, reads: {error: servo.excess_error},"
+        ' check: error <= 1.0, message: "no", effective: [{set: error, value: "1.0"}]}\n'
+    )
+    window = open_window(path)
+    window.go_to(EXCESS)
+    assert window.table.cell_text(EXCESS).endswith(" → 1 mm")
+    assert "1 mm is what the control uses" in window.detail.pages["Help"].toPlainText()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from amp_studio.files import new_file
 from amp_studio.schema import Rule
-from amp_studio.validate import Validator
+from amp_studio.validate import BuilderRules, Validator
 
 RULE = Rule.model_validate(
     {
@@ -22,7 +22,7 @@ RULE = Rule.model_validate(
 
 def test_a_rule_may_hold_for_one_model_of_the_control_only() -> None:
     file = new_file("num")
-    validator = Validator(file, (RULE,))
+    validator = Validator(file, BuilderRules((RULE,)))
 
     def said() -> list[str]:
         return [finding.message for finding in validator.findings() if finding.rule == RULE.id]

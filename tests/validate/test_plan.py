@@ -11,7 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Rule, Schema, Situation, Value, load_schema
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
-from amp_studio.validate import RuleFault, Validator
+from amp_studio.validate import BuilderRules, RuleFault, Validator
 from amp_studio.validate.plan import checks_of, make_plan
 
 FAMILY = """
@@ -171,7 +171,7 @@ def test_a_range_is_checked_again_for_its_bound_and_its_state(small) -> None:
 def test_a_repair_is_looked_at_again_when_its_bound_moves(small) -> None:
     own = rule({"length": "axis.length"}, "length >= 5.0", fix=[{"set": "length", "value": "5.0"}])
     file = ParameterFile(small)
-    validator = Validator(file, [own])
+    validator = Validator(file, BuilderRules((own,)))
     validator.run()
     file.set(("axis.length", "1"), Value(1.0, "mm"))
     file.set(("axis.room", "1"), Value(2.0, "mm"))
@@ -237,7 +237,7 @@ LENGTH = {"length": "axis.length"}
 )
 def test_a_rule_that_cannot_be_meant_is_refused(small, wrong: Rule, said: str) -> None:
     with pytest.raises(RuleFault) as caught:
-        Validator(ParameterFile(small), [wrong])
+        Validator(ParameterFile(small), BuilderRules((wrong,)))
     assert str(caught.value).startswith(f"rule own.rule: {said}")
     assert caught.value.rule == "own.rule"
 
@@ -258,9 +258,11 @@ def test_what_a_rule_may_say(small) -> None:
     )
     file = ParameterFile(small)
     file.set(("axis.length", "2"), Value(5.0, "mm"))
-    findings = [finding for finding in Validator(file, [own]).run() if finding.rule == "own.rule"]
+    findings = [
+        finding for finding in Validator(file, BuilderRules((own,))).run() if finding.rule == "own.rule"
+    ]
     assert findings == [], "the smaller of 5 and 2 is below 3"
 
     broken = own.model_copy(update={"check": own.check.replace("3.0", "2.0")})
-    (finding,) = (f for f in Validator(file, [broken]).run() if f.rule == "own.rule")
+    (finding,) = (f for f in Validator(file, BuilderRules((broken,))).run() if f.rule == "own.rule")
     assert finding.message == "1 axes; axis 2 of the mill is 5 mm, all —, 5 mm, —."

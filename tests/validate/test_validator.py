@@ -6,7 +6,6 @@ import logging
 import math
 import os
 import struct
-from pathlib import Path
 from random import Random
 
 import pytest
@@ -17,16 +16,14 @@ from amp_studio.files import Change, ParameterFile, retype_axis
 from amp_studio.report import finding_json, finding_text
 from amp_studio.schema import (
     Address,
-    DatabaseFault,
     Parameter,
     Rule,
     Value,
     load_schema,
-    read_rules,
     same_value,
 )
 from amp_studio.schema.units import UNITS
-from amp_studio.validate import SEVERITIES, Finding, RuleFault, Setting, Validator
+from amp_studio.validate import SEVERITIES, BuilderRules, Finding, Setting, Validator
 
 RAPID = ("feedrate.rapid", "1")
 CUTTING = ("feedrate.max_cutting", "1")
@@ -303,7 +300,7 @@ def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) ->
     )
     mill.set(RAPID, Value(200.0, "in/min"))
     mill.set(("feedrate.rapid", "2"), Value(2540.0, "mm/min"))
-    validator = Validator(mill, [own])
+    validator = Validator(mill, BuilderRules((own,)))
     (finding,) = (f for f in validator.run() if f.rule == "own.clamp" and f.addresses == (RAPID,))
     assert finding.effective == (Setting(RAPID, Value(100.0, "in/min")),)
     assert finding.repairs == ()
@@ -373,64 +370,6 @@ def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
     ]
     assert keys == sorted(keys)
     assert {finding.severity for finding in findings} == set(SEVERITIES)
-
-
-# ---------------------------------------------------------------------------------- a builder's own rules
-
-OWN_RULE = """
-rules:
-  - id: builder.rapid
-    title: Rapid of this machine
-    severity: warning
-    reads: {{rapid: {parameter}}}
-    check: rapid <= 10000.0
-    message: "Rapid {{rapid}} is more than the screws of this machine bear."
-    fix:
-      - {{set: rapid, value: "10000.0"}}
-    page: "1"
-"""
-
-
-def test_a_machine_builder_adds_rules(mill, tmp_path: Path) -> None:
-    path = tmp_path / "rules.yaml"
-    path.write_text(OWN_RULE.format(parameter="feedrate.rapid"), encoding="utf-8")
-    validator = Validator(mill, read_rules(path))
-    own = [finding for finding in validator.run() if finding.rule == "builder.rapid"]
-    assert len(own) == 7
-    assert own[0].message == "Rapid 12000 mm/min is more than the screws of this machine bear."
-    assert own[0].repairs == (Setting(RAPID, Value(10000.0, "mm/min")),)
-    mill.set(RAPID, Value(10000.0, "mm/min"))
-    assert sum(finding.rule == "builder.rapid" for finding in validator.update([RAPID])) == 6
-    assert found(mill, "builder.rapid") == [], "another validator does not know it"
-
-
-@pytest.mark.parametrize(
-    ("broken", "line", "said"),
-    [
-        ("severity: warning|severity: fatal", 5, "builder.rapid: severity: Input should be"),
-        ("check: |chek: ", 3, "builder.rapid: check: Field required"),
-        ('page: "1"|page: 1', 11, "builder.rapid: page: Input should be a valid string"),
-        ("rules:|rules: [", 3, "did not find expected"),
-    ],
-)
-def test_a_broken_rule_file_is_told_with_its_line(tmp_path: Path, broken: str, line: int, said: str) -> None:
-    old, new = broken.split("|")
-    path = tmp_path / "rules.yaml"
-    path.write_text(OWN_RULE.format(parameter="feedrate.rapid").replace(old, new), encoding="utf-8")
-    with pytest.raises(DatabaseFault) as caught:
-        read_rules(path)
-    assert (caught.value.path, caught.value.line) == (path, line)
-    assert said in caught.value.what
-
-
-def test_a_rule_about_an_unknown_parameter_is_refused(mill, tmp_path: Path) -> None:
-    path = tmp_path / "rules.yaml"
-    path.write_text(OWN_RULE.format(parameter="feedrate.rapids"), encoding="utf-8")
-    with pytest.raises(
-        RuleFault, match=r"^rule builder.rapid: reads 'feedrate.rapids', which the family does not have$"
-    ):
-        Validator(mill, read_rules(path))
-    assert issubclass(RuleFault, ValueError)
 
 
 # ------------------------------------------------------------------- whatever is written, edit by edit

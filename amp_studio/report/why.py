@@ -1,0 +1,51 @@
+"""The explanation of a finding in words, for the terminal and for the desktop program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address
+from amp_studio.validate import Explanation, Finding
+
+from .manual_page import erratum_text
+
+_MANY = 24
+"""Parameters that an explanation lists; a rule over all tools reads hundreds."""
+
+
+def why_parts(
+    file: ParameterFile, finding: Finding, why: Explanation
+) -> Iterator[tuple[str, str, Address | None]]:
+    """Yield title, text and, where the text is about one, the parameter, line by line."""
+    yield "Rule", f"{why.title} ({finding.rule}, {finding.severity})", None
+    if why.when:
+        yield "Applies where", why.when, None
+    if why.demand:
+        yield "Demands", why.demand, None
+        yield "With the values", why.with_values, None
+    for side, worth in why.sides:
+        yield "Comes to", f"{side} = {worth}", None
+    for seen in why.seen[:_MANY]:
+        name = f"{seen.name} = " if seen.name else ""
+        state = f" ({seen.state})" if seen.state else ""
+        label, place = (
+            file.schema.label(seen.address, file.machine),
+            file.schema.instance_label(seen.address, file.machine),
+        )
+        yield "Reads", f"{name}{seen.value}{state}: {label}{f', {place}' if place else ''}", seen.address
+    if len(why.seen) > _MANY:
+        yield "Reads", f"and {len(why.seen) - _MANY} more", None
+    for erratum in why.errata:
+        yield "Contradiction", erratum_text(file.schema.errata[erratum]), None
+    if finding.page:
+        yield "Source", f"{file.schema.family.title}, page {finding.page}", None
+
+
+def why_text(file: ParameterFile, finding: Finding, why: Explanation) -> str:
+    """Return an explanation as indented lines for the terminal."""
+    lines, before = [], ""
+    for title, text, _ in why_parts(file, finding, why):
+        lines.append(f"         {'' if title == before else title:16}{text}")
+        before = title
+    return "\n".join(lines)

@@ -1,0 +1,108 @@
+"""Dialogs about one finding: why it is there, and leaving it as it is."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QLabel,
+    QLineEdit,
+    QTextBrowser,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.report import why_parts
+from amp_studio.schema import Address, written
+from amp_studio.validate import Finding, explain
+
+from .theme import severity_ink
+from .workspace import Workspace
+
+
+class WhyDialog(QDialog):
+    """The rule behind a finding with the values in it; parameters are links, and the window stays beside the table."""
+
+    def __init__(
+        self, workspace: Workspace, finding: Finding, go_to: Callable[[Address], object], parent: QWidget
+    ) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle("Why")
+        self.resize(640, 460)
+        self._go_to, self._linked = go_to, list[Address]()
+        self.page = QTextBrowser()
+        self.page.setOpenLinks(False)
+        self.page.anchorClicked.connect(self._follow)
+        self.page.setHtml(self._written(workspace, finding))
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.page)
+        layout.addWidget(buttons)
+
+    def _written(self, workspace: Workspace, finding: Finding) -> str:
+        file, why = workspace.file, explain(workspace.validator, finding)
+        ink = severity_ink(finding.severity).name()
+        lines, before = (
+            [f'<p style="color:{ink}"><b>{html.escape(finding.message)}</b></p><table cellpadding=3>'],
+            "",
+        )
+        for title, text, address in why_parts(file, finding, why):
+            told = html.escape(text)
+            if title in ("Applies where", "Demands", "With the values", "Comes to"):
+                told = f"<code>{told}</code>"
+            if address is not None:
+                told = f'<a href="seen:{len(self._linked)}">{told}</a>'
+                self._linked.append(address)
+            lines.append(f"<tr><td><b>{'' if title == before else title}</b>&nbsp;</td><td>{told}</td></tr>")
+            before = title
+        return "".join(lines) + "</table>"
+
+    def _follow(self, url: QUrl) -> None:
+        self._go_to(self._linked[int(url.toString().removeprefix("seen:"))])
+
+
+class SuppressDialog(QDialog):
+    """Asks who leaves a finding as it is, and why."""
+
+    def __init__(self, finding: Finding, who: str, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Suppress a Finding")
+        self.setMinimumWidth(520)
+        self._finding = finding
+        told = QLabel(f"<b>{html.escape(finding.message)}</b><br>It will not be listed any more, but printed in reports "
+                      "with the reason and the name. It is kept in rules.yaml beside the file.")  # fmt: skip
+        told.setWordWrap(True)
+        self.reason, self.name = QLineEdit(), QLineEdit(who)
+        self.everywhere = QCheckBox("Also where the same is said of other parameters")
+        self.everywhere.setEnabled(bool(finding.addresses))
+        buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        )
+        self._ok = buttons.button(QDialogButtonBox.StandardButton.Ok)
+        self._ok.setText("&Suppress")
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        form = QFormLayout(self)
+        form.addRow(told)
+        form.addRow("&Reason", self.reason)
+        form.addRow("&Name", self.name)
+        form.addRow(self.everywhere)
+        form.addRow(buttons)
+        for field in (self.reason, self.name):
+            field.textChanged.connect(self._look)
+        self._look()
+
+    def _look(self) -> None:
+        self._ok.setEnabled(bool(self.reason.text().strip() and self.name.text().strip()))
+
+    def params(self) -> tuple[str, ...]:
+        """Return the parameters it is about; none for every instance."""
+        return () if self.everywhere.isChecked() else tuple(map(written, self._finding.addresses))

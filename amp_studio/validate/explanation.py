@@ -1,0 +1,188 @@
+"""Why a finding is there: its rule with the values put in, and the parameters it hangs on."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from amp_studio.schema import Address, Rule, program, show_value, shown, write_number
+from amp_studio.schema.cel_engine import Context
+from amp_studio.schema.model import BoundRef
+from amp_studio.schema.units import canonical_unit
+
+from .finding import Finding
+from .plan import RuleCheck
+from .rules import EVALUATION_FAULTS
+from .validator import Validator
+
+_NAME = re.compile(r"'[^']*'|(?<![\w.])[a-z][a-z0-9_]*(?!\w*\()")
+_COMPARISON = re.compile(r"<=|>=|==|!=|<|>")
+_LONG_LIST = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A parameter that a finding hangs on."""
+
+    name: str
+    """What the rule calls it; empty where no rule speaks of it."""
+    address: Address
+    value: str
+    state: str
+    """Why it is out of force; empty where it is in force."""
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """Why a finding is there."""
+
+    title: str
+    demand: str
+    """What is demanded, as the rule has it; empty for a range or a choice."""
+    when: str
+    """In which case it is demanded; empty for always."""
+    with_values: str
+    """The demand with the values in the place of the names."""
+    sides: tuple[tuple[str, str], ...]
+    """What the two sides of a comparison come to, where they are more than a name or a number."""
+    seen: tuple[Seen, ...]
+    errata: tuple[str, ...]
+    """Of the parameters it hangs on, where the manual contradicts itself."""
+
+
+def explain(validator: Validator, finding: Finding) -> Explanation:
+    """Return why one of the validator's findings is there."""
+    check = validator.check_of(finding)
+    if check is None:
+        return _of_a_value(validator, finding)
+    context, rule = validator.context_of(check), check.rule
+    named = [(s.name, s.address) for s in check.singles]
+    named += [(name, address) for name, addresses in check.lists for address in addresses]
+    seen = tuple(
+        _seen(validator, address, name) for name, address in named if not _is_hidden(validator, address)
+    )
+    return Explanation(
+        rule.title,
+        _plain(rule.check),
+        "" if rule.when == "true" else _plain(rule.when),
+        _with_values(validator, check, rule),
+        tuple(_sides(rule, context)),
+        seen,
+        _errata(validator, {address[0] for _, address in named}),
+    )
+
+
+def _of_a_value(validator: Validator, finding: Finding) -> Explanation:
+    """Explain a finding about a value by itself: with the parameters that bound it."""
+    situation, addresses = validator.file.situation, list(finding.addresses)
+    hung_on: list[Address] = []
+    for address in addresses[:1] if finding.rule.startswith("schema.") else []:
+        parameter = situation.schema.parameters[address[0]]
+        for pair in [
+            *(parameter.ranges or {}).values(),
+            *(r for v in parameter.range_variants for r in v.ranges.values()),
+        ]:
+            for bound in pair:
+                if isinstance(bound, BoundRef):
+                    hung_on += situation.reading(bound.param, address[1], situation.scope(address)).addresses
+    every = dict.fromkeys(addresses[:_LONG_LIST] + hung_on)
+    seen = tuple(_seen(validator, a, "") for a in every if not _is_hidden(validator, a))
+    titles = {
+        "schema.range": "A value outside its range",
+        "schema.choice": "A value that is no choice",
+        "schema.unset": "Values that are not set",
+        "schema.unknown": "An entry that the schema does not know",
+    }
+    return Explanation(
+        titles.get(finding.rule, "The builder's own rules"),
+        "",
+        "",
+        "",
+        (),
+        seen,
+        _errata(validator, {a[0] for a in every}),
+    )
+
+
+def _plain(expression: str) -> str:
+    """Return an expression in one line, without the comments of its lines."""
+    return " ".join(" ".join(line.split("//")[0] for line in expression.splitlines()).split())
+
+
+def _is_hidden(validator: Validator, address: Address) -> bool:
+    return validator.file.situation.state(address).state == "hidden"
+
+
+def _seen(validator: Validator, address: Address, name: str) -> Seen:
+    file = validator.file
+    state = file.situation.state(address)
+    why = "" if state.state == "in-force" else f"{state.state}: {state.why}"
+    return Seen(name, address, show_value(file.schema.parameters[address[0]], file.values.get(address)), why)
+
+
+def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:
+    """Return the demand with the values in the place of the names, in the units in which rules compare."""
+    file = validator.file
+    texts = {single.name: _value(validator, single.address) for single in check.singles}
+    for name, addresses in check.lists:
+        told = [_value(validator, a) for a in addresses if not _is_hidden(validator, a)]
+        texts[name] = f"[{', '.join(told[:_LONG_LIST])}{', …' if len(told) > _LONG_LIST else ''}]"
+    texts |= {"machine": file.machine, "application": file.header.application, "instance": check.instance}
+    return _NAME.sub(lambda m: texts.get(m[0], m[0]), _plain(rule.check))
+
+
+def _value(validator: Validator, address: Address) -> str:
+    """Return a value as a rule sees it, with its unit."""
+    situation = validator.file.situation
+    found = situation.canonical(address)
+    if found is None or situation.state(address).state == "hidden":
+        return "null"
+    if isinstance(found, bool):
+        return str(found).lower()
+    if isinstance(found, str):
+        return f"'{found}'"
+    value = validator.file.values.get(address)
+    unit = canonical_unit(value.unit) if value else ""
+    return f"{write_number(float(f'{found:.9g}'))} {shown(unit)}".rstrip()
+
+
+def _sides(rule: Rule, context: Context) -> list[tuple[str, str]]:
+    """Return what the sides of a plain comparison come to."""
+    text = _plain(rule.check)
+    parts = _split(text)
+    if parts is None:
+        return []
+    found = []
+    for side in parts:
+        if not re.fullmatch(r"[\w.]+|'[^']*'", side):
+            try:
+                worth = program(side).execute(context)
+            except (*EVALUATION_FAULTS, ValueError):
+                continue
+            if isinstance(worth, float):
+                found.append((side, write_number(float(f"{worth:.9g}"))))
+    return found
+
+
+def _split(text: str) -> tuple[str, str] | None:
+    """Return the two sides of an expression that is a single comparison and nothing else."""
+    depth, places = 0, []
+    if "&&" in text or "||" in text or "?" in text:
+        return None
+    for found in re.finditer(r"'[^']*'|[()\[\]]|<=|>=|==|!=|<|>", text):
+        if found[0] in "([":
+            depth += 1
+        elif found[0] in ")]":
+            depth -= 1
+        elif depth == 0 and _COMPARISON.fullmatch(found[0]):
+            places.append(found.span())
+    if len(places) != 1:
+        return None
+    ((start, end),) = places
+    return text[:start].strip(), text[end:].strip()
+
+
+def _errata(validator: Validator, parameters: set[str]) -> tuple[str, ...]:
+    schema = validator.file.schema
+    ids = [e for p in schema.parameters if p in parameters for e in schema.parameters[p].errata]
+    return tuple(dict.fromkeys(e for e in ids if e in schema.errata))

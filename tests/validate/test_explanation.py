@@ -1,0 +1,118 @@
+"""Why a finding is there, and repairs of many findings at once."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.files import ParameterFile
+from amp_studio.report import why_text
+from amp_studio.schema import Rule, Value, load_schema
+from amp_studio.validate import BuilderRules, Explanation, Validator, explain, repair_all_safe
+
+RAPID = ("feedrate.rapid", "1")
+
+
+@pytest.fixture
+def mill(machine) -> ParameterFile:
+    """Return a sound mill of its own."""
+    return machine("mill")
+
+
+def why(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> Explanation:  # noqa: B008  # frozen
+    """Return the explanation of the first finding of a rule."""
+    validator = Validator(file, own)
+    finding = next(finding for finding in validator.run() if finding.rule == rule)
+    return explain(validator, finding)
+
+
+def test_the_values_stand_in_the_place_of_the_names(mill) -> None:
+    mill.set(("home.g28_speed", "1"), Value(10000.0, "mm/min"))
+    mill.set(RAPID, Value(9000.0, "mm/min"))
+    told = why(mill, "9pc.home.g28-speed-above-rapid")
+    assert (told.demand, told.with_values) == ("speed <= rapid", "10000 mm/min <= 9000 mm/min")
+    assert [(s.name, s.address, s.value) for s in told.seen] == [
+        ("speed", ("home.g28_speed", "1"), "10000 mm/min"),
+        ("rapid", RAPID, "9000 mm/min"),
+    ]
+
+
+def rule(**words: object) -> Rule:
+    """Return a rule of a builder's own about the rapid feedrate."""
+    given = {"id": "own.rule", "title": "Own", "severity": "warning", "reads": {"rapid": "feedrate.rapid"},
+             "check": "rapid < 1.0", "message": "no", "page": "1"}  # fmt: skip
+    return Rule.model_validate(given | words)
+
+
+def test_what_a_side_comes_to_is_worked_out(mill) -> None:
+    mill.set(RAPID, Value(9000.0, "mm/min"))
+    told = why(mill, "own.rule", BuilderRules((rule(check="rapid * 2.0 < max(3.0, 4.0) * 10.0"),)))
+    assert told.sides == (("rapid * 2.0", "18000"), ("max(3.0, 4.0) * 10.0", "40"))
+
+
+@pytest.mark.parametrize(
+    "check", ["rapid < 1.0 && rapid > 2.0", "rapid == 1.0 ? true : rapid < 1.0", "false"]
+)
+def test_only_a_plain_comparison_has_two_sides(mill, check: str) -> None:
+    assert why(mill, "own.rule", BuilderRules((rule(check=check),))).sides == ()
+
+
+def test_lists_choices_and_words_of_the_machine_are_put_in(mill) -> None:
+    told = why(mill, "own.rule", BuilderRules((rule(
+        reads={"types": "axis.type@*", "type": "axis.type@1"},
+        check="machine == 'lathe' && type == 'type' && types.exists(t, t == 'none') // in two\n|| false",
+    ),)))  # fmt: skip
+    assert told.with_values.startswith("mill == 'lathe' && 'linear' == 'type' && ['linear', ")
+    assert told.with_values.endswith("].exists(t, t == 'none') || false")
+
+
+def test_a_range_is_explained_by_what_bounds_it(mill) -> None:
+    mill.set(("feedrate.max_cutting", "1"), Value(20000.0, "mm/min"))
+    told = why(mill, "schema.range")
+    assert told.title == "A value outside its range"
+    assert [s.address for s in told.seen] == [("feedrate.max_cutting", "1"), RAPID]
+
+
+def test_values_that_are_not_set_are_listed(mill) -> None:
+    mill.set(RAPID, None)
+    assert ("—", RAPID) in [(s.value, s.address) for s in why(mill, "schema.unset").seen]
+
+
+@pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill"])
+def test_every_finding_of_a_machine_with_nothing_right_can_be_explained(family: str) -> None:
+    """Whatever stands in a file, each finding has its words."""
+    file = ParameterFile(load_schema(family))
+    for n, address in enumerate(file.addresses()):
+        parameter = file.schema.parameters[address[0]]
+        if parameter.access != "read":
+            file.set(address, Value("raw:999") if parameter.choices else Value(float(n * 7 - 900)))
+    validator = Validator(file)
+    findings = validator.run()
+    assert len({finding.rule for finding in findings}) > 2
+    for finding in findings[:: max(1, len(findings) // 200)]:
+        text = why_text(file, finding, explain(validator, finding))
+        assert finding.rule in text
+
+
+def test_safe_repairs_are_made_together_until_nothing_is_left(mill) -> None:
+    """A repair may bring another finding to light."""
+    one = rule(id="own.one", check="rapid != 9000.0", fix=[{"set": "rapid", "value": "8000.0", "safe": True}])
+    two = rule(id="own.two", check="rapid != 8000.0", fix=[{"set": "rapid", "value": "7000.0", "safe": True}])
+    three = rule(id="own.three", check="rapid != 6000.0", fix=[{"set": "rapid", "value": "5000.0"}])
+    mill.set(RAPID, Value(9000.0, "mm/min"))
+    mill.set(("feedrate.rapid", "2"), Value(6000.0, "mm/min"))
+    validator = Validator(mill, BuilderRules((one, two, three)))
+    validator.run()
+    assert list(repair_all_safe(validator)) == [RAPID]
+    assert mill.get(RAPID) == Value(7000.0, "mm/min")
+    assert mill.get(("feedrate.rapid", "2")) == Value(6000.0, "mm/min"), "that would change motion"
+    assert validator.findings() == Validator(mill, validator.own).run()
+
+
+def test_repairs_that_contradict_each_other_end(mill) -> None:
+    one = rule(id="own.one", check="rapid != 9000.0", fix=[{"set": "rapid", "value": "8000.0", "safe": True}])
+    two = rule(id="own.two", check="rapid != 8000.0", fix=[{"set": "rapid", "value": "9000.0", "safe": True}])
+    mill.set(RAPID, Value(9000.0, "mm/min"))
+    validator = Validator(mill, BuilderRules((one, two)))
+    validator.run()
+    repair_all_safe(validator)
+    assert mill.get(RAPID) in (Value(8000.0, "mm/min"), Value(9000.0, "mm/min"))
