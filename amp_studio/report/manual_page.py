@@ -52,6 +52,7 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
     for title, text in help_parts(schema, parameter):
         lines += [title, *_wrapped(text), ""]
     lines += _section("Formulas", formula_lines(schema, parameter))
+    lines += _section("Guides", _steps(schema, parameter))
     for table in tables_of(schema, parameter):
         lines += [f"{table.title} (page {table.page})", *(f"{_INDENT}{line}" for line in _drawn(table)), ""]
     rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
@@ -59,6 +60,14 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
         "Rules it takes part in", (f"{r.severity:8} {r.title} (page {r.page}; {r.id})" for r in rules)
     )
     return "\n".join(lines).rstrip()
+
+
+def _steps(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield where the guides of the family set a parameter."""
+    for guide in schema.guides:
+        for n, step in enumerate(guide.steps, 1):
+            if parameter.id in step.params:
+                yield f"{guide.title}, step {n} of {len(guide.steps)}: {step.title} (page {step.page})"
 
 
 def _fact(title: str, text: str) -> list[str]:

@@ -139,6 +139,16 @@ def test_a_printed_table_stands_on_the_page_of_what_is_looked_up_in_it(amp) -> N
     assert row[3:] == ["3000", "6000", "9000", "22500", "26214", "18000", "30000", "10800", "66000"]
 
 
+def test_the_steps_of_the_guides_stand_on_the_page_of_what_they_set(amp) -> None:
+    said = amp("show", "num", "P21N0").out
+    assert "\n  Integration 3.3 Servo-Control Settings, step 5 of 16: P21 Servo-System Loop Gain" in said
+    assert (
+        "\n  Integration, procedures with the machine, step 10 of 12: 11.2.1 Time constant (page 11-6)\n"
+        in said
+    )
+    assert "\nGuides\n" not in amp("show", "9pc", "1801").out
+
+
 def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) -> None:
     mask = amp("show", "num", "P3N0").out
     assert "Number         P3N0\n" in mask

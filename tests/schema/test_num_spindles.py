@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Schema, Value, ValueFault, fault, load_schema, read_value, write_value
-from amp_studio.schema.model import Table
+from amp_studio.schema.model import Guide
 
 WORDS = {
     "P6": 9, "P40": 4, "P41": 4, "P42": 4, "P43": 4, "P44": 4, "P45": 4, "P46": 18, "P47": 18, "P48": 18, "P49": 18,
@@ -169,48 +169,56 @@ def of_word(num: Schema, parameter: str) -> list[str]:
     return list(dict.fromkeys(a[0] for a, n in numbers.items() if n and re.fullmatch(rf"{parameter}N\d+", n)))
 
 
-def steps(num: Schema) -> list[Table]:
-    """Return the tables of the steps, in the order of the file."""
-    return [table for name, table in num.tables.items() if re.fullmatch(r"integration-[0-9.]+", name)]
+def sections(num: Schema) -> list[Guide]:
+    """Return the guides of the sections that this manual describes, 3.1 to 3.7, in the order of the file."""
+    return [g for g in num.guides if g.id.startswith("step-") and g.id != "step-3-8"]
 
 
-def test_every_step_of_integration_names_parameters_and_all_are_in_their_order(num: Schema) -> None:
-    for step in steps(num):
-        expected = [name for parameter in step.column("Parameter") for name in of_word(num, str(parameter))]
-        assert list(step.params) == list(dict.fromkeys(expected)), step.id
-        assert all(of_word(num, str(parameter)) for parameter in step.column("Parameter")), step.id
+def test_every_step_names_its_parameter_and_has_all_its_words_in_their_order(num: Schema) -> None:
+    for guide in sections(num):
+        for step in guide.steps:
+            named = re.findall(r"\bP\d+", step.title)
+            assert named, step.title
+            assert all(list(step.params) == of_word(num, name) for name in named), step.title
 
 
-def test_the_steps_are_those_of_chapter_3_and_go_through_chapters_4_to_10(num: Schema) -> None:
-    names = [step.id.removeprefix("integration-") for step in steps(num)]
+def test_the_sections_are_those_of_chapter_3_and_go_through_chapters_4_to_10(num: Schema) -> None:
+    names = [guide.title.split()[1] for guide in sections(num)]
     assert names == ["3.1", "3.2", "3.3", "3.4", "3.5.1", "3.5.2", "3.6", "3.7"]
     pages = ["3-3", "3-8", "3-11", "3-20", "3-23", "3-27", "3-28", "3-31"]
-    assert [step.page for step in steps(num)] == pages
-    chapters = [int(str(page).partition("-")[0]) for step in steps(num) for page in step.column("Page")]
+    assert [guide.page for guide in sections(num)] == pages
+    chapters = [int(step.page.partition("-")[0]) for guide in sections(num) for step in guide.steps]
     assert chapters == sorted(chapters)
     assert set(chapters) == set(range(4, 11))
 
 
-def test_a_path_through_all_steps_meets_every_parameter_of_the_chapters_once(num: Schema) -> None:
-    path = [name for step in steps(num) for name in step.params]
+def test_a_path_through_all_sections_meets_every_parameter_of_the_chapters_once(num: Schema) -> None:
+    path = [name for guide in sections(num) for step in guide.steps for name in step.params]
     assert len(path) == len(set(path))
     described = {name for name, group in num.group_of.items() if group.key not in ("qvn", "reserved")}
     assert described == set(path)
 
 
 def test_a_step_is_told_on_the_page_of_its_parameter(num: Schema) -> None:
-    for step in steps(num):
-        for _, parameter, page in step.rows:
+    for guide in sections(num):
+        for step in guide.steps:
             words = [
                 a
                 for a in num.addresses("cnc")
-                if re.fullmatch(rf"{parameter}N\d+", num.number(a, "cnc") or "")
+                if re.fullmatch(rf"{step.title.split()[0].strip(',')}N\d+", num.number(a, "cnc") or "")
             ]
-            assert page in {num.page(a) for a in words}, parameter
+            assert step.page in {num.page(a) for a in words}, step.title
 
 
-def test_every_procedure_names_parameters_that_exist(num: Schema) -> None:
-    table = num.tables["integration-procedures"]
-    names = [n for cell in table.column("Parameters") for n in re.findall(r"P\d+", str(cell))]
-    assert all(of_word(num, name) for name in names)
-    assert list(table.params) == list(dict.fromkeys(i for name in names for i in of_word(num, name)))
+def test_the_drives_of_section_3_8_have_the_words_that_chapter_12_names(num: Schema) -> None:
+    [step] = next(g for g in num.guides if g.id == "step-3-8").steps
+    named = ["P21", *(f"P{n}" for n in range(70, 80)), "P85", "P86", "P87"]  # page 12-1
+    assert list(step.params) == [name for word in named for name in of_word(num, word)]
+
+
+def test_every_procedure_goes_through_the_parameters_it_names(num: Schema) -> None:
+    steps = next(g for g in num.guides if g.id == "procedures").steps
+    assert len(steps) == 12
+    for step in steps:
+        names = re.findall(r"P\d+", step.what[step.what.rindex("(") :])
+        assert list(step.params) == [name for word in names for name in of_word(num, word)], step.title
