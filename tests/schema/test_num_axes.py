@@ -188,6 +188,18 @@ def test_steps_count_on_a_clamped_modulo_axis_only(file) -> None:
     assert state(file, "P65N3") == "ignored"
 
 
+def test_an_address_that_serves_a_spindle_or_a_handwheel_is_no_axis(file) -> None:
+    """Page 4-8: the spindle and the handwheel have priority; the bit of P2 has their input looked for."""
+    put(file, P2N0=0xFF800000, P6N0=0b1001, P14N0=0b1001)
+    for n in range(23, 32):
+        expected = "ignored" if n in (24, 27, 28, 31) else "in-force"
+        assert state(file, f"P17N{2 * n}") == expected, n
+        assert state(file, f"P34N{n}") == "in-force", "the sensor of whatever stands there"
+    # An indexed spindle has the address C in P9 and is modulo in P1 (page 8-5).
+    put(file, P9N24=8, P9N25=8, P1N0=0x03000000)
+    assert (state(file, "P11N48"), state(file, "P11N50")) == ("ignored", "in-force")
+
+
 def test_words_of_handwheels_count_where_there_is_a_handwheel(file) -> None:
     put(file, P14N0=0b0010)
     assert [state(file, f"P13N{n}") for n in (0, 2, 8, 10, 12)] == [
@@ -211,8 +223,12 @@ def test_a_rotary_axis_is_one_by_its_list_or_by_its_name(file) -> None:
     assert turns == [True, True, False, True, True, False]
 
 
-def test_qvn_words_count_once_p71_names_an_axis(file) -> None:
+@pytest.mark.parametrize("naming", ["P70N3", "P71N3"])
+def test_qvn_words_count_once_p70_or_p71_names_a_card_or_an_axis(file, naming: str) -> None:
     assert state(file, "P74N0") == "ignored"
-    put(file, P71N3=1)
-    assert (state(file, "P74N0"), state(file, "P71N0")) == ("in-force", "in-force")
+    put(file, **{naming: 1})
+    assert [state(file, number) for number in ("P70N0", "P71N0", "P74N0")] == ["in-force"] * 3
+
+
+def test_words_that_nobody_may_use_are_ignored(file) -> None:
     assert (state(file, "P29N0"), state(file, "P115N0")) == ("ignored", "ignored")

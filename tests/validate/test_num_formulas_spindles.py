@@ -95,6 +95,23 @@ def test_a_speed_above_the_limit_speed_does_not_belong_to_the_range() -> None:
     assert num.ranges_for_speed(1800, *EXAMPLE, [0, 0, 1800, 0, 0, 0]) == [42]
 
 
+def test_no_speed_is_lost_between_the_ranges_of_the_printed_example() -> None:
+    # Page 8-16; the next speed after 500 is 501 rpm.
+    assert num.speed_gap(*EXAMPLE, NO_LIMITS) == 0
+    assert num.speed_gap([10, 101, 501, 0, 0, 0], EXAMPLE[1], NO_LIMITS) == 0
+    assert num.speed_gap([10, 80, 502, 0, 0, 0], EXAMPLE[1], NO_LIMITS) == 500
+    assert num.speed_gap([10, 102, 502, 0, 0, 0], EXAMPLE[1], NO_LIMITS) == 100
+    assert num.speed_gap([0] * 6, [0] * 6, NO_LIMITS) == 0
+
+
+def test_a_limit_speed_ends_its_range() -> None:
+    # Page 8-16: above it another range is looked for, which M42 with 400 and more is not.
+    assert num.speed_gap(*EXAMPLE, [0, 398, 0, 0, 0, 0]) == 398
+    assert num.speed_gap(*EXAMPLE, [0, 399, 1000, 0, 0, 0]) == 0
+    assert num.speed_gap([None, 80, 400], [None, 500, 2000], [None, None, 0]) == 0
+    assert num.speed_gap([10, None, 400], [100, 500, 2000], [0, 0, 0]) == 100
+
+
 def test_the_highest_speed_of_a_range_is_10_volts() -> None:
     # Page 8-16.
     assert num.spindle_reference_volts(2000, 2000) == 10

@@ -152,6 +152,12 @@ def test_6_36_the_approach_speed_of_the_example_is_3600_mm_per_min() -> None:
     assert num.approach_speed(1000.0, 60.0, 9.0) == pytest.approx(400.0)
 
 
+def test_6_36_a_whole_approach_speed_loses_nothing() -> None:
+    """P33 is a whole number of mm/min, which the last bits of the arithmetic must not push over its limit."""
+    for constant in range(10, 121):
+        assert num.approach_speed(1500.0, constant) == 90 * constant
+
+
 # ------------------------------------------------------------------------------------- circles and tolerances
 
 

@@ -40,15 +40,17 @@ def ssi_divi_factor(bits: float) -> float:
 def coded_conversion(period: float, interpolation: float) -> tuple[int, int]:
     """MULTI and DIVI of a scale that moves with the axis, from its period in internal units (page 5-22).
 
-    Period 20 with an EXE of 10 gives 1 and 2. A scale behind a gear needs its factor k on top of it.
+    Period 20 with an EXE of 10 gives 1 and 2. The manual takes the maker's period times k, which stands for the unit
+    and for a gear.
     """
     return multi_divi(period, 4 * whole("The interpolation", interpolation))
 
 
 def coded_graduation(period: float, multi: float, divi: float) -> float:
-    """Graduation p of a scale with coded marks in measurement increments (page 5-22): its period over MULTI / DIVI.
+    """Graduation p of a scale with coded marks, in increments (page 5-22): the maker's period in µm over MULTI / DIVI.
 
-    20 internal units at 1/2 are 40, the value of P36 N0 to N31; N32 to N63 take the graduations between two marks.
+    20 µm at 1/2 are 40, the value of P36 N0 to N31; N32 to N63 take the graduations between two marks. Printed so, but
+    sure for µm and without a gear only (erratum e-p36-k).
     """
     return positive("The period", period) * positive("DIVI", divi) / positive("MULTI", multi)
 

@@ -105,7 +105,7 @@ def approach_speed(acceleration: float, time_constant: float, divider: float = 1
     With the very high speed machining option the manual divides it by a value of around 9.
     """
     per_second = not_negative("The acceleration", acceleration) * _seconds(time_constant)
-    return per_second * 60.0 / positive("The divider", divider)
+    return round(per_second * 60.0 / positive("The divider", divider), 6)
 
 
 # ------------------------------------------------------------------------------------- the position loop

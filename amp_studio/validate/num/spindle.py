@@ -87,6 +87,23 @@ def ranges_for_speed(
     return found
 
 
+def speed_gap(
+    minima: Sequence[float | None], maxima: Sequence[float | None], limits: Sequence[float | None]
+) -> float:
+    """Speed in rpm above which the next range begins too late, 0 where no speed between the ranges is lost (page 8-16).
+
+    A range ends at its limit speed, or at its highest speed where that is 0; the next speed is 1 rpm higher. A range
+    whose highest speed is 0 does not exist.
+    """
+    ranges = [(low, limit or high) for low, high, limit in zip(minima, maxima, limits, strict=True) if high]
+    last = max((end for _, end in ranges), default=0.0)
+    for _, end in sorted(ranges, key=lambda found: found[1]):
+        following = (low for low, other in ranges if other > end and low is not None)
+        if end < last and not any(low <= end + 1.0 for low in following):
+            return end
+    return 0.0
+
+
 def spindle_reference_volts(speed: float, range_max: float) -> float:
     """Speed reference in V: its share of the 10 V at the highest speed of the range (page 8-16).
 
