@@ -169,6 +169,8 @@ def test_the_zero_crossing_anticipation_is_the_time_of_the_ramp_in_samples() -> 
         (num.indexing_reference, (0.1, 1, -100), "The limit speed"),
         (num.indexing_standstill, (0,), "The sampling period"),
         (num.ranges_for_speed, (-1, *EXAMPLE, NO_LIMITS), "The spindle speed"),
+        (num.ranges_for_speed, (10, [10], [100], [0, 0]), "there are 1, 1, 2 of them"),
+        (num.speed_gap, ([10, 80], [100], [0]), "there are 2, 1, 1 of them"),
         (num.spindle_reference_volts, (100, 0), "The highest speed of the range"),
         (num.spindle_reference_volts, (2001, 2000), "The range ends at 2000 rpm, below 2001"),
         (num.tapping_deceleration_distance, (1.5, 600, 0), "A must"),

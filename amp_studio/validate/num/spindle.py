@@ -81,6 +81,7 @@ def ranges_for_speed(
     """
     wanted = not_negative("The spindle speed", speed)
     found = []
+    _same_length(minima, maxima, limits)
     for n, (low, high, limit) in enumerate(zip(minima, maxima, limits, strict=True)):
         if high > 0 and low <= wanted <= (limit or high):
             found.append(40 + n)
@@ -95,6 +96,7 @@ def speed_gap(
     A range ends at its limit speed, or at its highest speed where that is 0; the next speed is 1 rpm higher. A range
     whose highest speed is 0 does not exist.
     """
+    _same_length(minima, maxima, limits)
     ranges = [(low, limit or high) for low, high, limit in zip(minima, maxima, limits, strict=True) if high]
     last = max((end for _, end in ranges), default=0.0)
     for _, end in sorted(ranges, key=lambda found: found[1]):
@@ -102,6 +104,14 @@ def speed_gap(
         if end < last and not any(low <= end + 1.0 for low in following):
             return end
     return 0.0
+
+
+def _same_length(*words: Sequence[float | None]) -> None:
+    if len({len(of_all) for of_all in words}) > 1:
+        counts = ", ".join(str(len(of_all)) for of_all in words)
+        raise ValueError(
+            f"Each range has a lowest, a highest and a limit speed, but there are {counts} of them."
+        )
 
 
 def spindle_reference_volts(speed: float, range_max: float) -> float:
