@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Callable
 
-from PySide6.QtCore import QUrl, Signal
-from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.report import cells_of, facts, formula_lines, help_parts, tables_of
 from amp_studio.schema import (
@@ -19,8 +20,10 @@ from amp_studio.schema import (
     show_value,
     written,
 )
+from amp_studio.transfer.held import held_text
 
 from .theme import severity_ink
+from .word_panel import WordPanel
 from .workspace import Workspace
 
 
@@ -30,7 +33,7 @@ class DetailPanel(QWidget):
     linked = Signal(str)
     """A parameter id that was clicked."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: Workspace, commit: Callable[[Address, str], bool]) -> None:
         super().__init__()
         self._workspace = workspace
         self._address: Address | None = None
@@ -51,13 +54,20 @@ class DetailPanel(QWidget):
         self.setFocusProxy(self.tabs)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.tabs)
+        self.word = WordPanel(workspace, commit)
+        split = QSplitter(Qt.Orientation.Vertical)
+        split.setChildrenCollapsible(False)
+        split.addWidget(self.word)
+        split.addWidget(self.tabs)
+        layout.addWidget(split)
         workspace.changed.connect(self._show)
+        workspace.changed.connect(lambda _: self.word.refresh())
         workspace.saved.connect(self._show)
 
     def show_address(self, address: Address | None) -> None:
         """Show an address, or nothing."""
         self._address = address
+        self.word.show_address(address)
         self._show()
 
     def _show(self, *_: object) -> None:
@@ -96,6 +106,8 @@ class DetailPanel(QWidget):
             lines.append(
                 f"<br><b>{html.escape(show_value(parameter, used))}</b> <small>is what the control uses</small>"
             )
+        if held := held_text(file, address):
+            lines.append(f"<br>{html.escape(held)} <small>as the control holds it</small>")
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
         lines.append("</p>")
         state = file.situation.state(address)

@@ -32,7 +32,7 @@ from .view_actions import ViewActions
 from .welcome import WelcomePage
 from .workspace import Workspace
 
-Needs = Literal["", "file", "edit", "axes", "project"]
+Needs = Literal["", "file", "edit", "axes", "project", "units"]
 """What an action needs: nothing, an open file, the right to change it, a family with axes as well, a project."""
 
 _PANELS = (
@@ -68,6 +68,7 @@ class MainWindow(QMainWindow):
             "file": [],
             "edit": [],
             "axes": [],
+            "units": [],
             "project": [],
         }
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
@@ -181,7 +182,7 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(centre)
         self.groups, self.detail, self.findings = (
             GroupList(workspace),
-            DetailPanel(workspace),
+            DetailPanel(workspace, self.edits.commit),
             FindingsPanel(workspace),
         )
         for (title, area, size), panel in zip(
@@ -321,6 +322,7 @@ class MainWindow(QMainWindow):
         may_edit = workspace is not None and workspace.may_edit
         has_axes = workspace is not None and workspace.file.schema.family.axes is not None
         can = {"": True, "file": workspace is not None, "edit": may_edit, "axes": may_edit and has_axes,
+               "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
                "project": self.projects.project is not None}  # fmt: skip
         for needs, actions in self._needing.items():
             for action in actions:

@@ -27,7 +27,7 @@ class ViewActions:
         self.units_menu, self.machine_menu = QMenu("&Units", window), QMenu("Control &Type", window)
         self._groups: list[QActionGroup] = []
         self.switch = act(
-            "S&witch mm / inch", self._switch, "Ctrl+M", "file", icons.SP_BrowserReload, "mm / inch"
+            "S&witch mm / inch", self._switch, "Ctrl+M", "units", icons.SP_BrowserReload, "mm / inch"
         )
         self.as_entered = self._option("Show Values &As Entered", self._show_as_entered, "Ctrl+E")
         self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")

@@ -1,0 +1,43 @@
+"""How the control itself holds a value, for a person who looks at it there."""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, write_number
+
+from .formats.register_words import WordFault, words_of
+from .image import stored_number
+
+_LAST_NUMBER = re.compile(r"([0-9]+)(?!.*[0-9])")
+
+
+def held_text(file: ParameterFile, address: Address) -> str:
+    """Return ``10485760: R19 = 160 (0x00A0), R20 = 0 (0x0000)``, or the stored code or number alone.
+
+    Empty where it is what is shown anyway, or where the manual prints no form.
+    """
+    parameter, value = file.schema.parameters[address[0]], file.get(address)
+    if value is None:
+        return ""
+    stored = stored_number(parameter, value, file.situation.turns(address))
+    if stored is None:
+        return ""
+    storage = parameter.storage
+    told = write_number(stored)
+    if storage is None or storage.words == 1:
+        same = (
+            isinstance(value.value, (int, float))
+            and not isinstance(value.value, bool)
+            and stored == value.value
+        )
+        return "" if same else told
+    try:
+        words = words_of(parameter, value, storage.unit or value.unit)
+    except WordFault:
+        return told
+    number = file.schema.number(address, file.machine) or ""
+    names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]
+    each = ", ".join(f"{name} = {word} (0x{word:04X})" for name, word in zip(names, words, strict=True))
+    return f"{write_number(round(stored))}: {each}"
