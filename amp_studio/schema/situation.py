@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from typing import Any
 
 from .catalog import Address, Schema, UnknownParameter, part_of, read_address, whole_of
 from .cel_engine import WORD_FUNCTIONS, Context, Program, compile_expression, functions_called
@@ -33,6 +32,9 @@ class StateInfo:
     why: str = ""
     page: str | None = None
 
+
+_REMEMBERED = 20_000
+"""Verdicts kept before all are forgotten: some megabytes."""
 
 IN_FORCE = StateInfo("in-force")
 READ_ONLY = StateInfo("unusable", "it can only be read: the control writes it itself")
@@ -57,13 +59,38 @@ def _functions(expression: str) -> frozenset[str]:
     return functions_called(program(expression))
 
 
+@cache
+def _names_instance(expression: str) -> bool:
+    return bool({"instance", "part"} & set(program(expression).variables()))
+
+
+def same_values(values: Iterable[Canonical | list[Canonical]]) -> Hashable:
+    """Return what is equal only for values that CEL cannot tell apart: Python takes 1 and True for equal."""
+    return tuple(
+        [
+            (v.__class__, v) if v.__class__ is not list else tuple([(w.__class__, w) for w in v])
+            for v in values
+        ]
+    )
+
+
+class Verdicts(dict[Hashable, bool]):
+    """What an expression came to for values it has met: most machines have most values in common."""
+
+    def __setitem__(self, key: Hashable, verdict: bool) -> None:
+        if len(self) >= _REMEMBERED:
+            self.clear()
+        super().__setitem__(key, verdict)
+
+
 class Situation:
     """Conditions and states of one file."""
 
     def __init__(
         self, schema: Schema, value: Callable[[Address], Value | None], machine: Callable[[], str]
     ) -> None:
-        self.schema, self._value, self._machine = schema, value, machine
+        self.schema, self._value, self._asked_machine = schema, value, machine
+        self._machine: str | None = None
         self._canonical: dict[Address, Canonical] = {}
         self._holds: dict[_Asked, bool] = {}
         self._states: dict[Address, StateInfo] = {}
@@ -74,7 +101,9 @@ class Situation:
     @property
     def machine(self) -> str:
         """The machine type the file describes."""
-        return self._machine()
+        if self._machine is None:
+            self._machine = self._asked_machine()
+        return self._machine
 
     # -- values ----------------------------------------------------------------
 
@@ -148,7 +177,7 @@ class Situation:
     def _evaluate(self, asked: _Asked) -> bool:
         name, instance, scope = asked
         condition = self.condition(name)
-        names: dict[str, Any] = {"machine": self.machine, "instance": instance, "part": part_of(instance)}
+        names: dict[str, Canonical | list[Canonical]] = {}
         for short, text in condition.reads.items():
             try:
                 reading = self.reading(text, instance, scope)
@@ -160,11 +189,24 @@ class Situation:
                 self._readers.setdefault(address, set()).add(asked)
             got = [self.canonical(a) for a in reading.addresses]
             names[short] = got if reading.is_list else got[0]
-        context = Context(names)
-        for called in _functions(condition.when):
+        verdicts = _verdicts(self.schema)
+        key = (
+            name,
+            self.machine,
+            instance if _names_instance(condition.when) else "",
+            same_values(names.values()),
+        )
+        found = verdicts.get(key)
+        if found is None:
+            found = verdicts[key] = self._execute(condition.when, instance, names)
+        return found
+
+    def _execute(self, when: str, instance: str, names: dict[str, Canonical | list[Canonical]]) -> bool:
+        context = Context({"machine": self.machine, "instance": instance, "part": part_of(instance), **names})
+        for called in _functions(when):
             context.add_function(called, WORD_FUNCTIONS[called])
         try:
-            return program(condition.when).execute(context) is True
+            return program(when).execute(context) is True
         except (
             TypeError,
             RuntimeError,
@@ -310,6 +352,7 @@ class Situation:
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""
+        self._machine = None
         for memory in (
             self._canonical,
             self._holds,
@@ -331,6 +374,12 @@ def _offered(instances: tuple[str, ...]) -> str:
 
 
 @lru_cache(maxsize=32)
+def _verdicts(schema: Schema) -> Verdicts:  # noqa: ARG001  # it is the key
+    """Return the conditions that have been worked out, for which values."""
+    return Verdicts()
+
+
+@lru_cache(maxsize=32)
 def _readings(schema: Schema, machine: str) -> dict[_Asked, Reading]:  # noqa: ARG001  # they are the key
     """Return the entries of ``reads`` that have been resolved; they depend on no value."""
     return {}
@@ -347,7 +396,7 @@ def _is_same(schema: Schema, machine: str, condition: Condition) -> bool:
         alone = schema.instances(schema.parameters[parameter_id], machine) == ("",)
         if which in ("<", ">", ".") or (which == "" and not alone):
             return False
-    return not {"instance", "part"} & set(program(condition.when).variables())
+    return not _names_instance(condition.when)
 
 
 @lru_cache(maxsize=32)

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from string import Formatter
 
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
+from amp_studio.schema.situation import Verdicts
 from amp_studio.schema.units import UNITS
 
 ALWAYS_THERE = ("machine", "application", "instance", "part")
@@ -58,6 +59,8 @@ class Expressions:
     """Functions offered to rules that these call."""
     always: tuple[str, ...]
     """Which of the names that need not be read these use."""
+    verdicts: Verdicts = field(default_factory=Verdicts, repr=False)
+    """Whether the rule was broken, for values it has met."""
 
 
 def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from operator import is_
 from typing import Any
 
@@ -21,7 +22,7 @@ from amp_studio.schema import (
     write_number,
 )
 from amp_studio.schema.cel_engine import Context, Program
-from amp_studio.schema.situation import Canonical
+from amp_studio.schema.situation import Canonical, same_values
 from amp_studio.schema.units import angular
 
 from .finding import Finding, Setting
@@ -32,32 +33,12 @@ EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, Looku
 """What CEL raises for a value of a kind that an expression does not speak of."""
 
 
+@dataclass(frozen=True, slots=True)
 class _Given:
-    """The context of one check, with the values it was given and what came of them.
+    """What the expressions of a check see: the context, and the values in it."""
 
-    Giving values to CEL costs ten times as much as an expression, so a context is kept, and is given only values
-    that are no longer the same object: to be equal is not enough, for Python takes 1 and True for equal.
-    """
-
-    __slots__ = ("broken", "context", "values")
-
-    def __init__(self, context: Context) -> None:
-        self.context = context
-        self.values: list[Any] | None = None
-        self.broken = False
-
-    def take(self, names: tuple[str, ...], values: list[Any]) -> bool:
-        """Take the present values; tells whether any of them is new."""
-        before = self.values
-        if before is None:
-            self.context.update(dict(zip(names, values, strict=True)))
-        elif all(map(is_, values, before)):
-            return False
-        else:
-            every = zip(names, values, before, strict=True)
-            self.context.update({name: value for name, value, old in every if value is not old})
-        self.values = values
-        return True
+    context: Context
+    values: list[Any]
 
 
 class RuleChecks:
@@ -66,8 +47,8 @@ class RuleChecks:
     def __init__(self, file: ParameterFile, machine: str) -> None:
         self._file, self._machine = file, machine
         self._functions = rule_functions(file.schema.family.family)
-        self._given: dict[int, _Given] = {}
-        """Place of a check -> what it was given."""
+        self._given: dict[int, tuple[list[Any], bool]] = {}
+        """Place of a check -> the values it was given, and whether it was broken by them."""
         self._seen: dict[Address, Canonical] = {}
         self._lists: dict[tuple[Address, ...], list[Canonical]] = {}
         self._lists_before: dict[tuple[Address, ...], list[Canonical]] = {}
@@ -84,22 +65,48 @@ class RuleChecks:
         if values is None:
             return None
         given = self._given.get(check.place)
-        if given is None:
-            given = self._given[check.place] = _Given(self._new_context(check))
-        if given.take(check.names, values):
+        if given is not None and all(map(is_, values, given[0])):
+            broken = given[1]
+        else:
+            broken = self._is_broken(check, values)
+            self._given[check.place] = (values, broken)
+        return self._finding(check, values) if broken else None
+
+    def _is_broken(self, check: RuleCheck, values: list[Any]) -> bool:
+        """Tell whether a rule is broken by values; what it came to for equal ones before is remembered."""
+        expressions = check.expressions
+        always = tuple([self._always(check, name) for name in expressions.always])
+        key = (always, same_values(values))
+        found = expressions.verdicts.get(key)
+        if found is None:
             try:
-                given.broken = check.expressions.broken.execute(given.context) is True
+                found = expressions.broken.execute(self._context(check, values)) is True
             except EVALUATION_FAULTS:
-                given.broken = (
+                found = (
                     False  # a value of a kind the rule does not speak of; its own check says what is wrong
                 )
-        return self._finding(check, given) if given.broken else None
+            expressions.verdicts[key] = found
+        return found
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see now."""
-        given = _Given(self._new_context(check))
-        given.take(check.names, self._values(check) or [None] * len(check.names))
-        return given.context
+        return self._context(check, self._values(check) or [None] * len(check.names))
+
+    def _context(self, check: RuleCheck, values: list[Any]) -> Context:
+        names: dict[str, Any] = {name: self._always(check, name) for name in check.expressions.always}
+        names.update(zip(check.names, values, strict=True))
+        context = Context(names)
+        for name in check.expressions.functions:
+            context.add_function(name, self._functions[name])
+        return context
+
+    def _always(self, check: RuleCheck, name: str) -> Canonical:
+        """Return one of the names that a rule need not read."""
+        if name == "machine":
+            return self._machine
+        if name == "application":
+            return self._file.header.application
+        return check.instance if name == "instance" else part_of(check.instance)
 
     # -- values ----------------------------------------------------------------
 
@@ -118,18 +125,6 @@ class RuleChecks:
         for _, addresses in check.lists:
             values.append(lists[addresses] if addresses in lists else self._list(addresses))
         return values
-
-    def _new_context(self, check: RuleCheck) -> Context:
-        context = Context()
-        for name in check.expressions.functions:
-            context.add_function(name, self._functions[name])
-        always: dict[str, Canonical] = {
-            "machine": self._machine,
-            "application": self._file.header.application,
-        }
-        always |= {"instance": check.instance, "part": part_of(check.instance)}
-        context.update({name: always[name] for name in check.expressions.always})
-        return context
 
     def _see(self, address: Address) -> Canonical:
         situation = self._file.situation
@@ -152,8 +147,9 @@ class RuleChecks:
 
     # -- what is said ----------------------------------------------------------
 
-    def _finding(self, check: RuleCheck, given: _Given) -> Finding:
+    def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
         rule, situation = check.rule, self._file.situation
+        given = _Given(self._context(check, present), present)
         texts = {"instance": check.instance, "machine": self._machine}
         texts["application"] = self._file.header.application
         texts["part"] = check.instance.partition(".")[2]
@@ -218,7 +214,7 @@ class RuleChecks:
     def _mends(self, check: RuleCheck, given: _Given, repairs: tuple[Setting, ...]) -> bool:
         """Tell whether the rule holds with its own repairs, which were rounded as the parameter wants it."""
         mended = {repair.address: canonical_value(repair.value) for repair in repairs}
-        before = dict(zip(check.names, given.values or (), strict=True))
+        before = dict(zip(check.names, given.values, strict=True))
         after: dict[str, Any] = {s.name: mended[s.address] for s in check.singles if s.address in mended}
         for name, addresses in check.lists:
             if not mended.keys().isdisjoint(addresses):
