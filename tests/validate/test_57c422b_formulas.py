@@ -49,7 +49,7 @@ def test_a_thousand_lines_with_four_edges_are_four_thousand_counts() -> None:
 
 
 def test_the_unwind_constant_is_the_counts_of_a_revolution() -> None:
-    """Page 4-48: GEAR_UNWIND! of 1 revolution, FDBK_UNWIND! of 400 revolutions."""
+    """Page 4-19, and 5-5 for the first; page 4-48 has 1600000 on an axis whose encoder turns once (e-r34-sample)."""
     assert unwind_constant(4000, 1) == 4000
     assert unwind_constant(4000, 400) == 1600000
     assert unwind_constant(4000, 1, 4) == 1000
