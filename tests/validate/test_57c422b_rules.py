@@ -111,6 +111,11 @@ def test_a_rule_speaks_when_it_is_broken_and_only_then(rule: str, row: dict[str,
                 assert (found.severity, found.page) == (RULES[rule].severity, RULES[rule].page)
                 assert not re.search(r"[{}?]", found.message), "every name of the message has its value"
                 assert bool(found.repairs) == bool(RULES[rule].fix)
+                uses = {setting.address: setting.value for setting in found.effective}
+                assert bool(uses) == bool(RULES[rule].effective)
+                for name, text in row.get("uses", {}).items():
+                    address = here.file.find(name)
+                    assert uses[address] == here.file.read(address, str(text))
                 with here.changed({}):
                     for repair in found.repairs:
                         here.file.set(repair.address, repair.value)
@@ -127,8 +132,8 @@ FLIPS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&
 PLACE = re.compile(r"<=|>=|==|!=|&&|\|\||<|>|(?<![\w.])\d+\.\d+|(?<=!)bit|(?<![!\w])bit")
 
 THE_SAME = {
-    # 800 itself is a whole number of steps.
-    "57c422b.setup.velocity-error-step": {"limit >= 800.0"},
+    # 32767 is the largest denominator; six digits or seven only take away what the division left.
+    "57c422b.command.gear-ratio-illegal": {"numerator * 32768.0", "32767.0, 7.0)"},
     # 0 times anything decides as the condition before it; 32767 is the largest denominator.
     "57c422b.command.gear-words-range": {"denominator >= 0.0", "32768.0"},
 }
