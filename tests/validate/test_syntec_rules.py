@@ -17,8 +17,10 @@ from ruamel.yaml import YAML
 
 from amp_studio.demo import examples_folder
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.schema import Value, load_schema
+from amp_studio.schema import Rule, Value, load_schema
 from amp_studio.validate import Finding, Validator
+from amp_studio.validate.plan import checks_of
+from amp_studio.validate.rules import RuleChecks
 
 RULES = {rule.id: rule for rule in load_schema("syntec").rules}
 
@@ -124,6 +126,48 @@ def test_the_repairs_of_a_rule_mend_it(case: Case) -> None:
             for repair in finding.repairs:
                 file.set(repair.address, repair.value)
         assert findings(file, case.rule) == []
+
+
+# -- the cases are sharp: a rule changed in one place no longer gives what they say ---------------------------------
+
+FLIPS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&"}
+PLACE = re.compile(r"<=|>=|==|!=|&&|\|\||<|>|(?<![\w.\[])\d+\.\d+|'[^']*'")
+
+
+def mutants(rule: Rule) -> Iterator[Rule]:
+    """Yield a rule with one operator, one number or one choice changed after the other."""
+    for part in ("check", "when"):
+        text = " ".join(getattr(rule, part).split())
+        for found in PLACE.finditer(text):
+            before, after = text[: found.start()], text[found.end() :]
+            other = (
+                "'other'" if found[0].startswith("'") else FLIPS.get(found[0]) or repr(float(found[0]) + 1)
+            )
+            if other == "<=" and after.startswith(" size("):
+                continue  # one position more is an error of the index, which exists() passes over
+            yield rule.model_copy(update={part: before + other + after})
+
+
+def times_broken(file: ParameterFile, rule: Rule) -> int:
+    checks = RuleChecks(file, file.machine)
+    return sum(checks.finding(check) is not None for check in checks_of(file.situation, (rule,)))
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_no_mutant_of_a_rule_passes_its_cases(rule: str) -> None:
+    """A rule changed in one place no longer gives what the cases say, or speaks on a sound machine."""
+    alive = list(mutants(RULES[rule]))
+    stands = [(machine(name), 0) for name in ("generic", "serial")]
+    for case in (case for case in CASES if case.rule == rule):
+        for texts, times in (({}, 0), (case.breaks, case.times), (case.holds, 0)):
+            if texts is not None:
+                file = machine(case.of)
+                change(file, case.given)
+                change(file, texts)
+                stands.append((file, times))
+    for file, times in stands:
+        alive = [mutant for mutant in alive if times_broken(file, mutant) == times]
+    assert [(mutant.check, mutant.when) for mutant in alive] == [], "add a case that tells them from the rule"
 
 
 def test_an_axis_without_a_port_is_not_looked_at() -> None:
