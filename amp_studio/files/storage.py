@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -183,9 +184,15 @@ def _value(schema: Schema, file: ParameterFile, address: Address, said: str) -> 
     if parameter is None or address[1] not in schema.instances(parameter, file.machine):
         return None
     try:
-        return read_stored(schema, parameter, said)
+        return _stored(schema, parameter.id, said)
     except ValueFault as error:
         return str(error)
+
+
+@lru_cache(maxsize=16_384)
+def _stored(schema: Schema, parameter_id: str, said: str) -> Value:
+    """Return what a text in a file means; the files of a shop have most of them in common."""
+    return read_stored(schema, schema.parameters[parameter_id], said)
 
 
 def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:

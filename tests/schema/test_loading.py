@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.schema import DatabaseFault, family_ids, load_schema, read_rules
+from amp_studio.schema import DatabaseFault, family_ids, load_schema
 from amp_studio.schema import load as loading
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family, database_folder, load_compiled
@@ -153,7 +153,7 @@ def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts) -> None:
         """,
     )
     with pytest.raises(DatabaseFault) as refused:
-        read_rules(path)
+        compile_family(facts.folder)
     assert (4, path) == (refused.value.line, refused.value.path)
     assert refused.value.what.startswith("small.order: severity: ")
 
