@@ -17,7 +17,7 @@ from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
 from amp_studio.transfer.formats import FormatFault, export_file, file_of, import_file
 from amp_studio.transfer.formats.acr_command import commands_of
-from amp_studio.transfer.formats.acr_script import FORMAT
+from amp_studio.transfer.formats.acr_script import FORMAT, ORDER
 
 from .small_module import taken, told
 
@@ -131,7 +131,7 @@ def test_a_gain_of_appendix_c_is_written_with_its_axis_and_without_an_exponent(
         assert taken(FORMAT, MILL, f"{word} {axis}{figure}").values == file.values
 
 
-def test_a_script_has_one_setting_a_line_and_the_scale_first() -> None:
+def test_a_script_has_one_setting_a_line_and_scales_and_limits_before_the_gains() -> None:
     file = mill(
         servo_p_gain_X=Value(0.00244, "V/count"), servo_p_gain_Y=Value(1e-7, "V/count"),
         axes_excess_error_band_Y=Value(25.4, "mm"), axes_pulses_per_unit_X=Value(4096.0, "counts/in"),
@@ -142,15 +142,37 @@ def test_a_script_has_one_setting_a_line_and_the_scale_first() -> None:
         "REM ACR command script of TRY",
         "REM units inch",  # the printed default (page 61)
         "PPU X4096",
+        "MULT X-4",
+        "DAC2 GAIN -3276.8",
+        "EXC AXIS1 1",
+        "NOTCH X(500, 50)",
         "PGAIN X0.00244",
         "PGAIN Y0.0000001",
-        "EXC AXIS1 1",
-        "MULT X-4",
         "P12=0.5",
-        "DAC2 GAIN -3276.8",
-        "NOTCH X(500, 50)",
         "",
     ]
+
+
+def test_no_gain_stands_before_its_scale_its_sign_its_limits_and_its_damping() -> None:
+    """A controller obeys line by line: pages 114 and 115 set them in this order."""
+    rows = FORMAT.write(new_file("acromill")).split("\n")[2:-1]
+    words = list(dict.fromkeys(row.split(" ")[0].rstrip("01234567") for row in rows))
+    assert words == [
+        "PPU", "MULT", "DAC", "EXC", "TLM", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT", "IGAIN", "FFVEL",
+        "FFACC",
+    ]  # fmt: skip
+
+
+def test_every_word_of_the_order_is_that_of_a_command() -> None:
+    words = {re.match("[A-Z]*", s.template)[0] for c in commands_of(MILL, "mill") for s in c.settings}  # type: ignore[index]  # it always matches
+    assert words == {*ORDER, "P"}
+
+
+def test_what_is_set_later_stands_before_the_gains_of_a_kept_script() -> None:
+    back = taken(FORMAT, MILL, "PROG0\nPGAIN X0.01\nRES X", keep=True)
+    back.set(("servo.torque_limits", "X"), Value(4.0, "V"))
+    back.set(("servo.i_gain", "X"), Value(0.1, "V/count/s"))
+    assert FORMAT.write(back).split("\n") == ["PROG0", "TLM X4", "PGAIN X0.01", "IGAIN X0.1", "RES X"]
 
 
 def test_a_new_file_reads_back_as_it_was() -> None:
@@ -305,8 +327,8 @@ def test_values_changed_in_a_kept_script_stand_in_its_place() -> None:
     assert FORMAT.write(file).split("\n") == [
         "PROG0",
         "TLM X3",
-        "TLM Z5",
         "PPU X1",
+        "TLM Z5",
         "PGAIN X0.1",
         "PROG1",
         "HALT",

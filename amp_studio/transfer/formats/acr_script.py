@@ -2,6 +2,7 @@
 
 A setting is written in the form that its parameter names: ``PPU X4096``, ``EXC AXIS0 4``, ``NOTCH X(500, 50)``. One
 setting stands in a line; several axes behind one command are read too, as ``PPU X4096 Y4096`` is printed (page 114).
+Written are scales, signs and limits before the gains they make safe (see ``ORDER``).
 ``REM`` begins a remark (page 128).
 """
 
@@ -31,6 +32,16 @@ _UNITS = re.compile(r"\s*REM\s+units\s+(\S+)\s*", re.IGNORECASE)
 _REMARK = re.compile(r"\s*(REM\b.*)?", re.IGNORECASE | re.DOTALL)
 _BEHIND = re.compile(r"\s*(\(.*\))?\s*")
 """The guide's own remarks: ``MULT X-4     (Times 4 multiplication in opposite direction)`` (page 114)."""
+
+ORDER = ("PPU", "MULT", "DAC", "EXC", "TLM", "LOPASS", "NOTCH", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT",
+         "IGAIN", "FFVEL", "FFACC")  # fmt: skip
+"""The order in which settings are written, by the word of their command; the others follow in the manual's order.
+
+A controller obeys line by line, so a gain that came before its scale, sign or limit would move an axis with the old one.
+The guide sets pulses, counting, polarity and error band first (page 114), then the torque limit and the damping before
+P Gain, the integral and the feedforwards (page 115). Filters and the delay and limit of the integral stand before the
+gains they hold back; that much is ours.
+"""
 
 
 # -- reading -------------------------------------------------------------------------------------------------------
@@ -176,15 +187,16 @@ def _write(file: ParameterFile) -> str:
 
 
 def _settings(file: ParameterFile) -> list[Setting]:
-    """Return every setting that the family's commands can make, in the manual's order.
+    """Return every setting that the family's commands can make, in ``ORDER``."""
+    place = {address: n for n, address in enumerate(file.addresses())}
+    rank = {word: n for n, word in enumerate(ORDER)}
 
-    What says how long a unit is stands before all that is given in units, as PPU before EXC (page 114).
-    """
-    order = {address: n for n, address in enumerate(file.addresses())}
+    def order(setting: Setting) -> tuple[int, int]:
+        word = re.match("[A-Z]*", setting.template)
+        return rank.get(word[0] if word else "", len(rank)), place[setting.addresses[0]]
+
     found = [s for command in commands_of(file.schema, file.machine) for s in command.settings]
-    found.sort(key=lambda s: order[s.addresses[0]])
-    scale = [s for s in found if file.schema.parameters[s.addresses[0][0]].quantity == "counts-per-length"]
-    return scale + [s for s in found if s not in scale]
+    return sorted(found, key=order)
 
 
 def _row(file: ParameterFile, setting: Setting, system: str) -> str:
@@ -209,9 +221,10 @@ def _row(file: ParameterFile, setting: Setting, system: str) -> str:
 def _filled(
     file: ParameterFile, layout: list[str], rows: dict[Address, str], units: list[str]
 ) -> Iterator[str]:
-    """Yield the lines of a kept script with the values of now; a new setting stands behind the one before it."""
+    """Yield the lines of a kept script with the values of now; a new setting stands behind all that go before it."""
     at = {what: n for n, row in enumerate(layout) if (what := marked(row))}
-    beside = neighbours(rows, [a for a in rows if written(a) in at])
+    there = {a: at[written(a)] for a in rows if written(a) in at}
+    beside = neighbours(rows, there, there)
     front = [rows[a] for a in beside.get(None, [])]
     names = {written(a): a for a in rows}
     if units and not any(_UNITS.fullmatch(shown(row)) for row in layout):

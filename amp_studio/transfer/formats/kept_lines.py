@@ -8,7 +8,7 @@ that its value is in one place only, and so does a line that is not understood, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -89,13 +89,19 @@ def shown(text: str) -> str:
     return text[:at] + text[at + 1 :] if text[at:].startswith("{{") else text
 
 
-def neighbours(order: Iterable[T], there: Iterable[T]) -> dict[T | None, list[T]]:
-    """Return where what is not there yet belongs: behind the one before it in ``order``, None for the front."""
+def neighbours(
+    order: Iterable[T], there: Iterable[T], lines: Mapping[T, int] | None = None
+) -> dict[T | None, list[T]]:
+    """Return where what is not there yet belongs: behind the one before it in ``order``, None for the front.
+
+    With the lines of those that are there it is that of all before it which stands last.
+    """
     present, last = set(there), None
     found: dict[T | None, list[T]] = {}
     for one in order:
         if one in present:
-            last = one
+            if lines is None or last is None or lines[one] > lines[last]:
+                last = one
         else:
             found.setdefault(last, []).append(one)
     return found
