@@ -1,134 +1,127 @@
-"""The database of AcroMill holds what the tables of its guide print, or an erratum says why not.
+"""The AcroMill database holds what its guide prints, pictures included: names, pages, units, defaults, ranges, gains.
 
-The rows in acromill.yaml were taken from the guide without a look at the database (scripts/extract_acromill.py).
+The facts in acromill.yaml were taken from the guide without a look at the database (scripts/extract_acromill.py).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
-from ruamel.yaml import YAML
+from altered import OUT_OF_THE_WAY, altered_facts, altered_schema
+from book_9pc import Disagreement, exemptions, unsettled
+from checks_acromill import Guide, check_names, check_ranges, check_runs, check_typical, check_values
+from manual_facts import Section, read
 
 from amp_studio.files import new_file
-from amp_studio.schema import Parameter, Schema, load_schema, show_value
+from amp_studio.schema import load_schema, show_value
 
-FACTS = YAML(typ="safe").load(Path(__file__).with_name("acromill.yaml").read_text("utf-8"))
-TABLES = ("servo", "axes", "control", "control", "home", "jog", "io", "speeds", "spindle", "tool")
-"""Group of each table, in the order of the guide."""
+HERE = Path(__file__).parent
+COUNTS = [0, 3, 3, 268, 108]
+CHECKS: dict[str, Callable[[Guide], Iterator[Disagreement]]] = {
+    "names": check_names,
+    "values": check_values,
+    "ranges": check_ranges,
+    "typical": check_typical,
+    "runs": check_runs,
+}
 
-NAMES = {
-    "HandwheelRatio": "Handwheel Ratio",  # two words on the screen
-    "At Zero Output": "At Zero Input",  # erratum e-at-zero-name
-}
-DEFAULTS = {
-    "Spindle OFF Output": "-1",  # erratum e-spindle-off-default
-    "Axis Name": "X",  # X,Y... one letter for each axis
-}
-RAMPS = ("Home Acceleration", "Home Deceleration", "Home STP")  # erratum e-home-ramp-units
-QUANTITIES = {
-    "Inch or mm per sec per sec": "acceleration",
-    "Inch or mm per second": "velocity",
-    "Inch or mm per minute": "velocity",
-    "Inch or mm": "length",
-    "Degrees": "angle",
-    "volts": "voltage",
-    "second": "time",
-}
-UNITS = {
-    "volts/pulses of following error": "V/count",
-    "volts/second/pulses of following error": "V/count/s",
-    "volts/pulses of following error/second": "Vs/count",
-    "volts/incoming setpoint pulses/second": "Vs/count",
-    "volts/incoming setpoint pulses/sec ²": "Vs2/count",
-    "Radians": "rad",
-}
-TYPES = {"Integer": ("integer", "bits"), "Boolean": ("boolean",), "Float": ("real",), "Sign": ("choice",)}
+
+@cache
+def printed() -> tuple[Section, ...]:
+    return read(HERE / "acromill.yaml")
+
+
+EXEMPT = exemptions(HERE / "exceptions_acromill.yaml")
 
 
 @pytest.fixture(scope="module")
-def acromill() -> Schema:
-    return load_schema("acromill")
+def book() -> Guide:
+    return Guide(load_schema("acromill"), printed())
 
 
-def described(schema: Schema, row: dict[str, str]) -> Parameter:
-    """Return the parameter of a row; the chapter on cutter compensation repeats three of the Control tab."""
-    name = NAMES.get(row["name"], row["name"])
-    group = TABLES[int(row["table"]) - 1]
-    named = [p for p in schema.parameters.values() if p.name == name]
-    (found,) = [p for p in named if schema.group_of[p.id].key == group] or [
-        p for p in named if schema.group_of[p.id].key == "control"
-    ]
-    return found
+@pytest.mark.parametrize("check", CHECKS)
+def test_the_database_holds_what_the_manual_print(book: Guide, check: str) -> None:
+    disagreements = unsettled(check, CHECKS[check](book), EXEMPT)
+    assert not disagreements, "\n".join([f"{len(disagreements)} disagreements:", *disagreements])
 
 
-ROWS = pytest.mark.parametrize("row", FACTS["rows"], ids=lambda row: f"{row['line']} {row['name']}")
+def test_the_facts_are_those_of_the_chapters() -> None:
+    kinds = ("numbers", "ranges", "choices", "stored", "defaults")
+    assert [sum(len(getattr(s, kind)) for s in printed()) for kind in kinds] == COUNTS
 
 
-@ROWS
-def test_a_default_is_the_printed_one(acromill: Schema, row: dict[str, str]) -> None:
-    parameter = described(acromill, row)
-    file = new_file("acromill")
-    default = file.default((parameter.id, acromill.instances(parameter, "mill")[0]))
-    printed = DEFAULTS.get(row["name"], row["default"])
-    if printed == "NA":
-        assert default is None
-        return
-    assert default is not None
-    if parameter.type in ("real", "integer", "bits"):
-        assert float("-1" if printed == "Disable" else printed) == default.value
-    else:
-        assert printed.casefold() == show_value(parameter, default).casefold()
+def test_the_letters_of_the_axes_are_delivered_in_their_order() -> None:
+    """X,Y... is the default, and X,Y,Z,A,B,C,U,V are typical (page 60)."""
+    file, schema = new_file("acromill"), load_schema("acromill")
+    name = schema.parameter("axes.name")
+    held = [file.default((name.id, axis)) for axis in schema.instances(name, "mill")]
+    assert [one and show_value(name, one) for one in held] == list("XYZABCUV")
 
 
-@ROWS
-def test_a_unit_is_the_printed_one(acromill: Schema, row: dict[str, str]) -> None:
-    parameter, printed = described(acromill, row), row["unit"].rstrip(".")
-    printed = "Inch or mm per sec per sec" if row["name"] in RAMPS else printed
-    if printed in UNITS:
-        assert parameter.unit == UNITS[printed]
-    elif printed in TYPES:
-        assert parameter.type in TYPES[printed]
-    elif parameter.type == "choice":
-        assert printed in ("NA", "Inch or mm")  # Default Units
-    elif printed != "NA":
-        assert parameter.quantity == next(QUANTITIES[unit] for unit in QUANTITIES if printed.startswith(unit))
+def test_an_exception_says_why_in_a_sentence() -> None:
+    for exempt in EXEMPT:
+        assert exempt.check in CHECKS
+        assert len(exempt.why.split()) > 4
+        assert exempt.why.endswith(".")
+        assert exempt.about or 0 not in exempt.span
 
 
-@ROWS
-def test_a_typical_value_that_is_not_the_default_is_told(acromill: Schema, row: dict[str, str]) -> None:
-    typical = row["typical"]
-    if typical != row["default"] and typical not in (
-        "Machine+",
-        "Machine-",
-        "User Choice",
-        "User Defined",
-        "X,Y....",
-    ):
-        told = described(acromill, row).help
-        assert typical in f"{told.what} {told.find} {told.wrong}"
+# -- no altered fact goes unseen --------------------------------------------------------------------------
+
+ALTERABLE = [
+    ("names", "stored", {"name": ("Unheard of",)}),
+    ("values", "stored", {"default": (OUT_OF_THE_WAY,), "unit": ("Hz",)}),
+    ("ranges", "ranges", {"low": (OUT_OF_THE_WAY,), "high": (OUT_OF_THE_WAY,), "applies": ("Unheard of",)}),
+    ("ranges", "choices", {"letter": ("99",), "number": ("Unheard of",)}),
+    ("typical", "stored", {"codes": ({"typical": OUT_OF_THE_WAY},)}),
+    ("runs", "defaults", {"number": ("Unheard of",), "value": (OUT_OF_THE_WAY,)}),
+]
 
 
-SCREEN_ONLY = {
-    "control.angular_acc_threshold",
-    "control.corner_arc_threshold",
-    "control.ignore_cycle_start",
-    "control.perpendicular_axis",
-    "control.inverted_inputs",
-    "control.inverted_outputs",
-    "speeds.rapid",
-}
-"""Parameters of these tabs that no table has: errata e-control-fields, e-logic-masks and e-rapid-speed."""
+@pytest.mark.parametrize(("check", "kind", "wrong"), ALTERABLE)
+def test_no_fact_of_the_tabs_can_be_altered_unseen(
+    book: Guide, check: str, kind: str, wrong: dict[str, tuple[object, ...]]
+) -> None:
+    usual = set(CHECKS[check](book))
+    exempt = {line for e in EXEMPT if e.check == check for line in e.span}
+    assert [
+        (line, key)
+        for line, key, sections in altered_facts(printed(), kind, wrong)
+        if line not in exempt and set(CHECKS[check](Guide(book.schema, sections))) <= usual
+    ] == []
 
 
-def test_no_tab_with_a_table_has_a_parameter_that_the_guide_does_not_have(acromill: Schema) -> None:
-    rows = {described(acromill, row).id for row in FACTS["rows"]}
-    held = {p.id for p in acromill.parameters.values() if acromill.group_of[p.id].key in TABLES}
-    assert held - rows == SCREEN_ONLY
+def test_no_page_can_be_altered_unseen(book: Guide) -> None:
+    usual = {*check_names(book), *check_runs(book)}
+    for at, section in enumerate(printed()):
+        sections = (*printed()[:at], replace(section, page="1"), *printed()[at + 1 :])
+        other = Guide(book.schema, sections)
+        assert not {*check_names(other), *check_runs(other)} <= usual, section.heading
 
 
-def test_the_runs_of_the_tuning_procedure_are_the_printed_lists(acromill: Schema) -> None:
-    table = acromill.tables["tuning-runs"]
-    for name in ("PGAIN", "IGAIN", "IDELAY", "ILIMIT", "DWIDTH", "DGAIN", "FFVEL", "FFACC", "TLM"):
-        printed = [float(gain["value"]) for gain in FACTS["gains"] if gain["name"] == name]
-        assert list(table.column(name) or ()) == printed
+ALTERED = [
+    ("names", "home.preset", {"name": "Shift"}),
+    ("names", "axes.inposition_band", {"page": "61"}),
+    ("values", "jog.rapid", {"default": None}),
+    ("values", "jog.rapid", {"quantity": "length"}),
+    ("values", "home.stop", {"quantity": "velocity"}),
+    ("values", "fov.increment_percent", {"default": load_schema("acromill").parameters["jog.rapid"].default}),
+    ("ranges", "control.path_color", {"ranges": {"": (0.0, 14.0)}}),
+    (
+        "typical",
+        "jog.deceleration",
+        {"help": load_schema("acromill").parameters["jog.stop"].help.model_copy(update={"find": ""})},
+    ),
+]
+
+
+@pytest.mark.parametrize(("check", "parameter_id", "changes"), ALTERED)
+def test_an_altered_database_is_told(
+    book: Guide, check: str, parameter_id: str, changes: dict[str, object]
+) -> None:
+    other = Guide(altered_schema("acromill", parameter_id, changes), printed())
+    assert set(CHECKS[check](other)) - set(CHECKS[check](book))

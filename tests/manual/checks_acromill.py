@@ -1,4 +1,5 @@
-"""Names, units, defaults and ranges of the AcroMill database against the tabs of its guide, pictures included."""
+"""Names, units, defaults, typical values and ranges of the AcroMill database against the tabs of its guide, pictures
+included, and the lists of gains of its appendix C."""
 
 from __future__ import annotations
 
@@ -29,6 +30,10 @@ UNITS = {
     "second": "s",
     "volts": "V",
 }
+REPEATED = {"104": "61"}
+"""The page of a chapter that repeats rows of a tab, and that of the tab."""
+NOT_TYPICAL = {"", "NA", "Machine+", "Machine-", "User Choice", "User Defined", "X,Y...."}
+"""Words of the column of typical values that name none."""
 NO_FIGURES = {"Disable": "-1"}
 """What an integer without a figure is held as (erratum e-io-disable)."""
 SHORT = {"spd": "speed", "mach": "machine", "for": "forward", "back": "backward", "upm": "", "reqd": "required",
@@ -54,7 +59,8 @@ class Guide(Book):
     """The facts of the tabs and the database they are held against."""
 
     def of_tab(self, section: Section) -> list[Parameter]:
-        return [p for p in self.schema.parameters.values() if p.page == section.page]
+        page = REPEATED.get(section.page, section.page)
+        return [p for p in self.schema.parameters.values() if p.page == page]
 
     def called(self, section: Section, name: str) -> list[Parameter]:
         """Return what a name of a tab means: the same name, a longer form of it, or one told by an erratum."""
@@ -132,8 +138,14 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
             yield odd("values", section, row.line, row.name, row.unit, f"is {parameter.type}")
     elif row.unit:
         units = book.schema.units_of(parameter)
-        doubted = any(mentions(reading.says, row.unit) for erratum in errata for reading in erratum.readings)
-        if UNITS.get(row.unit) not in units and not doubted and not (parameter.choices and row.unit in UNITS):
+        doubts = [e.taken for e in errata if any(mentions(reading.says, row.unit) for reading in e.readings)]
+        decided = [taken.replace("²", "2") for taken in doubts if "/" in taken]  # in/s² or mm/s²
+        right = (
+            any(unit in taken for unit in units for taken in decided)
+            if decided
+            else UNITS.get(row.unit) in units
+        )
+        if not right and not (parameter.choices and row.unit in UNITS):
             yield odd("values", section, row.line, row.name, f"unit {row.unit}", f"units {units}")
     shown = row.codes.get("shown", "")
     known = {"Disable", *labels.values(), *(choice.code for choice in parameter.choices or ())}
@@ -143,6 +155,35 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
         and not any(one and shown.casefold().startswith(one.casefold()) for one in known)
     ):
         yield odd("values", section, row.line, row.name, f"shows {shown}", f"has {labels}")
+
+
+def check_typical(book: Guide) -> Iterator[Disagreement]:
+    """Every typical value that is not the default is told by the help."""
+    for section in book.sections:
+        for row in section.stored:
+            typical = row.codes.get("typical", "")
+            if typical in NOT_TYPICAL or typical == row.default:
+                continue
+            found = book.called(section, row.name)
+            if not any(typical in f"{p.help.what} {p.help.find} {p.help.wrong}" for p in found):
+                yield odd("typical", section, row.line, row.name, f"typically {typical}", "does not tell it")
+
+
+def check_runs(book: Guide) -> Iterator[Disagreement]:
+    """The runs of the tuning procedure are the printed lists of gains, one behind the other."""
+    table = book.schema.tables["tuning-runs"]
+    printed: dict[str, list[float]] = {name: [] for name in table.head[1:-1]}
+    for section in book.sections:
+        if section.defaults and section.page != table.page:
+            yield odd(
+                "runs", section, section.line, table.title, "lists of gains", f"is of page {table.page}"
+            )
+        for fact in section.defaults:
+            printed.setdefault(fact.number, []).append(float(fact.value))
+    for name, values in printed.items():
+        held = list(table.column(name) or ())
+        if values != held:
+            yield Disagreement("runs", 0, name, "the tuning procedure", f"{values}", f"{held}")
 
 
 def alike(printed: str, held: str) -> bool:
