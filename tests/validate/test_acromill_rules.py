@@ -80,6 +80,11 @@ def test_a_rule_is_broken_and_just_holds(rule: str, case: Mapping[str, object]) 
             assert (finding.severity, finding.page) == (RULES[rule].severity, RULES[rule].page)
             assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
         assert [f.addresses for f in found if RULES[rule].fix and not f.repairs] == []
+        used = {setting.address: setting.value for finding in found for setting in finding.effective}
+        assert len(used) == len(RULES[rule].effective) * len(found)
+        obeyed = router(case, "given", "breaks")
+        obeyed.set_many(used)
+        assert used == {} or of_rule(obeyed, rule) == [], "what the control uses keeps the rule"
         repairs = {repair.address: repair.value for finding in found for repair in finding.repairs}
         mended = router(case, "given", "breaks")
         mended.set_many(repairs)
