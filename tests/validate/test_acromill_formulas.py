@@ -155,6 +155,11 @@ def test_a_gap_of_seven_epsilons_is_no_joint() -> None:
     assert acromill.is_joined(0.0007, 0.002)  # with the default
 
 
+def test_a_format_of_three_digits_shows_less_than_a_thousand() -> None:
+    assert acromill.largest_position("3.6") == 1000  # page 79
+    assert acromill.largest_position("4.5") == 10_000
+
+
 MEASURED = {
     0: (0, 0, 0, 0),
     1: (0.979, 1.000, 0.997, 0.999),
@@ -190,6 +195,7 @@ def test_the_table_begins_at_home_and_wraps_around() -> None:
     assert words[40:] == ["X40E.00000", "X41E.00625"]
     assert words[38] == "X38E.00250"  # position 40; the guide prints X39E.00250
     assert acromill.is_ballscrew_table("X", " ".join(words))
+    assert acromill.ballscrew_positions(" ".join(words)) == 42
 
 
 @pytest.mark.parametrize(
@@ -256,6 +262,7 @@ def test_the_first_paragraph_of_a_formula_cites_its_page(name: str) -> None:
         ("spindle_volts", (-1, 10)),
         ("dac_gain", (0, 10)),
         ("is_joined", (-1, 0)),
+        ("largest_position", ("3",)),
         ("compensated_radius", (math.nan, 0)),
         ("ballscrew_mean", ([],)),
         ("ballscrew_difference", (math.nan, [1])),

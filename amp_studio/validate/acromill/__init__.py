@@ -11,6 +11,7 @@ from .ballscrew import (
     ballscrew_difference,
     ballscrew_mean,
     ballscrew_offset,
+    ballscrew_positions,
     ballscrew_words,
     is_ballscrew_table,
 )
@@ -22,6 +23,7 @@ from .feedback import (
 from .geometry import (
     compensated_radius,
     is_joined,
+    largest_position,
 )
 from .motion import (
     index_time,
@@ -49,6 +51,7 @@ __all__ = [
     "ballscrew_difference",
     "ballscrew_mean",
     "ballscrew_offset",
+    "ballscrew_positions",
     "ballscrew_words",
     "compensated_radius",
     "dac_gain",
@@ -57,6 +60,7 @@ __all__ = [
     "index_time",
     "is_ballscrew_table",
     "is_joined",
+    "largest_position",
     "lopass_limit",
     "overridden_feed",
     "proportional_gain",

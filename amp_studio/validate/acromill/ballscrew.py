@@ -60,6 +60,11 @@ def is_ballscrew_table(axis: str, table: str) -> bool:
     )
 
 
+def ballscrew_positions(table: str) -> float:
+    """Number of positions that a table has a word for; beyond its last one it wraps around (page 107)."""
+    return float(len(table.split()))
+
+
 def ballscrew_offset(primary: float, secondary: float, backlash: float) -> float:
     """Ballscrew compensation at work: secondary less primary setpoint, less backlash where it is used (page 107)."""
     given = finite("The secondary setpoint", secondary) - finite("The primary setpoint", primary)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from amp_studio.validate.arguments import finite, not_negative
 
 
@@ -16,3 +18,11 @@ def is_joined(distance: float, epsilon: float) -> bool:
     The example of page 61 calls 0.0007 inch less than 0.0001 inch; by the words of the parameter it is not joined.
     """
     return not_negative("The distance", distance) <= not_negative("Epsilon", epsilon)
+
+
+def largest_position(display_format: str) -> float:
+    """Figure below which a position must stay to be shown (page 79): 3.6 has three digits in front, so 1000."""
+    digits = re.fullmatch(r"(\d)\.(\d+)", display_format)
+    if digits is None:
+        raise ValueError(f"{display_format!r} is no format such as 3.4.")
+    return 10.0 ** int(digits[1])
