@@ -19,6 +19,7 @@ from amp_studio.files import (
 )
 from amp_studio.files.lock import now
 from amp_studio.schema import Address, Value, field_at, field_value, show_value, with_field, write_value
+from amp_studio.schema.stored import stored_number
 
 from .console import UsageFault, assignments, family, note, print_json, progress
 
@@ -91,8 +92,6 @@ def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
 
 def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
-    from amp_studio.transfer.image import stored_number  # no other verb here needs that room
-
     file = open_file(options.path).file
     if options.params:
         found = [file.situation.find_bit(p) for p in options.params]

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
+from amp_studio.files.held import held_text
 from amp_studio.report import cells_of, facts, formula_lines, help_parts, tables_of
 from amp_studio.schema import (
     Address,
@@ -20,7 +21,6 @@ from amp_studio.schema import (
     show_value,
     written,
 )
-from amp_studio.transfer.held import held_text
 
 from .theme import severity_ink
 from .word_panel import WordPanel

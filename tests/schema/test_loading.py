@@ -138,9 +138,11 @@ def test_a_group_file_that_is_missing_empty_or_another_is_told(facts, head) -> N
         compile_family(facts.folder)
 
 
-def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts) -> None:
+def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts, head) -> None:
+    facts.write("family.yaml", head + SLOW)
+    facts.group(GOOD)
     path = facts.write(
-        "rules/one.yaml",
+        "rules/all.yaml",
         """\
         rules:
           - id: small.order

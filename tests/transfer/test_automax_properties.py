@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value
+from amp_studio.schema.register_words import is_signed, number_of, value_of_number
 from amp_studio.transfer.formats import FormatFault, file_of
 from amp_studio.transfer.formats.automax import TABLE, TASK
-from amp_studio.transfer.formats.register_words import is_signed, number_of, value_of_number
 from amp_studio.transfer.formats.registers import Registers, is_writable
 
 FORMS = st.sampled_from([TABLE, TASK])

@@ -8,13 +8,13 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
+from amp_studio.schema.stored import stored_number
 from amp_studio.transfer.image import (
     ImageFault,
     PatchFault,
     decode_image,
     encode_image,
     patch_image,
-    stored_number,
 )
 
 

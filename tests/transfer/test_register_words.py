@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.schema import Parameter, Schema, Value, load_schema, read_value
-from amp_studio.transfer.formats.register_words import (
+from amp_studio.schema.register_words import (
     WordFault,
     exact,
     is_signed,

@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QSpinBox
 
+from amp_studio.files.held import held_text
 from amp_studio.schema import Value
-from amp_studio.transfer.held import held_text
 from amp_studio.ui.main_window import MainWindow
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value, load_schema, written
+from amp_studio.schema.register_words import WordFault
 
 from .acr_command import Argument, Command, Setting, commands_of
 from .bare_figures import default_system, read_figure, system_of, write_figure
 from .kept_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
-from .register_words import WordFault
 from .text_format import FormatFault, TextFormat, TextRead
 
 FAMILIES = ("acromill",)

@@ -11,10 +11,10 @@ import re
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, show_value
+from amp_studio.schema.register_words import WordFault, is_low_first, read_word, write_hexadecimal
 
 from .basic_text import Line, Statement, read_lines
 from .kept_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
-from .register_words import WordFault, is_low_first, read_word, write_hexadecimal
 from .registers import Held, Meaning, Registers, Written, held_by
 from .text_format import FormatFault, TextFormat, TextRead
 

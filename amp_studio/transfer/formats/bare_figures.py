@@ -12,9 +12,8 @@ from fractions import Fraction
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Parameter, Schema, Value, dimension, shown
+from amp_studio.schema.register_words import WordFault, choice_of, code_of, exact
 from amp_studio.schema.units import UNITS
-
-from .register_words import WordFault, choice_of, code_of, exact
 
 
 def system_of(file: ParameterFile) -> str:

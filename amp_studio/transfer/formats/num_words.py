@@ -28,7 +28,8 @@ from amp_studio.schema import (
     write_number,
 )
 from amp_studio.schema.model import Storage
-from amp_studio.transfer.image import patched_value, stored_number
+from amp_studio.schema.stored import stored_number
+from amp_studio.transfer.image import patched_value
 
 Word = tuple[int, int]
 """The numbers of parameter and word: (21, 3) for P21N3."""

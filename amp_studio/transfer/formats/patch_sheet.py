@@ -22,8 +22,9 @@ from amp_studio.schema import (
     unit_named,
     write_number,
 )
+from amp_studio.schema.stored import stored_number
 from amp_studio.schema.values import read_number
-from amp_studio.transfer.image import ImageFault, patched_value, stored_number
+from amp_studio.transfer.image import ImageFault, patched_value
 
 from .text_format import FormatFault, TextFormat, TextRead
 

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import Address, Parameter, Schema, Value, written
-
-from .register_words import (
+from amp_studio.schema.register_words import (
     WORD,
     WordFault,
     is_low_first,
@@ -23,6 +22,7 @@ from .register_words import (
     words_of,
     words_taken,
 )
+
 from .text_format import FormatFault
 
 

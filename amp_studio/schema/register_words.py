@@ -12,9 +12,9 @@ import re
 from decimal import Decimal
 from fractions import Fraction
 
-from amp_studio.schema import Parameter, Value, dimension, label_of, shown, write_number
-from amp_studio.schema.model import Storage
-from amp_studio.schema.units import UNITS
+from .model import Parameter, Storage
+from .units import UNITS, dimension, shown
+from .values import Value, label_of, write_number
 
 WORD = 16
 _PLAIN = Storage()

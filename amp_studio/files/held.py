@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, write_number
+from amp_studio.schema.register_words import WordFault, words_of
+from amp_studio.schema.stored import stored_number
 
-from .formats.register_words import WordFault, words_of
-from .image import stored_number
+from .parameter_file import ParameterFile
 
 _LAST_NUMBER = re.compile(r"([0-9]+)(?!.*[0-9])")
 
