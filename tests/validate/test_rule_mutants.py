@@ -40,7 +40,6 @@ THE_SAME = {
     # A limit of zero times anything, or a division by zero, decides as the condition before it does.
     "9pc.axis.rollover-turn": {"rollover >= 0.0"},
     "9pc.servo.cycle-divides-scan": {"cycle > 1.0", "cycle < fine * scans"},
-    "9pc.servo.cycle-divides-fine-scan": {"cycle >= 0.0", "cycle > 1.0", "cycle < fine"},
     "9pc.servo.excess-margin": {"gain >= 0.0", "ratio >= 0.0"},
     "9pc.servo.inposition-resolution": {"pitch >= 0.0"},
     "9pc.servo.motor-speed-margin": {"pitch >= 0.0", "gear >= 0.0"},
@@ -51,6 +50,8 @@ THE_SAME = {
     "9pc.axis.dollar-name": {"type != 'other'"},
     "9pc.zone.group-not-checked": {"count >= 0.0"},
     "9pc.axis.lathe-a-name-incremental": {"lathe_type == 'a' ||", "|| name in"},
+    # What the tables do not print compares with nothing, with or without the condition that leaves it out.
+    "9pc.servo.standard-motor-gains": {"motor == 'other'", "['other', 'b740c']", "['nonstandard', 'other']"},
     # At position i stands the slave itself, which is left out.
     "9pc.deskew.slave-last": {"j >= i"},
     "9pc.deskew.slave-last-2": {"j >= i"},

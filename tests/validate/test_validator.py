@@ -251,7 +251,7 @@ def test_a_finding_of_a_rule_has_its_values_page_and_repair(mill) -> None:
         "At rapid 12000 mm/min the axis trails its command by 12 mm, more than Excess Error 11 mm allows: rapid moves "
         "end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
     )
-    assert (finding.page, finding.severity, finding.safe) == ("7-20", "warning", False)
+    assert (finding.page, finding.severity, finding.safe) == ("7-20", "error", False)
     assert finding.repairs == (Setting(EXCESS, Value(13.2, "mm")),)
 
 
