@@ -12,12 +12,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, canonical_unit, load_schema, program
-from amp_studio.schema.cel_engine import Context
 from amp_studio.validate import Finding
-from amp_studio.validate.formulas import rule_functions
-from amp_studio.validate.plan import RuleCheck, checks_of
+from amp_studio.validate.plan import checks_of
+from amp_studio.validate.rules import RuleChecks
 
 RULES = {rule.id: rule for rule in load_schema("9pc").rules}
 
@@ -114,15 +112,6 @@ def comparisons() -> Iterator[str]:
             yield rule.id
 
 
-def context_of(file: ParameterFile, check: RuleCheck) -> Context:
-    """Return what the expressions of a check see of single values."""
-    context = Context({"machine": file.machine, "instance": check.instance})
-    for name, function in rule_functions("9pc").items():
-        context.add_function(name, function)
-    context.update({single.name: file.situation.canonical(single.address) for single in check.singles})
-    return context
-
-
 @pytest.mark.parametrize("rule_id", list(comparisons()))
 def test_a_comparison_turns_exactly_at_its_bound(rule_id: str, rule_cases, stands) -> None:
     rule = RULES[rule_id]
@@ -134,12 +123,14 @@ def test_a_comparison_turns_exactly_at_its_bound(rule_id: str, rule_cases, stand
         checks = checks_of(stand.file.situation, (rule,))
         check = next(check for check in checks if {single.address for single in check.singles} == set(about))
         address = check.address_of(left)
-        bound = program(right).execute(context_of(stand.file, check))
+        bound = program(right).execute(RuleChecks(stand.file, stand.file.machine).context_of(check))
         for number in (bound, math.nextafter(bound, -math.inf), math.nextafter(bound, math.inf)):
             with stand.recorded():
                 stand.file.set(address, Value(number, canonical_unit(stand.file.get(address).unit)))
                 findings = stand.validator.update([address])
-                applies = program(rule.when).execute(context_of(stand.file, check))
+                applies = program(rule.when).execute(
+                    RuleChecks(stand.file, stand.file.machine).context_of(check)
+                )
             said = any(finding.addresses == about for finding in of_rule(findings, rule_id))
             assert said is (applies and not OPERATORS[sign](number, bound)), (
                 f"{left} = {number!r} at {bound!r}"

@@ -317,7 +317,9 @@ def test_a_repair_that_would_not_help_is_not_offered(mill) -> None:
 def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:
     mill.set(("servo.loop_type", "5"), Value("digital"))
     finding = the(mill, "9pc.axis.more-than-one-1394")
-    assert finding.addresses == tuple(("servo.loop_type", str(axis)) for axis in range(1, 8))
+    assert finding.addresses == tuple(
+        (name, str(axis)) for name in ("servo.loop_type", "servo.position_loop_type") for axis in range(1, 8)
+    )
 
 
 def test_a_formula_that_makes_no_sense_of_a_value_says_nothing(mill) -> None:
