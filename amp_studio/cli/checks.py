@@ -3,57 +3,130 @@
 from __future__ import annotations
 
 import argparse
+import gc
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import Any
 
-from amp_studio.files import open_file
+from amp_studio.files import ENDING, FileFault, open_file
 from amp_studio.report import finding_json, finding_text, suppressed_text, why_parts, why_text, write_report
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rules_beside
 
-from .console import print_json
+from .console import UsageFault, note, print_json, progress
+
+MANY = 50
+"""From so many files on it pays to start more processes."""
+AT_A_TIME = 8
+"""Files a process is handed at once."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What there is to say of one file; passes from one process to another."""
+
+    errors: int = 0
+    told: Any = None
+    """Text, or the JSON document."""
+    fault: str = ""
+    """Why the file cannot be read."""
 
 
 def validate_verb(options: argparse.Namespace) -> int:
-    """Check files; 1 where there are errors."""
+    """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
     if options.rules:
         options.rules.read_bytes()  # a file that is not there is a slip of the hand, one that is wrong a finding
-    documents, errors = [], 0
-    for path in options.paths:
+    paths = list(_files(options.paths))
+    check = partial(_check, options)
+    counts_shown = len(paths) > 1 and (options.json or not sys.stdout.isatty())
+    show = progress() if counts_shown else None
+    checked = []
+    for n, one in enumerate(_each(check, paths, options.jobs), 1):
+        checked.append(one)
+        if one.fault:
+            note(f"amp-studio: {one.fault}")
+        elif not options.json:
+            print(one.told)
+        if show:
+            show("checked", n, len(paths))
+    good = [one for one in checked if not one.fault]
+    if options.json and good:
+        print_json(good[0].told if len(paths) == 1 else {"files": [one.told for one in good]})
+    return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
+
+
+def _files(paths: Sequence[Path]) -> Iterator[Path]:
+    """Yield files as they are named, and those in folders in the order of their names."""
+    for path in paths:
+        if not path.is_dir():
+            yield path
+            continue
+        inside = sorted(path.rglob(f"*{ENDING}"))
+        if not inside:
+            raise UsageFault(f"{path}: holds no {ENDING} files")
+        yield from inside
+
+
+def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | None) -> Iterator[Checked]:
+    """Yield what there is to say of files, in their order, whichever process is ready first."""
+    wanted = jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1)
+    if wanted == 1:
+        yield from map(check, paths)
+        return
+    with ProcessPoolExecutor(wanted, initializer=_start) as pool:
+        yield from pool.map(check, paths, chunksize=AT_A_TIME)
+
+
+def _start() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever waits for the processes ends them
+    gc.freeze()
+
+
+def _check(options: argparse.Namespace, path: Path) -> Checked:
+    """Check one file."""
+    try:
         file = open_file(path).file
-        own = (
-            read_builder_rules(options.rules, file.schema)
-            if options.rules
-            else rules_beside(path, file.schema)
-        )
-        validator = Validator(file, own)
-        findings = validator.run()
-        counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
-        errors += counts["error"]
-        documents.append({"file": str(path), "errors": counts["error"], "warnings": counts["warning"],
-                          "advice": counts["advice"], "findings": [_json(validator, f, options.why) for f in findings],
-                          "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
-                                         for s in validator.suppressed]})  # fmt: skip
-        if not options.json:
-            for finding in findings:
-                print(finding_text(file, finding))
-                if options.why:
-                    print(why_text(file, finding, explain(validator, finding)))
-            for left in validator.suppressed:
-                print(suppressed_text(file, left))
-            told = (
-                f"{counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice"
-            )
-            print(f"{path}: {told}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else ""))
-    if options.json:
-        print_json(documents[0] if len(documents) == 1 else {"files": documents})
-    return 1 if errors else 0
+    except FileFault as fault:
+        return Checked(fault=str(fault))
+    rules = options.rules
+    own = read_builder_rules(rules, file.schema) if rules else rules_beside(path, file.schema)
+    validator = Validator(file, own)
+    findings = validator.run()
+    counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
+    if not options.json:
+        lines = _lines(validator, findings, counts, path, why=options.why)
+        return Checked(counts["error"], "\n".join(lines))
+    return Checked(counts["error"], {
+        "file": str(path), "errors": counts["error"], "warnings": counts["warning"], "advice": counts["advice"],
+        "findings": [_json(validator, f, options.why) for f in findings],
+        "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
+                       for s in validator.suppressed]})  # fmt: skip
 
 
-def _json(validator: Validator, finding: Finding, with_why: bool) -> dict[str, Any]:
+def _json(validator: Validator, finding: Finding, why: bool) -> dict[str, Any]:
     found = finding_json(validator.file, finding)
-    if with_why:
+    if why:
         parts = why_parts(validator.file, finding, explain(validator, finding))
         found["why"] = [{"title": title, "text": text} for title, text, _ in parts]
     return found
+
+
+def _lines(
+    validator: Validator, findings: Sequence[Finding], counts: dict[str, int], path: Path, *, why: bool
+) -> Iterator[str]:
+    for finding in findings:
+        yield finding_text(validator.file, finding)
+        if why:
+            yield why_text(validator.file, finding, explain(validator, finding))
+    for left in validator.suppressed:
+        yield suppressed_text(validator.file, left)
+    told = f"{counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice"
+    yield f"{path}: {told}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else "")
 
 
 def report_verb(options: argparse.Namespace) -> int:

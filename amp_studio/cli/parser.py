@@ -69,7 +69,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--all", action="store_true", help="also what is hidden or not set")
     json_option(sub)
     sub = verb("validate", "checks", "range, choice, state and cross-parameter findings")
-    sub.add_argument("paths", nargs="+", type=Path, metavar="PATH")
+    sub.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="files, or folders of files")
+    sub.add_argument(
+        "--jobs", type=_count, metavar="N", help="processes that share many files (one for each processor)"
+    )
     sub.add_argument(
         "--rules", type=Path, help="a builder's own rules instead of the rules.yaml beside the file"
     )
@@ -148,3 +151,10 @@ def parser() -> argparse.ArgumentParser:
         "--terminal", action="store_true", help="stay in the terminal even where there is a display"
     )
     return top
+
+
+def _count(text: str) -> int:
+    count = int(text)
+    if count < 1:
+        raise argparse.ArgumentTypeError(f"{count} is no number of processes")
+    return count

@@ -277,6 +277,7 @@ def labelled(label: str, instance: str) -> str:
     return label.format(i=whole, j=part)
 
 
+@cache
 def whole_of(instance: str) -> str:
     """Return the instance that another one is a part of: ``1`` for ``1.3``, itself for a whole one."""
     return instance.partition(".")[0]

@@ -11,10 +11,11 @@ import re
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from typing import Literal
 
 from .catalog import Address, Schema, UnknownParameter, part_of, read_address, whole_of
 from .cel_engine import WORD_FUNCTIONS, Context, Program, compile_expression, functions_called
-from .model import Condition, Parameter, Scope, State, StateRule
+from .model import Condition, Scope, State, StateRule
 from .units import canonical, dimension
 from .values import Value
 
@@ -91,11 +92,14 @@ class Situation:
     ) -> None:
         self.schema, self._value, self._asked_machine = schema, value, machine
         self._machine: str | None = None
+        self._scopes: dict[str, Scope | None] | None = None
         self._canonical: dict[Address, Canonical] = {}
         self._holds: dict[_Asked, bool] = {}
         self._states: dict[Address, StateInfo] = {}
         self._states_alike: dict[tuple[int, str, str | None], StateInfo] = {}
         """The state of all parameters of an instance that have the same state rules."""
+        self._states_of_parts: dict[tuple[int, str, str | None], StateInfo | None] = {}
+        """The state of all parts of an instance, where it does not depend on the part."""
         self._readers: dict[Address, set[_Asked]] = {}
 
     @property
@@ -117,7 +121,9 @@ class Situation:
 
     def scope(self, address: Address) -> Scope | None:
         """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""
-        return self.schema.scopes(self.machine)[address[0]]
+        if self._scopes is None:
+            self._scopes = self.schema.scopes(self.machine)
+        return self._scopes[address[0]]
 
     def reading(self, text: str, instance: str, scope: str | None = None) -> Reading:
         """Resolve one entry of ``reads`` for an instance; raises UnknownParameter.
@@ -164,11 +170,11 @@ class Situation:
 
     def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
         """Tell whether a named condition holds for an instance (of a ``scope``); one over an unset value does not."""
-        key = (
-            (name, "", None)
-            if name in _same_everywhere(self.schema, self.machine)
-            else (name, instance, scope)
-        )
+        reach = _reaches(self.schema, self.machine).get(name)
+        if reach == "all":
+            key: _Asked = (name, "", None)
+        else:
+            key = (name, whole_of(instance) if reach == "whole" else instance, scope)
         found = self._holds.get(key)
         if found is None:
             found = self._holds[key] = self._evaluate(key)
@@ -223,14 +229,33 @@ class Situation:
         return found
 
     def _state(self, address: Address) -> StateInfo:
-        parameter = self.schema.parameters[address[0]]
-        alike = (self.schema.states_alike[address[0]], address[1], self.scope(address))
-        found = self._states_alike.get(alike)
+        alike, instance, scope = self.schema.states_alike[address[0]], address[1], self.scope(address)
+        whole = whole_of(instance)
+        if whole != instance:
+            key = alike, whole, scope
+            if key not in self._states_of_parts:
+                self._states_of_parts[key] = self._of_all_parts(address)
+            of_all = self._states_of_parts[key]
+            if of_all is not None:
+                return of_all
+        key = alike, instance, scope
+        found = self._states_alike.get(key)
         if found is None:
-            found = self._states_alike[alike] = self._worked_out(parameter, address)
+            found = self._states_alike[key] = self._worked_out(address)
         return found
 
-    def _worked_out(self, parameter: Parameter, address: Address) -> StateInfo:
+    def _of_all_parts(self, address: Address) -> StateInfo | None:
+        """Return the state of all parts of an instance; None where it may differ from one to the next."""
+        reaches = _reaches(self.schema, self.machine)
+        for rule in self.schema.parameters[address[0]].states:
+            if reaches.get(rule.when or rule.unless or "") == "each":
+                return None
+            if self._applies(rule, address):
+                break
+        return self._worked_out(address)
+
+    def _worked_out(self, address: Address) -> StateInfo:
+        parameter = self.schema.parameters[address[0]]
         for rule in parameter.states:
             if self._applies(rule, address):
                 condition = self.condition(rule.when or rule.unless or "")
@@ -332,6 +357,7 @@ class Situation:
         readers = self._readers.pop(address, ())
         if readers:
             self._states_alike.clear()
+            self._states_of_parts.clear()
         for key in readers:
             self._holds.pop(key, None)
         for dependent in self._dependents(readers):
@@ -339,25 +365,32 @@ class Situation:
 
     def _dependents(self, asked: Iterable[_Asked]) -> Iterable[Address]:
         """Return the known states that hang on conditions which were asked for."""
-        same, everywhere = _same_everywhere(self.schema, self.machine), set[str]()
+        reaches, everywhere = _reaches(self.schema, self.machine), set[str]()
         here: dict[str, set[str]] = {}
+        parts: dict[str, set[str]] = {}
         for name, instance, _ in asked:
-            (everywhere if name in same else here.setdefault(instance, set())).add(name)
+            if reaches[name] == "all":
+                everywhere.add(name)
+            else:
+                (parts if reaches[name] == "whole" else here).setdefault(instance, set()).add(name)
         names, nothing = _state_names(self.schema), frozenset[str]()
         return [
             a
             for a in self._states
-            if not names[a[0]].isdisjoint(everywhere) or not names[a[0]].isdisjoint(here.get(a[1], nothing))
+            if not names[a[0]].isdisjoint(everywhere)
+            or not names[a[0]].isdisjoint(here.get(a[1], nothing))
+            or (parts and not names[a[0]].isdisjoint(parts.get(whole_of(a[1]), nothing)))
         ]
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""
-        self._machine = None
+        self._machine = self._scopes = None
         for memory in (
             self._canonical,
             self._holds,
             self._states,
             self._states_alike,
+            self._states_of_parts,
             self._readers,
         ):
             memory.clear()
@@ -386,17 +419,21 @@ def _readings(schema: Schema, machine: str) -> dict[_Asked, Reading]:  # noqa: A
 
 
 @lru_cache(maxsize=32)
-def _same_everywhere(schema: Schema, machine: str) -> frozenset[str]:
-    """Return the conditions that hold for every instance or for none: they read what belongs to the control."""
-    return frozenset(name for name, c in schema.family.conditions.items() if _is_same(schema, machine, c))
+def _reaches(schema: Schema, machine: str) -> dict[str, Literal["all", "whole", "each"]]:
+    """Return condition -> for what it holds alike: all instances, the parts of one, or each by itself."""
+    return {name: _reach(schema, machine, c) for name, c in schema.family.conditions.items()}
 
 
-def _is_same(schema: Schema, machine: str, condition: Condition) -> bool:
+def _reach(schema: Schema, machine: str, condition: Condition) -> Literal["all", "whole", "each"]:
+    if _names_instance(condition.when):
+        return "each"
+    reads_all = True
     for parameter_id, which in map(read_address, condition.reads.values()):
-        alone = schema.instances(schema.parameters[parameter_id], machine) == ("",)
-        if which in ("<", ">", ".") or (which == "" and not alone):
-            return False
-    return not _names_instance(condition.when)
+        instances = schema.instances(schema.parameters[parameter_id], machine)
+        if which in ("<", ">") or (which == "" and any("." in instance for instance in instances)):
+            return "each"
+        reads_all &= which not in ("", ".") or (which == "" and instances == ("",))
+    return "all" if reads_all else "whole"
 
 
 @lru_cache(maxsize=32)

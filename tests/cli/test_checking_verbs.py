@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 
+from amp_studio import cli
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 
@@ -58,6 +60,59 @@ def test_several_files_are_checked_in_one_go(amp, mill: Path, plain: Path) -> No
     assert (1, [str(plain), str(mill)]) == (said.code, [document["file"] for document in said.json["files"]])
     totals = [line for line in amp("validate", plain, mill).out.splitlines() if " errors, " in line]
     assert [totals[0].startswith(f"{plain}: 0 errors"), totals[1].startswith(f"{mill}: ")] == [True, True]
+
+
+@pytest.fixture
+def machines(tmp_path: Path, plain: Path, mill: Path) -> Path:
+    """Return a folder of files, some deeper than others, good ones and bad ones in turn."""
+    folder = tmp_path / "machines"
+    (folder / "hall").mkdir(parents=True)
+    for n in range(20):
+        where = folder if n % 3 else folder / "hall"
+        (where / f"{n:02}.amp").write_bytes((plain if n % 2 else mill).read_bytes())
+    (folder / "notes.txt").write_text("no parameter file", encoding="utf-8")
+    return folder
+
+
+def test_the_files_of_a_folder_are_checked_in_the_order_of_their_names(amp, machines: Path) -> None:
+    said = amp("validate", machines, "--json")
+    assert [document["file"] for document in said.json["files"]] == [
+        str(path) for path in sorted(machines.rglob("*.amp"))
+    ]
+    assert len(said.json["files"]) == 20
+
+
+def test_several_processes_say_the_same_in_the_same_order(amp, machines: Path, mill: Path) -> None:
+    for options in ((), ("--json",), ("--why",)):
+        alone = amp("validate", mill, machines, "--jobs", 1, *options)
+        shared = amp("validate", mill, machines, "--jobs", 2, *options)
+        assert (alone.code, alone.out) == (shared.code, shared.out)
+
+
+def test_how_far_it_is_stands_on_standard_error(amp, machines: Path, mill: Path) -> None:
+    assert amp("validate", machines, "--json").err == "checked 100 %\n"
+    assert amp("validate", mill, "--json").err == ""
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_file_that_cannot_be_read_does_not_hide_the_others(
+    machines: Path, capsys: pytest.CaptureFixture[str], jobs: int
+) -> None:
+    broken = machines / "07.amp"
+    broken.write_bytes(b"family: 9pc\nvalues: [\n")
+    assert cli.run(["validate", str(machines), "--jobs", str(jobs), "--json"]) == 2
+    out, err = capsys.readouterr()
+    assert [line for line in err.splitlines() if "checked" not in line] == [
+        line for line in err.splitlines() if line.startswith(f"amp-studio: {broken}, line ")
+    ]
+    assert str(broken) in err
+    assert len(json.loads(out)["files"]) == 19
+
+
+def test_a_folder_without_files_and_no_processes_are_refused(amp, tmp_path: Path, mill: Path) -> None:
+    (tmp_path / "empty").mkdir()
+    assert amp("validate", tmp_path / "empty").err.endswith("empty: holds no .amp files\n")
+    assert "0 is no number of processes" in amp("validate", mill, "--jobs", 0).err
 
 
 def test_validate_writes_nothing(amp, mill: Path, folder) -> None:
