@@ -4,25 +4,16 @@ from __future__ import annotations
 
 import logging
 import math
-import os
-import struct
-from random import Random
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
-from amp_studio.files import Change, ParameterFile, retype_axis
+from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json, finding_text
 from amp_studio.schema import (
     Address,
-    Parameter,
     Rule,
     Value,
-    load_schema,
-    same_value,
 )
-from amp_studio.schema.units import UNITS
 from amp_studio.validate import SEVERITIES, BuilderRules, Finding, Setting, Validator
 
 RAPID = ("feedrate.rapid", "1")
@@ -372,181 +363,3 @@ def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
     ]
     assert keys == sorted(keys)
     assert {finding.severity for finding in findings} == set(SEVERITIES)
-
-
-# ------------------------------------------------------------------- whatever is written, edit by edit
-
-EVERY_EDIT = os.environ.get("AMP_STUDIO_FULL") == "1"
-SCHEMA = load_schema("9pc")
-NUMBERS = [0, -1, 1, 8, 0.5, 1e-300, 5e-324, 1e300, -1e300, 2.0**53, 2**70, math.inf, -math.inf]
-TEXTS = [
-    "",
-    "raw:999",
-    "raw:",
-    "raw:x",
-    "yes",
-    "none",
-    "s",
-    "spindle",
-    "unfitted",
-    "digital",
-    "3.4",
-    "3.4.5",
-    "∞",
-    "{x}",
-]
-OFTEN = [
-    (name, str(axis))
-    for name in ("axis.type", "axis.name", "servo.loop_type", "servo.hardware_type", "servo.amplifier_rack")
-    for axis in range(1, 9)
-] + [("control.type", ""), ("zone.group_count", "")]
-"""What much else depends on."""
-
-
-def anything(random: Random) -> Value:
-    """Return a value of any kind, in any unit."""
-    kind = random.randrange(4)
-    if kind == 0:
-        return Value(random.choice(TEXTS))
-    if kind == 1:
-        return Value(random.random() < 0.5)
-    (double,) = struct.unpack("d", random.getrandbits(64).to_bytes(8, "little"))
-    number = random.choice(
-        [*NUMBERS, double if math.isfinite(double) else 0.0, random.randrange(-(10**7), 10**7)]
-    )
-    return Value(number, random.choice(list(UNITS)))
-
-
-def fitting(parameter: Parameter, random: Random) -> Value:
-    """Return a value that the parameter takes, or that is at least near to it."""
-    if parameter.type == "boolean":
-        return Value(random.random() < 0.5)
-    if parameter.choices:
-        return Value(random.choice([choice.key for choice in parameter.choices]))
-    bounds = [
-        bound for pair in (parameter.ranges or {}).values() for bound in pair if isinstance(bound, float)
-    ]
-    number = random.choice([*bounds, round(random.uniform(0, 20), 3), round(random.uniform(0, 10000), 1)])
-    unit = random.choice(SCHEMA.units_of(parameter))
-    return Value(int(number) if parameter.type == "integer" else number, unit)
-
-
-def edit(file: ParameterFile, history: list[Change], random: Random) -> None:
-    """Make one edit of any kind."""
-    address = random.choice([random.choice(SCHEMA.addresses("mill")), random.choice(OFTEN)])
-    parameter = SCHEMA.parameters[address[0]]
-    match random.choice(
-        ["any", "any", "fit", "fit", "fit", "fit", "unset", "undo", "retype", "force", "units"]
-    ):
-        case "any":
-            file.set(address, anything(random))
-        case "fit":
-            file.set(address, fitting(parameter, random))
-        case "unset":
-            file.set(address, None)
-        case "undo" if history:
-            file.apply(history.pop().reversed())
-        case "retype":
-            retype_axis(
-                file, random.choice("12345678"), random.choice(["linear", "rotary", "spindle", "unfitted"])
-            )
-        case "force":
-            file.set_many({address: fitting(parameter, random)}, force="by a test")
-        case "units":
-            file.header.units = random.choice(["metric", "inch"])
-
-
-class Edited:
-    """A machine that is edited at random, with its findings kept up to date."""
-
-    def __init__(self, file: ParameterFile) -> None:
-        self.file = file
-        self.validator = Validator(file)
-        self.findings = self.validator.run()
-        self._history: list[Change] = []
-        self._changed: list[Address] = []
-        file.listen(lambda change: self._changed.append(change.address))
-        file.listen(self._history.append)
-
-    def edit(self, random: Random, times: int) -> None:
-        """Make edits, and then check again what they touched."""
-        for _ in range(times):
-            edit(self.file, self._history, random)
-        self.findings = self.validator.update(self._changed)
-        self._changed.clear()
-
-    def agree(self) -> bool:
-        """Tell whether the findings are those of a full run, here and in a copy that remembers nothing."""
-        assert self.findings == self.validator.findings()
-        full = [Validator(self.file).run(), Validator(self.file.copy()).run()]
-        # Compared as texts, for True is equal to 1.
-        return all(list(map(repr, self.findings)) == list(map(repr, findings)) for findings in full)
-
-
-@given(random=st.randoms(use_true_random=False), name=st.sampled_from(["mill", "lathe", "router"]))
-@settings(
-    max_examples=400 if EVERY_EDIT else 30,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
-)
-def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, name: str, stands) -> None:
-    edited = Edited(stands(name).file.copy())
-    for _ in range(random.randint(1, 4)):
-        edited.edit(random, random.randint(1, 4))
-    assert edited.agree()
-
-
-@pytest.mark.parametrize("name", ["mill", "lathe", "router"])
-def test_after_thousands_of_edits_too(name: str, stands) -> None:
-    edited, random = Edited(stands(name).file.copy()), Random(name)
-    for _ in range(500 if EVERY_EDIT else 20):
-        for _ in range(20):
-            edited.edit(random, random.choice([1, 1, 1, 5]))
-        assert edited.agree()
-
-
-def nasty(parameter: Parameter) -> list[Value]:
-    """Return values that nobody should write into a parameter."""
-    numbers = [0, -1, 2**70, 1e300, -1e300, 5e-324, 0.1, math.inf, -math.inf]
-    units = {"", "mm", "in/min", "deg", "%", *SCHEMA.units_of(parameter)}
-    return [
-        *(Value(number, unit) for number in numbers for unit in sorted(units)),
-        *(Value(text) for text in TEXTS),
-        Value(True),
-        Value(False),
-    ]
-
-
-@pytest.mark.parametrize("name", ["mill", "lathe"])
-def test_no_value_whatever_makes_it_raise(name: str, stands) -> None:
-    stand = stands(name)
-    instances = {
-        address[0]: address for address in reversed(stand.file.addresses()) if address[1] in ("", "1", "4")
-    }
-    for address in instances.values():
-        with stand.recorded():
-            for value in nasty(SCHEMA.parameters[address[0]]):
-                stand.file.set(address, value)
-                for finding in stand.validator.update([address]):
-                    assert finding.message
-
-
-def test_a_repair_of_a_range_is_allowed_itself(stands) -> None:
-    stand = stands("mill")
-    for address in stand.file.addresses():
-        with stand.recorded():
-            for value in (Value(1e9, unit) for unit in SCHEMA.units_of(SCHEMA.parameters[address[0]])):
-                stand.file.set(address, value)
-                said = [
-                    f
-                    for f in stand.validator.update([address])
-                    if f.rule.startswith("schema.") and f.addresses == (address,)
-                ]
-                for repair in (repair for finding in said for repair in finding.repairs):
-                    assert not same_value(repair.value, value)
-                    stand.file.set(repair.address, repair.value)
-                    left = stand.validator.update([address])
-                    assert not [
-                        f
-                        for f in left
-                        if f.rule in ("schema.range", "schema.choice") and f.addresses == (address,)
-                    ]
