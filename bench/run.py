@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import cold
 import exchange
 import machine
+import rules
 import screen
 import warm
 from measure import Measure, table
@@ -46,6 +47,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     )
     yield from cold.measures(folder, full, example, max(1, times // 2))
     yield from warm.measures(folder, full, example, times)
+    yield from rules.measures(folder, full, times)
     yield from screen.measures(folder, full, times)
     yield from exchange.measures(folder, example, max(1, times // 3))
 

@@ -10,16 +10,14 @@ from pathlib import Path
 
 import peers
 from measure import Measure, timed
+from rules import EDITED
 
-from amp_studio.files import Change, Document, new_file, open_file
+from amp_studio.files import Document, new_file, open_file
 from amp_studio.report import write_report
-from amp_studio.schema import Address, Value, load_schema, written
+from amp_studio.schema import Value, load_schema
 from amp_studio.schema.load import load_compiled
 from amp_studio.sim import simulate
 from amp_studio.validate import Validator
-
-EDITED: Address = ("servo.excess_error", "1")
-"""Seven rules and two ranges read it."""
 
 
 def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
@@ -33,7 +31,6 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     yield Measure("open and validate", timed(lambda: Validator(open_file(full).file).run(), times), 0.030)
     yield Measure("  open alone", timed(lambda: open_file(full), times))
     yield from peers.measures(full, times)
-    yield from _edits(full, times)
     yield from _saves(folder, full, times)
     file, pdf = open_file(full).file, folder / "warm.pdf"
     print_it = timed(lambda: write_report(file, pdf, sort="group", changed_only=False, source=full), times)
@@ -61,31 +58,6 @@ def _memory() -> float:
     held = tracemalloc.get_traced_memory()[0] / 1e6
     tracemalloc.stop()
     return held
-
-
-def _edits(full: Path, times: int) -> Iterator[Measure]:
-    """Yield what one edit costs: that of one value, and of the value on which most depends."""
-    file = open_file(full).file
-    validator = Validator(file)
-    validator.run()
-    values = cycle([Value(12.0, "mm"), Value(11.0, "mm")])
-
-    def edit() -> None:
-        file.set(EDITED, next(values))
-        validator.update([EDITED])
-
-    yield Measure("re-validate after one edit", timed(edit, 20 * times), 0.002)
-
-    def touch(address: Address) -> None:
-        value = file.values[address]
-        file.apply(Change(address, value, value))
-        validator.update([address])
-
-    least = {a: min(timed(lambda a=a: touch(a), min(times, 5))) for a in list(file.values)}
-    worst = max(least, key=least.__getitem__)
-    yield Measure(
-        f"  the slowest of {len(least)} edits: {written(worst)}", timed(lambda: touch(worst), times)
-    )
 
 
 def _saves(folder: Path, full: Path, times: int) -> Iterator[Measure]:

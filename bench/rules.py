@@ -1,0 +1,213 @@
+"""Rules: a whole run, one edit, a hall full of machine files, and the same relational rules done in other ways."""
+
+from __future__ import annotations
+
+import operator
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import cycle
+from pathlib import Path
+from statistics import median
+
+from jsonschema import ValidationError
+from jsonschema.validators import Draft202012Validator, extend
+from measure import Measure, timed
+
+from amp_studio.demo import examples_folder
+from amp_studio.files import Change, ParameterFile, open_file
+from amp_studio.schema import Address, Rule, Schema, Value, read_address, written
+from amp_studio.transfer.formats import export_file, import_file
+from amp_studio.validate import Validator
+from amp_studio.validate.plan import checks_of
+from amp_studio.validate.rules import RuleChecks
+
+NUM = "num-1060-mill/MILL_1060.amp"
+HALL = 1000
+EDITED: Address = ("servo.excess_error", "1")
+"""Seven rules and two ranges read it."""
+
+
+def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
+    """Yield the measures of the rules; ``folder`` takes what is written."""
+    num = examples_folder() / NUM
+    for name, path, target in (("full 9/PC", full, 0.008), ("NUM", num, 0.005)):
+        yield Measure(f"full run over a {name} file, just opened", _first_runs(path, times), target)
+        validator = Validator(open_file(path).file)
+        yield Measure("  and again", timed(validator.run, times), target)
+    for name, path in (("9/PC", full), ("NUM", num)):
+        yield from _edits(name, path, times)
+    yield from _num_table(folder, num, times)
+    yield from _peers(full, times)
+    yield from _hall(folder, max(1, times // 5))
+
+
+def _first_runs(path: Path, times: int) -> tuple[float, ...]:
+    files = iter([open_file(path).file for _ in range(times + 1)])
+    return timed(lambda: Validator(next(files)).run(), times)
+
+
+def _edits(name: str, path: Path, times: int) -> Iterator[Measure]:
+    """Yield what one edit costs, over every value of a file, and over the one on which most depends."""
+    file = open_file(path).file
+    validator = Validator(file)
+    validator.run()
+
+    def touch(address: Address) -> None:
+        value = file.values[address]
+        file.apply(Change(address, value, value))
+        validator.update([address])
+
+    every = {a: median(timed(lambda a=a: touch(a), min(times, 5))) for a in list(file.values)}
+    yield Measure(
+        f"re-validate after one edit, each of {len(every)} {name} values", tuple(every.values()), 0.0005
+    )
+    worst = max(every, key=every.__getitem__)
+    yield Measure(f"  the slowest: {written(worst)}", timed(lambda: touch(worst), times))
+    if EDITED in every:
+        values = cycle([Value(12.0, "mm"), Value(11.0, "mm")])
+
+        def edit() -> None:
+            file.set(EDITED, next(values))
+            validator.update([EDITED])
+
+        yield Measure(f"  another value of {written(EDITED)}", timed(edit, 20 * times), 0.002)
+
+
+def _num_table(folder: Path, num: Path, times: int) -> Iterator[Measure]:
+    """Yield what a table that came from a NUM control costs until its findings are there."""
+    table = folder / "control.par"
+    export_file(open_file(num).file, table)
+    yield Measure(
+        "import and validate a full NUM table",
+        timed(lambda: Validator(import_file(table)).run(), times),
+        0.020,
+    )
+    file = import_file(table)
+    again = folder / "again.par"
+    yield Measure("export a full NUM table", timed(lambda: export_file(file, again), times))
+    assert again.read_bytes() == table.read_bytes()
+
+
+# -- a hall full of machines ---------------------------------------------------------------------------
+
+
+def _hall(folder: Path, times: int) -> Iterator[Measure]:
+    """Yield the time a file takes when the command line checks a folder of machines of all families."""
+    hall = folder / "hall"
+    hall.mkdir()
+    examples = sorted(examples_folder().glob("*/*.amp"))
+    for n in range(HALL):
+        shutil.copyfile(examples[n % len(examples)], hall / f"{n:04}.amp")
+    validate = (sys.executable, "-m", "amp_studio.cli", "validate", str(hall))
+    for title, jobs, target in (
+        ("on all processors", (), 1 / 150),
+        ("in one process", ("--jobs", "1"), None),
+    ):
+        seconds = []
+        for _ in range(times):
+            begin = time.perf_counter()
+            subprocess.run((*validate, *jobs), capture_output=True, check=True)
+            seconds.append((time.perf_counter() - begin) / HALL)
+        yield Measure(f"command line, {HALL} files, {title}: a file", tuple(seconds), target)
+
+
+# -- the same rules in other ways ----------------------------------------------------------------------
+
+OPERATORS: dict[str, Callable[[float, float], bool]] = {
+    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+}  # fmt: skip
+RELATION = re.compile(r"(\w+) (<=|>=|==|!=|<|>) (\w+)")
+
+
+@dataclass(frozen=True)
+class Relation:
+    """One value that has to be less than another, or the like."""
+
+    left: str
+    sign: str
+    right: str
+
+
+def _peers(full: Path, times: int) -> Iterator[Measure]:
+    """Yield the rules that compare two values: here, in Python written by hand, and in jsonschema.
+
+    The peers are given the values in force as numbers in canonical units, which is most of the work.
+    """
+    file = _disordered(open_file(full).file)
+    rules = tuple(r for r in file.schema.rules if _is_relation(file.schema, r))
+    checks = [c for c in checks_of(file.situation, rules) if not c.lists]
+    relations = []
+    for check in checks:
+        left, sign, right = RELATION.fullmatch(check.rule.check).groups()  # type: ignore[union-attr]
+        relations.append(Relation(written(check.address_of(left)), sign, written(check.address_of(right))))
+    values = {
+        written(a): number
+        for a in {a for check in checks for a in check.addresses}
+        if (number := file.situation.canonical(a)) is not None and file.situation.state(a).state == "in-force"
+    }
+
+    def here(fresh: ParameterFile) -> int:
+        run = RuleChecks(fresh, fresh.machine)
+        return sum(run.finding(check) is not None for check in checks)
+
+    by_hand, by_schema = _in_python(relations), _in_jsonschema(relations)
+    broken = by_hand(values)
+    assert broken == by_schema(values) == here(file) > 0
+    files = iter([file.copy() for _ in range(times + 1)])
+    told = f"{len(relations)} relations, {broken} broken"
+    yield Measure(f"{told}: here, with states, units and messages", timed(lambda: here(next(files)), times))
+    run = RuleChecks(file, file.machine)
+
+    def again() -> None:
+        run.look_again()
+        for check in checks:
+            run.finding(check)
+
+    yield Measure("  the same again", timed(again, times))
+    yield Measure("  peer: a loop in Python over ready numbers", timed(lambda: by_hand(values), times))
+    yield Measure("  peer: jsonschema with a keyword for relations", timed(lambda: by_schema(values), times))
+
+
+def _is_relation(schema: Schema, rule: Rule) -> bool:
+    """Tell whether a rule compares two numbers, whatever else there is."""
+    kinds = {schema.parameters[read_address(text)[0]].type for text in rule.reads.values()}
+    return rule.when == "true" and bool(RELATION.fullmatch(rule.check)) and kinds <= {"integer", "real"}
+
+
+def _disordered(file: ParameterFile) -> ParameterFile:
+    """Return a file in which some relations do not hold."""
+    for axis in "1234":
+        file.set(("feedrate.rapid", axis), Value(1.0, "mm/min"))
+    return file
+
+
+def _in_python(relations: list[Relation]) -> Callable[[dict[str, float]], int]:
+    compiled = [(r.left, OPERATORS[r.sign], r.right) for r in relations]
+
+    def broken(values: dict[str, float]) -> int:
+        return sum(
+            left in values and right in values and not holds(values[left], values[right])
+            for left, holds, right in compiled
+        )
+
+    return broken
+
+
+def _in_jsonschema(relations: list[Relation]) -> Callable[[dict[str, float]], int]:
+    def relation(
+        _validator: object, wanted: list[str], values: dict[str, float], _schema: object
+    ) -> Iterator[object]:
+        left, sign, right = wanted
+        if left in values and right in values and not OPERATORS[sign](values[left], values[right]):
+            yield ValidationError(f"{left} {values[left]} is not {sign} {right} {values[right]}")
+
+    kind = extend(Draft202012Validator, {"relation": relation})
+    validator = kind(
+        {"type": "object", "allOf": [{"relation": [r.left, r.sign, r.right]} for r in relations]}
+    )
+    return lambda values: sum(1 for _ in validator.iter_errors(values))
