@@ -5,6 +5,7 @@ it; every other room asks here and knows no parameter by heart.
 """
 
 from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
+from .conditions import IN_FORCE, Reading, StateInfo, program
 from .constraint import Limits, clip, fault, limits
 from .load import DatabaseFault, database_folder, family_ids, read_entries
 from .model import (
@@ -19,7 +20,7 @@ from .model import (
     Suppression,
     Table,
 )
-from .situation import IN_FORCE, Reading, Situation, StateInfo, canonical_value, program, same_value
+from .situation import Situation, canonical_value, same_value
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
 from .values import (
     Value,

@@ -19,7 +19,6 @@ from .model import (
     Parameter,
     Rule,
     Scope,
-    StateRule,
     Table,
 )
 from .units import angular
@@ -148,12 +147,6 @@ class Schema:
     def machines(self) -> frozenset[str]:
         """The keys of the machine types."""
         return frozenset(m.key for m in self.family.machines)
-
-    @cached_property
-    def states_alike(self) -> dict[str, int]:
-        """Parameter id -> a number that is the same for parameters with the same state rules."""
-        kinds: dict[tuple[tuple[StateRule, ...], str], int] = {}
-        return {p.id: kinds.setdefault((p.states, p.access), len(kinds)) for p in self.parameters.values()}
 
     @cached_property
     def _scopes(self) -> dict[str, dict[str, Scope | None]]:

@@ -196,8 +196,8 @@ def clip(situation: Situation, address: Address, value: Value) -> Value:
         return value
     number = float(value.value)
     whole = isinstance(value.value, int)
-    if allowed.low is not None:
+    if allowed.low is not None and math.isfinite(allowed.low):
         number = max(number, float(math.ceil(allowed.low)) if whole else allowed.low)
-    if allowed.high is not None:
+    if allowed.high is not None and math.isfinite(allowed.high):
         number = min(number, float(math.floor(allowed.high)) if whole else allowed.high)
     return Value(int(number) if whole else number, value.unit)

@@ -13,7 +13,7 @@ from string import Formatter
 
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
-from amp_studio.schema.situation import Verdicts
+from amp_studio.schema.conditions import Verdicts
 from amp_studio.schema.units import UNITS
 
 ALWAYS_THERE = ("machine", "application", "instance", "part")

@@ -41,6 +41,8 @@ class RuleCheck:
     lists: tuple[tuple[str, tuple[Address, ...]], ...]
     names: tuple[str, ...]
     """Of the single values, then of the lists."""
+    plain: tuple[Address, ...]
+    """What it reads, where that is single values in force and nothing else; empty for other rules."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:
@@ -135,7 +137,9 @@ def checks_of(situation: Situation, rules: tuple[Rule, ...]) -> tuple[RuleCheck,
             )
             lists = tuple((name, reading.addresses) for name, reading in readings.items() if reading.is_list)
             names = (*(single.name for single in singles), *(name for name, _ in lists))
-            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists, names))
+            others = lists or rule.optional or rule.any_state
+            plain = () if others else tuple(single.address for single in singles)
+            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists, names, plain))
     return tuple(checks)
 
 

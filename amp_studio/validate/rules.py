@@ -22,7 +22,7 @@ from amp_studio.schema import (
     write_number,
 )
 from amp_studio.schema.cel_engine import Context, Program
-from amp_studio.schema.situation import Canonical, same_values
+from amp_studio.schema.conditions import Canonical, same_values
 from amp_studio.schema.units import angular
 
 from .finding import Finding, Setting
@@ -112,8 +112,13 @@ class RuleChecks:
 
     def _values(self, check: RuleCheck) -> list[Canonical | list[Canonical]] | None:
         """Return the values of a check's names; None when one it needs is not there."""
-        values: list[Canonical | list[Canonical]] = []
         seen, lists = self._seen, self._lists
+        if check.plain:
+            plain: list[Canonical | list[Canonical]] = [
+                seen[a] if a in seen else self._see(a) for a in check.plain
+            ]
+            return None if None in plain else plain
+        values: list[Canonical | list[Canonical]] = []
         for single in check.singles:
             address = single.address
             found = seen[address] if address in seen else self._see(address)
