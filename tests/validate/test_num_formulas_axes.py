@@ -20,12 +20,14 @@ from amp_studio.validate.num import (
     indexing_increment,
     internal_unit_mm,
     largest_travel_mm,
+    limited_in_force,
     multi_divi,
     rotary_unit_deg,
     servo_coefficient,
     signal_fault,
     ssi_divi_factor,
     to_internal,
+    unwatched_axis,
 )
 
 
@@ -110,6 +112,13 @@ def test_ff_is_no_axis_and_a_code_without_a_name_is_told() -> None:
             assignment_word("X", group)
 
 
+def test_an_axis_in_both_words_of_p1_is_a_modulo_one() -> None:
+    """Page 4-12: the rest of the limited axes stay as they are."""
+    assert limited_in_force(0x20, 0x120) == 0x100
+    assert limited_in_force(0x20, 0x100) == 0x100
+    assert limited_in_force(0x80000001, 0x80000003) == 2
+
+
 def test_x_goes_with_u_y_with_v_and_z_with_w_of_one_group() -> None:
     assert [carried_partner(word) for word in range(9)] == [3, 4, 5, 0, 1, 2, -1, -1, -1]
     assert carried_partner(0x22) == 0x25
@@ -186,3 +195,11 @@ def test_the_errors_of_bad_signals_are_210_to_241() -> None:
     for address in (-1, 32):
         with pytest.raises(ValueError, match="address"):
             signal_fault(address)
+
+
+def test_the_first_axis_whose_encoder_nobody_watches_serves_no_spindle_and_no_handwheel() -> None:
+    assert unwatched_axis(0x7F, 0x7F, 0, 0) == -1.0
+    assert (unwatched_axis(0x7F, 0x73, 0, 0), unwatched_axis(1, 0, 15, 15)) == (2.0, 0.0)
+    assert unwatched_axis(0xFF000000, 0, 15, 15) == -1.0
+    assert (unwatched_axis(0xFF000000, 0, 7, 15), unwatched_axis(0xFF000000, 0, 15, 7)) == (27.0, 31.0)
+    assert unwatched_axis(0x00800000, 0, 255, 255) == 23.0

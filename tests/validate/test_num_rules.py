@@ -103,6 +103,11 @@ def test_every_rule_has_a_case_that_breaks_it_and_one_that_just_does_not() -> No
         assert {case.values[0] for case in CASES if key in case.values[1]} == RULES.keys()
 
 
+def test_every_rule_that_says_what_the_control_uses_has_a_case_of_it() -> None:
+    told = {case.values[0] for case in CASES if "uses" in case.values[1]}
+    assert told == {rule.id for rule in RULES.values() if rule.effective}
+
+
 @pytest.mark.parametrize(("rule", "row"), CASES)
 def test_a_rule_speaks_when_it_is_broken_and_only_then(rule: str, row: dict[str, Any]) -> None:
     here, model = stand(), row.get("application")
@@ -115,6 +120,10 @@ def test_a_rule_speaks_when_it_is_broken_and_only_then(rule: str, row: dict[str,
                 for finding in found:
                     assert (finding.severity, finding.page) == (RULES[rule].severity, RULES[rule].page)
                     assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
+                uses = {used.address: used.value for finding in found for used in finding.effective}
+                assert not uses or RULES[rule].effective
+                for name, text in row.get("uses", {}).items():
+                    assert uses[here.file.find(name)] == here.file.read(here.file.find(name), str(text))
                 repairs = {repair.address: repair.value for f in found for repair in f.repairs}
                 assert bool(repairs) == bool(RULES[rule].fix) or "unmended" in row
                 before = {address: here.file.get(address) for address in repairs}

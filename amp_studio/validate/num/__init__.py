@@ -4,7 +4,7 @@ Every function is pure. An argument that makes no sense raises ValueError with o
 manual contradicts itself the formula is taken, not the printed number; the text of the function says so.
 """
 
-from .axes import assignment_word, axis_name, carried_partner, indexing_increment
+from .axes import assignment_word, axis_name, carried_partner, indexing_increment, limited_in_force
 from .measurement import (
     coded_conversion,
     coded_graduation,
@@ -13,6 +13,7 @@ from .measurement import (
     multi_divi,
     signal_fault,
     ssi_divi_factor,
+    unwatched_axis,
 )
 from .sampling import (
     block_time_bounds,
@@ -119,6 +120,7 @@ __all__ = [
     "largest_measured_speed",
     "largest_travel_mm",
     "largest_traverse_rate",
+    "limited_in_force",
     "loop_gain_coefficient",
     "loop_gain_per_second",
     "loop_time_constant",
@@ -153,5 +155,6 @@ __all__ = [
     "tapping_deceleration_distance",
     "theoretical_speeds",
     "to_internal",
+    "unwatched_axis",
     "zero_crossing_anticipation",
 ]

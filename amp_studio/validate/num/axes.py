@@ -25,6 +25,14 @@ def assignment_word(name: str, group: int) -> int:
     return (group - 1) * 16 + _NAMES.index(name)
 
 
+def limited_in_force(modulo: float, limited: float) -> int:
+    """Word P1N1 as the control takes it (page 4-12): an axis in both words of P1 is a modulo one.
+
+    Modulo 0x20 and limited 0x120 leave 0x100.
+    """
+    return int(limited) & ~int(modulo)
+
+
 def carried_partner(word: float) -> float:
     """Word of P9 of the axis that makes a carrier and carried pair with this one (page 4-34): U for X, X for U.
 

@@ -73,6 +73,17 @@ def signal_fault(axis: float) -> int:
     return 210 + address
 
 
+def unwatched_axis(measured: float, declared: float, spindles: float, handwheels: float) -> float:
+    """Lowest address of an axis in P2 whose encoder P25N0 does not declare for the signal check (page 5-25).
+
+    -1 where there is none. Inputs that P6 or P14 give to a spindle (24 to 27) or a handwheel (28 to 31) serve no axis
+    (page 4-8).
+    """
+    others = (int(spindles) & 15) << 24 | (int(handwheels) & 15) << 28
+    left = int(measured) & ~int(declared) & ~others
+    return float((left & -left).bit_length() - 1)
+
+
 def _lowest(above: int, below: int) -> tuple[int, int]:
     common = gcd(above, below)
     return above // common, below // common
