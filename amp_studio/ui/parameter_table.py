@@ -1,6 +1,7 @@
 """The model of the table in the middle: a row a parameter, a column an axis.
 
-What has several instances that are no axes (gears, macro calls, processes) has a row for each of them.
+What has several instances that are no axes (gears, macro calls, processes) has a row for each of them, and so have the
+points of a table that an axis has.
 """
 
 from __future__ import annotations
@@ -12,7 +13,17 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelInd
 from PySide6.QtGui import QBrush, QFont
 
 from amp_studio.files import axis_title, fitted_axes
-from amp_studio.schema import Address, Parameter, UnitError, Value, convert, labelled, show_value, write_value
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    UnitError,
+    Value,
+    convert,
+    labelled,
+    show_value,
+    write_value,
+)
+from amp_studio.schema.catalog import whole_of
 
 from .theme import FIGURE_SPACE, severity_colour, state_colour
 from .workspace import Workspace
@@ -29,13 +40,13 @@ _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row: a parameter with its axes, or one instance of a parameter that belongs to no axis."""
+    """One row: a parameter, or one part of it, with its axes; or one instance of what belongs to no axis."""
 
     parameter: Parameter
     cells: dict[str, Address]
     """Column -> address."""
     instance: str = ""
-    """Which instance; empty where the columns tell, and for the only one."""
+    """Which instance, or which part of it; empty where the columns tell, and for the only one."""
 
 
 class ParameterTable(QAbstractTableModel):
@@ -90,8 +101,11 @@ class ParameterTable(QAbstractTableModel):
         if found is None:
             layout = schema.layout(parameter, machine)
             instances = schema.instances(parameter, machine)
-            if layout and layout.scope == "axis":
-                found = [Row(parameter, {i: (parameter.id, i) for i in instances})]
+            if layout and schema.kin(layout.scope, "axis"):
+                parts: dict[str, dict[str, Address]] = {}
+                for i in instances:
+                    parts.setdefault(i.partition(".")[2], {})[whole_of(i)] = (parameter.id, i)
+                found = [Row(parameter, cells, part) for part, cells in parts.items()]
             else:
                 found = [Row(parameter, {CONTROL: (parameter.id, i)}, i) for i in instances]
             self._layouts[parameter.id] = found
@@ -235,7 +249,10 @@ class ParameterTable(QAbstractTableModel):
     def row_name(self, row: int) -> str:
         """Return the name of a row: that of the parameter, and of the instance where it is one of several."""
         shown, file = self.rows[row], self.workspace.file
-        place = file.schema.instance_label((shown.parameter.id, shown.instance), file.machine)
+        first = next(iter(shown.cells.values()))
+        place = file.schema.instance_label(first, file.machine) if shown.instance else ""
+        if CONTROL not in shown.cells:
+            place = place.rpartition(", ")[2]  # the column tells which axis
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:

@@ -56,8 +56,8 @@ class WordPanel(QScrollArea):
         inside = QWidget()
         layout = QVBoxLayout(inside)
         layout.setContentsMargins(4, 4, 4, 0)
-        layout.addWidget(self.ticks)
         layout.addLayout(self._form)
+        layout.addWidget(self.ticks)
         layout.addStretch()
         self.setWidget(inside)
         self.setWidgetResizable(True)
@@ -119,7 +119,7 @@ class WordPanel(QScrollArea):
         self._is_filling = False
 
     def _add_tick(self, bit: Bit) -> None:
-        named = re.search(rf"\b{bit.bit}\b", bit.label)  # "Axis 7" says itself which bit it is
+        named = re.search(rf"(?<![\d.]){bit.bit}(?![\d.])", bit.label)  # "Axis 7" says itself which bit it is
         item = QListWidgetItem(bit.label if named else f"{bit.bit}  {bit.label}")
         item.setData(Qt.ItemDataRole.UserRole, bit.bit)
         item.setToolTip(f"bit {bit.bit}")

@@ -84,6 +84,23 @@ def test_bits_that_only_have_a_number_show_it(module: MainWindow) -> None:
     module.go_to(("control.mode", "X"))
     texts = [module.detail.word.ticks.item(n).text() for n in range(module.detail.word.ticks.count())]
     assert texts[:2] == ["0  Enable Control Loop", "1  Enable Gearing"]
+    module.go_to(("cam.mode", "X"))
+    third = module.detail.word.ticks.item(2).text()
+    assert third.startswith("4  "), "the 4 of figure 4.55 is not the number of the bit"
+
+
+def test_a_point_of_a_table_is_one_row_for_both_axes(module: MainWindow) -> None:
+    points = {("cam.points", axis): Value(3) for axis in "XY"}
+    words = {("cam.mode", axis): Value(1) for axis in "XY"}
+    module.workspace.file.set_many(points | words)
+    module.go_to(("cam.time_points", "Y.2"))
+    table = module.table
+    row = table.index_of(("cam.time_points", "Y.2")).row()
+    assert table.row_name(row) == "Cam Data Registers, Words, point 2"
+    assert [table.address_at(row, n) for n in range(2)] == [
+        ("cam.time_points", "X.2"),
+        ("cam.time_points", "Y.2"),
+    ]
 
 
 def test_what_the_control_writes_itself_cannot_be_ticked(module: MainWindow) -> None:
