@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.report import definition, one_line, page_of
+from amp_studio.report import cells_of, definition, one_line, page_of, table_lines
 from amp_studio.schema import family_ids
 from amp_studio.validate import calculate, calculators, shown_result
 
@@ -54,6 +54,27 @@ def show_verb(options: argparse.Namespace) -> int:
     """Print one parameter as a person reads it."""
     schema = family(options.family)
     print(page_of(schema, options.param, options.machine))
+    return 0
+
+
+def tables_verb(options: argparse.Namespace) -> int:
+    """List the printed tables of a family, or print one."""
+    known = family(options.family).tables
+    if options.table is not None and options.table not in known:
+        raise UsageFault(f"there is no table '{options.table}'; without one they are all listed")
+    chosen = list(known.values()) if options.table is None else [known[options.table]]
+    if options.json:
+        print_json({"tables": [{"id": t.id, "title": t.title, "source": t.page, "params": t.params,
+                                "cells": cells_of(t), "note": t.note} for t in chosen]})  # fmt: skip
+    elif options.table is None:
+        width = max(map(len, known), default=0)
+        for table in chosen:
+            print(f"{table.id:{width}}  {table.title} (page {table.page})")
+    else:
+        (table,) = chosen
+        print(f"{table.title} (page {table.page})", *table_lines(table), sep="\n")
+        if table.params:
+            print(f"Parameters: {', '.join(table.params)}")
     return 0
 
 

@@ -50,6 +50,10 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--machine", help="machine type, where a number means another parameter on another machine"
     )
+    sub = verb("tables", "facts", "the manual's tables: alarms, motors, codes; without one, list them")
+    sub.add_argument("family")
+    sub.add_argument("table", nargs="?")
+    json_option(sub)
     sub = verb("calculate", "facts", "work out a published formula of a family; without one, list them")
     sub.add_argument("family")
     sub.add_argument("formula", nargs="?")

@@ -6,7 +6,17 @@ the documenter's three orders; ``build_report`` gives the same as plain data.
 
 from .build import build_report
 from .describe import definition, finding_json, finding_text, suppressed_text
-from .manual_page import cells_of, facts, formula_lines, help_parts, one_line, page_of, range_text, tables_of
+from .manual_page import (
+    cells_of,
+    facts,
+    formula_lines,
+    help_parts,
+    one_line,
+    page_of,
+    range_text,
+    table_lines,
+    tables_of,
+)
 from .model import SORTS, Report, Sort
 from .why import why_parts, why_text
 from .write import FORMATS, write_report
@@ -28,6 +38,7 @@ __all__ = [
     "page_of",
     "range_text",
     "suppressed_text",
+    "table_lines",
     "tables_of",
     "why_parts",
     "why_text",

@@ -54,7 +54,11 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
     lines += _section("Formulas", formula_lines(schema, parameter))
     lines += _section("Guides", _steps(schema, parameter))
     for table in tables_of(schema, parameter):
-        lines += [f"{table.title} (page {table.page})", *(f"{_INDENT}{line}" for line in _drawn(table)), ""]
+        lines += [
+            f"{table.title} (page {table.page})",
+            *(f"{_INDENT}{line}" for line in table_lines(table)),
+            "",
+        ]
     rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
     lines += _section(
         "Rules it takes part in", (f"{r.severity:8} {r.title} (page {r.page}; {r.id})" for r in rules)
@@ -109,8 +113,8 @@ def cells_of(table: Table) -> list[list[str]]:
     return [head, *([c if isinstance(c, str) else write_number(c) for c in row] for row in table.rows)]
 
 
-def _drawn(table: Table) -> list[str]:
-    """Return the lines of a table; a cell that is too long for its column goes on below."""
+def table_lines(table: Table) -> list[str]:
+    """Return the lines of a printed table; a cell that is too long for its column goes on below."""
     head, *rows = cells_of(table)
     room = _WIDTH - len(_INDENT) - 2 * (len(head) - 1)
     widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]

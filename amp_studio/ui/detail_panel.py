@@ -9,11 +9,9 @@ from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.files.held import held_text
-from amp_studio.report import cells_of, facts, formula_lines, help_parts, tables_of
+from amp_studio.report import facts, formula_lines, help_parts, tables_of
 from amp_studio.schema import (
     Address,
-    Schema,
-    Table,
     Value,
     limits,
     read_address,
@@ -22,6 +20,7 @@ from amp_studio.schema import (
     written,
 )
 
+from .pages import LINK, drawn, link
 from .theme import severity_ink
 from .word_panel import WordPanel
 from .workspace import Workspace
@@ -82,7 +81,7 @@ class DetailPanel(QWidget):
             page.setHtml(text)
 
     def _follow(self, url: QUrl) -> None:
-        self.linked.emit(url.toString().removeprefix("param:"))
+        self.linked.emit(url.toString().removeprefix(LINK))
 
     # -- the head of every page ------------------------------------------------
 
@@ -152,14 +151,14 @@ class DetailPanel(QWidget):
         parameter = schema.parameters[address[0]]
         lines = []
         for title, text in help_parts(schema, parameter):
-            related = [_link(schema, r) for r in parameter.help.related if r in schema.parameters]
+            related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
             lines.append(
                 f"<h4>{title}</h4><p>{', '.join(related) if title == 'Related' else html.escape(text)}</p>"
             )
         formulas = formula_lines(schema, parameter)
         if formulas:
             lines.append("<h4>Formulas</h4>" + "".join(f"<p>{html.escape(line)}</p>" for line in formulas))
-        lines += [_drawn(table) for table in tables_of(schema, parameter)]
+        lines += [drawn(table) for table in tables_of(schema, parameter)]
         lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
         return "".join(lines)
 
@@ -175,7 +174,7 @@ class DetailPanel(QWidget):
         broken = {f.rule for f in self._workspace.findings_of(address)}
         lines = []
         for rule in self._workspace.validator.rules_of(address):
-            names = ", ".join(f"{n} = {_link(schema, read_address(t)[0])}" for n, t in rule.reads.items())
+            names = ", ".join(f"{n} = {link(schema, read_address(t)[0])}" for n, t in rule.reads.items())
             mark = "✗" if rule.id in broken else "✓"
             when = f" where {html.escape(rule.when)}" if rule.when != "true" else ""
             lines.append(
@@ -192,19 +191,3 @@ class DetailPanel(QWidget):
             for entry in entries
         ]
         return "".join(lines) or f"<p>No saved change of {html.escape(written(address))} yet.</p>"
-
-
-def _drawn(table: Table) -> str:
-    """Return a printed table as HTML."""
-    head, *rows = [[html.escape(cell) for cell in row] for row in cells_of(table)]
-    lines = ["<tr>" + "".join(f"<th align=left>{cell}</th>" for cell in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
-    title = f"<h4>{html.escape(table.title)} (page {table.page})</h4>"
-    return (
-        f"{title}<table cellpadding=3>{''.join(lines)}</table><p><small>{html.escape(table.note)}</small></p>"
-    )
-
-
-def _link(schema: Schema, parameter_id: str) -> str:
-    name = schema.parameters[parameter_id].name
-    return f'<a href="param:{parameter_id}">{html.escape(name)}</a>'

@@ -36,6 +36,7 @@ class EditActions:
         every = act("Copy to All A&xes of the Type", self.to_all_axes, "Ctrl+Shift+A", "axes")
         quick = act("&Quick Edit by Number…", self.quick_edit, "F4", "edit")
         calculator = act("Ca&lculator…", self.calculator, "F3", "file")
+        tables = act("&Tables of the Manual…", self.tables, "Shift+F3", "file")
         find = act("&Find Parameter", self._find, keys.Find, "file")
         repair = act("Repa&ir Selected Finding", self._repair, "F8", "edit")
         why = act("W&hy Is This Found", self._why, "Shift+F1", "file")
@@ -47,7 +48,7 @@ class EditActions:
         for actions in (
             (self.undo, self.redo),
             self.of_a_cell,
-            (quick, calculator, find),
+            (quick, calculator, tables, find),
             (repair, safe, why),
         ):
             menu.addActions(list(actions))
@@ -161,6 +162,14 @@ class EditActions:
         if not calculators(workspace.file.schema.family.family):
             raise ValueError(f"No formulas are published for {workspace.file.schema.family.name}.")
         CalculatorDialog(workspace, self.window.selected(), self.commit, self.window).show()
+
+    def tables(self) -> None:
+        """Open the manual's tables, with those of the selected parameter first."""
+        from .tables_dialog import TablesDialog
+
+        dialog = TablesDialog(self._workspace(), self.window.selected(), self.window)
+        dialog.linked.connect(self.window.follow)
+        dialog.show()
 
     def _find(self) -> None:
         self.window.show_panel("Groups")

@@ -193,7 +193,7 @@ class MainWindow(QMainWindow):
         self.groups.left.connect(self.table_view.setFocus)
         self.table_view.selected.connect(self._show_address)
         self.table.modelReset.connect(self._tell_title)
-        self.detail.linked.connect(self._follow)
+        self.detail.linked.connect(self.follow)
         self.findings.activated.connect(self._show_finding)
         self.findings.repaired.connect(self._repair)
         self.findings.questioned.connect(self._why)
@@ -287,7 +287,8 @@ class MainWindow(QMainWindow):
         else:
             self.say(f"{describe(self.workspace.file, address)} does not exist on this machine type")
 
-    def _follow(self, parameter_id: str) -> None:
+    def follow(self, parameter_id: str) -> None:
+        """Go to a parameter that a link names, in the selected axis where it has it."""
         assert self.workspace is not None
         file, here = self.workspace.file, self.selected()
         instances = file.schema.instances(file.schema.parameters[parameter_id], file.machine)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.schema import load_schema
+from amp_studio.schema import family_ids, load_schema
 
 TYPES = {"integer", "real", "choice", "boolean", "bits", "text", "format"}
 SCOPES = {"global", "axis", "spindle", "process", "group", "word", "register"}
@@ -195,3 +195,29 @@ def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
 def test_what_does_not_exist_is_refused(amp, arguments, said: str) -> None:
     refused = amp(*arguments)
     assert (refused.code, said in refused.err) == (2, True), refused.err
+
+
+# -- tables ----------------------------------------------------------------------------------------------------
+
+
+def test_tables_are_listed_and_one_is_printed_with_its_parameters(amp) -> None:
+    listed = amp("tables", "syntec").out
+    assert "mot-019" in listed
+    assert "MOT-019 Following error exceed (page 1.5.3)" in listed
+    said = amp("tables", "syntec", "mot-019")
+    assert said.out.startswith("MOT-019 Following error exceed (page 1.5.3)\n")
+    assert "Cause 1" in said.out
+    assert said.out.rstrip().splitlines()[-1].startswith("Parameters: servo.loop_gain, feed.rapid")
+
+
+def test_tables_as_json_are_all_there(amp) -> None:
+    for family in family_ids():
+        found = amp("tables", family, "--json").json["tables"]
+        assert {table["id"] for table in found} == set(load_schema(family).tables)
+        assert all(len(row) == len(table["cells"][0]) for table in found for row in table["cells"])
+
+
+def test_a_table_that_there_is_not_is_refused(amp) -> None:
+    assert amp("tables", "syntec", "mot-999").err == (
+        "amp-studio: there is no table 'mot-999'; without one they are all listed\n"
+    )
