@@ -12,7 +12,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check format lock bench wheel clean setup setup-run
+.PHONY: help run test mutants check format lock bench wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -22,6 +22,9 @@ run: setup-run ## set up what is missing and show the program on an example mach
 
 test: setup ## set up what is missing and run all tests
 	@$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile $(if $(COV),--cov --cov-report=term) $(TESTS)
+
+mutants: setup ## change every rule in every way, one at a time, and tell what no case notices
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py
 
 check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check

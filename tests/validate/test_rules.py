@@ -1,6 +1,6 @@
-"""Every rule of the 9/PC is broken by the change the table names, holds beside it, and its repair mends it.
+"""Every rule of every family is broken by the change its table names, holds beside it, and its repair mends it.
 
-The tables are in ``rule_cases/``; the machines they change are in ``conftest.py``.
+The tables are in ``rule_cases/``; the machines they change are in ``sound_machines/``.
 """
 
 from __future__ import annotations
@@ -11,51 +11,55 @@ import re
 from collections.abc import Callable, Iterator
 
 import pytest
+from rule_stands import FAMILIES, HERE, Case, all_cases, cases, machines, stand
 
 from amp_studio.schema import Address, Value, canonical_unit, load_schema, program
 from amp_studio.validate import Finding
 from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks
 
-RULES = {rule.id: rule for rule in load_schema("9pc").rules}
+RULES = {rule.id: rule for family in FAMILIES for rule in load_schema(family).rules}
+BREAKING = [case for case in all_cases() if case.breaks is not None]
+HOLDING = [case for case in all_cases() if case.holds is not None]
 
 
-def of_rule(findings: tuple[Finding, ...], rule: str) -> list[Finding]:
-    """Return the findings of one rule."""
-    return [finding for finding in findings if finding.rule == rule]
+@pytest.mark.parametrize(
+    ("family", "name"), [(f, name) for f in FAMILIES for name in machines(f)["machines"]]
+)
+def test_in_a_sound_machine_nothing_is_found(family: str, name: str) -> None:
+    assert [finding for finding in stand(family, name).findings if finding.rule != "schema.unset"] == []
 
 
-@pytest.mark.parametrize("name", ["mill", "lathe", "router"])
-def test_in_a_sound_machine_nothing_is_found(name: str, stands) -> None:
-    assert stands(name).findings == ()
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_rule_has_a_case_that_breaks_it_and_one_that_just_does_not(family: str) -> None:
+    rules = {rule.id for rule in load_schema(family).rules}
+    assert {case.rule for case in cases(family)} == rules, "a rule without a row, or a row without a rule"
+    assert {case.rule for case in cases(family) if case.breaks is not None} == rules
+    assert {case.rule for case in cases(family) if case.holds is not None} == rules
 
 
-def test_every_rule_has_cases_and_every_case_a_rule(rule_cases) -> None:
-    written = {case.rule for case in rule_cases}
-    assert written == RULES.keys(), "a rule without a row in rule_cases/, or a row without a rule"
-    assert {case.rule for case in rule_cases if case.breaks is not None} == RULES.keys()
-    assert {case.rule for case in rule_cases if case.holds is not None} == RULES.keys()
+def test_no_table_of_cases_is_beside_the_folders_of_the_families() -> None:
+    assert {path.parent.name for path in (HERE / "rule_cases").rglob("*.yaml")} == set(FAMILIES)
 
 
-def test_a_broken_rule_is_found(case_that_breaks, stands) -> None:
-    case, rule = case_that_breaks, RULES[case_that_breaks.rule]
-    stand = stands(case.of)
-    with stand.changed(case.given) as before:
-        assert of_rule(before, case.rule) == []
-        with stand.changed(case.breaks) as after:
-            found = of_rule(after, case.rule)
-    assert len(found) == case.times
-    for finding in found:
-        assert (finding.severity, finding.page) == (rule.severity, rule.page)
-        assert finding.addresses
-        assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
+@pytest.mark.parametrize("case", BREAKING, ids=str)
+def test_a_broken_rule_is_found(case: Case) -> None:
+    rule, here = RULES[case.rule], case.stand
+    with here.changed(case.given):
+        assert here.of(case.rule) == []
+        with here.changed(case.breaks or {}):
+            found = here.of(case.rule)
+            assert len(found) == case.times
+            for finding in found:
+                assert (finding.severity, finding.page) == (rule.severity, rule.page)
+                assert finding.addresses
+                assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
 
 
-def test_a_rule_that_just_holds_says_nothing(case_that_holds, stands) -> None:
-    case = case_that_holds
-    stand = stands(case.of)
-    with stand.changed(case.given), stand.changed(case.holds) as after:
-        assert of_rule(after, case.rule) == []
+@pytest.mark.parametrize("case", HOLDING, ids=str)
+def test_a_rule_that_just_holds_says_nothing(case: Case) -> None:
+    with case.stand.changed(case.given), case.stand.changed(case.holds or {}):
+        assert case.stand.of(case.rule) == []
 
 
 # --------------------------------------------------------------------------------------------- repairs
@@ -66,28 +70,39 @@ def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, tuple[Address, ..
     return {(finding.rule, finding.addresses) for finding in findings if finding.severity == "error"}
 
 
-def test_the_repairs_of_a_rule_mend_it_and_cause_no_error(case_that_breaks, stands) -> None:
-    case = case_that_breaks
-    stand = stands(case.of)
-    with stand.changed(case.given), stand.changed(case.breaks) as broken:
-        mendable = [finding for finding in of_rule(broken, case.rule) if finding.repairs]
-        repairs = [repair for finding in mendable for repair in finding.repairs]
-        with stand.recorded():
-            for repair in repairs:
-                stand.file.set(repair.address, repair.value)
-            mended = stand.validator.update(repair.address for repair in repairs)
-    assert {f.addresses for f in mendable} & {f.addresses for f in of_rule(mended, case.rule)} == set()
-    assert errors_of(mended) - errors_of(broken) == set()
+@pytest.mark.parametrize("case", [case for case in BREAKING if RULES[case.rule].fix], ids=str)
+def test_the_repairs_of_a_rule_mend_it_and_cause_no_error(case: Case) -> None:
+    here = case.stand
+    with here.changed(case.given), here.changed(case.breaks or {}):
+        broken = here.findings
+        mendable = [finding for finding in here.of(case.rule) if finding.repairs]
+        assert bool(mendable) is not bool(case.unmended), "a case whose findings offer no repair says why"
+        with here.recorded():
+            here.set({repair.address: repair.value for finding in mendable for repair in finding.repairs})
+            assert {f.addresses for f in mendable} & {f.addresses for f in here.of(case.rule)} == set()
+            assert errors_of(here.findings) - errors_of(broken) == set()
 
 
-def test_every_rule_with_a_repair_offers_it(rule_cases, stands) -> None:
-    offered = set()
-    for case in rule_cases:
-        if case.breaks is not None and RULES[case.rule].fix:
-            stand = stands(case.of)
-            with stand.changed(case.given), stand.changed(case.breaks) as broken:
-                offered |= {finding.rule for finding in broken if finding.repairs}
-    assert {rule.id for rule in RULES.values() if rule.fix} - offered == set()
+@pytest.mark.parametrize("case", [case for case in BREAKING if RULES[case.rule].effective], ids=str)
+def test_what_the_control_uses_instead_is_told(case: Case) -> None:
+    here = case.stand
+    with here.changed(case.given), here.changed(case.breaks or {}):
+        found = here.of(case.rule)
+        uses = {setting.address: setting.value for finding in found for setting in finding.effective}
+        if case.uses is not None:
+            expected = {here.file.find(name): str(text) for name, text in case.uses.items()}
+            assert uses == {address: here.file.read(address, text) for address, text in expected.items()}
+            return
+        assert all(finding.effective for finding in found)
+        with here.recorded():
+            here.set(uses)
+            assert here.of(case.rule) == []
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_rule_with_a_repair_offers_it(family: str) -> None:
+    mended = {case.rule for case in cases(family) if case.breaks is not None and not case.unmended}
+    assert {rule.id for rule in load_schema(family).rules if rule.fix} <= mended
 
 
 # ----------------------------------------------------------------------------- the bound, taken from the rule
@@ -105,33 +120,37 @@ COMPARISON = re.compile(r"(\w+) (<=|>=|==|!=|<|>) ([^<>=!&|?']+)")
 
 def comparisons() -> Iterator[str]:
     """Yield the rules whose check compares a number with another one, or with an expression."""
-    parameters = load_schema("9pc").parameters
-    for rule in RULES.values():
-        found = COMPARISON.fullmatch(rule.check)
-        if found and parameters[rule.reads[found[1]]].type in ("integer", "real"):
-            yield rule.id
+    for family in FAMILIES:
+        parameters = load_schema(family).parameters
+        for rule in load_schema(family).rules:
+            found = COMPARISON.fullmatch(rule.check)
+            if (
+                found
+                and found[3] != "null"
+                and parameters[rule.reads[found[1]].partition("@")[0]].type in ("integer", "real")
+            ):
+                yield rule.id
 
 
 @pytest.mark.parametrize("rule_id", list(comparisons()))
-def test_a_comparison_turns_exactly_at_its_bound(rule_id: str, rule_cases, stands) -> None:
+def test_a_comparison_turns_exactly_at_its_bound(rule_id: str) -> None:
     rule = RULES[rule_id]
     left, sign, right = COMPARISON.fullmatch(rule.check).groups()
-    case = next(case for case in rule_cases if case.rule == rule_id and case.breaks is not None)
-    stand = stands(case.of)
-    with stand.changed(case.given), stand.changed(case.breaks) as broken:
-        about = of_rule(broken, rule_id)[0].addresses
-        checks = checks_of(stand.file.situation, (rule,))
+    case = next(case for case in BREAKING if case.rule == rule_id)
+    here = case.stand
+    with here.changed(case.given), here.changed(case.breaks):
+        about = here.of(rule_id)[0].addresses
+        checks = checks_of(here.file.situation, (rule,))
         check = next(check for check in checks if {single.address for single in check.singles} == set(about))
         address = check.address_of(left)
-        bound = program(right).execute(RuleChecks(stand.file, stand.file.machine).context_of(check))
+        bound = program(right).execute(RuleChecks(here.file, here.file.machine).context_of(check))
         for number in (bound, math.nextafter(bound, -math.inf), math.nextafter(bound, math.inf)):
-            with stand.recorded():
-                stand.file.set(address, Value(number, canonical_unit(stand.file.get(address).unit)))
-                findings = stand.validator.update([address])
+            with here.recorded():
+                here.set({address: Value(number, canonical_unit(here.file.get(address).unit))})
                 applies = program(rule.when).execute(
-                    RuleChecks(stand.file, stand.file.machine).context_of(check)
+                    RuleChecks(here.file, here.file.machine).context_of(check)
                 )
-            said = any(finding.addresses == about for finding in of_rule(findings, rule_id))
+                said = any(finding.addresses == about for finding in here.of(rule_id))
             assert said is (applies and not OPERATORS[sign](number, bound)), (
                 f"{left} = {number!r} at {bound!r}"
             )
