@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 import pytest
-from rule_stands import Stand, sound, stand
+from rule_stands import sound
 
 from amp_studio.files import ParameterFile
 
@@ -15,9 +15,3 @@ from amp_studio.files import ParameterFile
 def machine() -> Callable[[str], ParameterFile]:
     """Return what builds a sound machine: ``machine("mill")``."""
     return partial(sound, "9pc")
-
-
-@pytest.fixture(scope="session")
-def stands() -> Callable[[str], Stand]:
-    """Return what gives the machine of a type on which changes are tried."""
-    return partial(stand, "9pc")

@@ -1,9 +1,9 @@
 """The tables of cases are sharp: a rule changed in one place no longer gives what they say.
 
 Of every rule of every family the check is negated, every comparison flipped, every "and" made an "or" and the other
-way round, and every "not" left out; in the full run (``make mutants``) every choice and number is replaced as well, and
-every sum, product, quantifier and truth value changed into its opposite. What is alive at the end stands in
-``equivalent_mutants.yaml``, with the reason why no case can tell it from the rule.
+way round, and every "not" left out. The full run (``make mutants``) also replaces every choice and number, turns every
+sum, product, quantifier and truth value into its opposite, and leaves out every operand of "and" and "or". What is
+alive at the end stands in ``equivalent_mutants.yaml``, with the reason why no case can tell it from the rule.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
 
 EVERY_MUTANT = os.environ.get("AMP_STUDIO_FULL") == "1"
-"""Without it comparisons, logic and negations are changed, all else is left alone."""
+"""Without it only comparisons, logic and negations are changed."""
 
 OFTEN = {
     "<": ("<=", ">="),
@@ -52,6 +52,11 @@ PLACE = re.compile(
     r"|(?P<seldom>\btrue\b|\bfalse\b|\.all\(|\.exists\(|\bmin\(|\bmax\(| [-+*/] )"
     r"|(?<![\w.])(?P<number>\d+\.\d+|(?<=\w\[)\d+(?=\])|\d+(?![\w.,\]]))"  # not of a list of all positions
 )
+
+CONNECTED = re.compile(r"'[^']*'|&&|\|\||[([{,?:)\]}]")
+"""What begins or ends an operand of "and" and "or", and texts, which may have any of these in them."""
+GUARD = re.compile(r"\(?[^&|]+ [!=]= null\)?|\w+ < size\(\w+\)")
+"""What asks whether something is there at all. Without it a rule that meets nothing is an error, so nothing is said."""
 
 EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_mutants.yaml")
 """Rule -> a piece of a mutant's text, which the rule itself does not have -> why it says the same as the rule."""
@@ -93,6 +98,36 @@ def changes(rule: Rule) -> Iterator[tuple[str, str, str, str]]:
                     continue  # one position more is an error of the index, which exists() passes over
                 change = f"…{before[-25:]}[{found[0]} → {instead}]{after[:25]}…"
                 yield part, before + instead + after, text, change
+        for start, end, neutral in operands(text) if EVERY_MUTANT else ():
+            if not GUARD.fullmatch(text[start:end].strip()):
+                change = f"…{text[:start][-12:]}[{text[start:end].strip()} → {neutral}]"
+                yield part, f"{text[:start]} {neutral} {text[end:].lstrip()}", text, change
+
+
+def operands(text: str) -> Iterator[tuple[int, int, str]]:
+    """Yield where the operands of "and" and "or" stand, each with what it must be to decide nothing."""
+    open_ones = [[0]]
+    """For each bracket, where the operands of the present chain begin, and the operators between them."""
+    for found in [*CONNECTED.finditer(text), None]:
+        sign = found[0] if found else ""
+        if sign.startswith("'"):
+            continue
+        chain = open_ones[-1]
+        end = found.start() if found else len(text)
+        if sign in ("&&", "||"):
+            chain += [end, sign, end + 2]
+            continue
+        if sign in ("(", "[", "{"):
+            open_ones.append([end + 1])
+            continue
+        chain.append(end)
+        for n in range(0, len(chain) - 1, 3) if len(chain) > 2 else ():
+            beside = [chain[m] for m in (n - 1, n + 2) if 0 < m < len(chain) - 1]
+            yield chain[n], chain[n + 1], "true" if "&&" in beside else "false"
+        if sign in (",", "?", ":"):
+            open_ones[-1] = [end + 1]
+        else:
+            open_ones.pop()
 
 
 def instead_of(found: re.Match[str]) -> tuple[str, ...]:
@@ -164,3 +199,17 @@ def test_no_mutant_of_a_rule_passes_the_tables(family: str, caplog: pytest.LogCa
 
 def test_a_mutant_that_says_the_same_belongs_to_a_rule() -> None:
     assert EQUIVALENT.keys() <= {rule.id for family in FAMILIES for rule in load_schema(family).rules}
+
+
+def test_every_operand_is_left_out_in_its_turn() -> None:
+    text = "a && near(b, c || d == ',&&') ? e : [f && g] || h"
+    assert [(text[start:end].strip(), neutral) for start, end, neutral in operands(text)] == [
+        ("c", "false"),
+        ("d == ',&&'", "false"),
+        ("a", "true"),
+        ("near(b, c || d == ',&&')", "true"),
+        ("f", "true"),
+        ("g", "true"),
+        ("[f && g]", "false"),
+        ("h", "false"),
+    ]
