@@ -17,7 +17,15 @@ TARGETS = {
     "the loaded schema in memory",
     "the search alone",
     "open and validate",
-    "re-validate after one edit",
+    "full run over a full 9/PC file, just opened",
+    "a full 9/PC file again",
+    "full run over a NUM file, just opened",
+    "a NUM file again",
+    "re-validate after one edit of a 9/PC value",
+    "another value of servo.excess_error@1",
+    "re-validate after one edit of a NUM value",
+    "import and validate a full NUM table",
+    "validate 60 files from the command line on all processors: a file",
 }
 
 
