@@ -12,7 +12,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test mutants check format lock bench wheel clean setup setup-run
+.PHONY: help run test mutants campaign check format lock bench wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -25,6 +25,9 @@ test: setup ## set up what is missing and run all tests
 
 mutants: setup ## change every rule in every way, one at a time, and tell what no case notices
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py
+
+campaign: setup ## write anything whatever into machines of every family, thousands of times (a quarter of an hour)
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py
 
 check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check
