@@ -12,7 +12,7 @@ from pathlib import Path
 from amp_studio.files import Header, ParameterFile, SaveFault, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 
-from . import acr_script, automax, num_table, patch_sheet, values_csv
+from . import acr_script, automax, ballscrew, num_table, patch_sheet, values_csv
 from .text_format import FamilyUntold, FormatFault, TextFormat, TextRead
 
 FORMATS: tuple[TextFormat, ...] = (
@@ -20,6 +20,7 @@ FORMATS: tuple[TextFormat, ...] = (
     patch_sheet.FORMAT,
     num_table.FORMAT,
     acr_script.FORMAT,
+    ballscrew.FORMAT,
     automax.TASK,
     automax.TABLE,
 )

@@ -1,0 +1,60 @@
+"""The BSC input file of an ACR controller: ballscrew compensation, a word of one position on each line (page 107).
+
+``X0E.00325`` adds 0.00325 at position 0 of X, which is home; the positions of an axis follow each other without a gap.
+"""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Schema, Value
+
+from .text_format import FormatFault, TextFormat, TextRead
+
+_TABLE = "ballscrew.table"
+_WORD = re.compile(r"([A-Z])(\d+)E-?\.\d{5}")
+
+
+def _recognises(text: str) -> bool:
+    return bool(_WORD.fullmatch(text.lstrip().partition("\n")[0].strip()))
+
+
+def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
+    offered = schema.instances(schema.parameters[_TABLE], schema.family.default_machine)
+    tables: dict[str, list[str]] = {}
+    for n, line in enumerate(text.splitlines(), 1):
+        word = line.strip()
+        if not word:
+            continue
+        column = line.index(word) + 1
+        found = _WORD.fullmatch(word)
+        if found is None:
+            raise FormatFault(
+                f"'{word}' is no word like X0E.00325: letter, position, E, five decimals", n, column
+            )
+        axis, position = found[1], int(found[2])
+        if axis not in offered:
+            raise FormatFault(f"there is no axis {axis}", n, column)
+        words = tables.setdefault(axis, [])
+        if position != len(words):
+            raise FormatFault(f"{word}: the next position of {axis} is {len(words)}", n, column)
+        words.append(word)
+    if not tables:
+        raise FormatFault("there is no word of compensation")
+    return TextRead({(_TABLE, axis): Value(" ".join(words)) for axis, words in tables.items()})
+
+
+def _write(file: ParameterFile) -> str:
+    tables = [
+        value for a in file.addresses() if a[0] == _TABLE and (value := file.get(a)) and str(value.value)
+    ]
+    if not tables:
+        raise FormatFault("no axis has a table of ballscrew compensation")
+    return "".join(f"{word}\n" for table in tables for word in str(table.value).split())
+
+
+FORMAT = TextFormat(
+    "bsc", "ballscrew compensation of an ACR controller", ".bsc", ("acromill",), _recognises, _read, _write,
+    newline="\r\n",
+)  # fmt: skip
