@@ -7,9 +7,13 @@ import os
 import shutil
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import settings
+
+if TYPE_CHECKING:
+    from amp_studio.schema import Schema
 
 # Set here, before anything imports Qt or asks where the user's folders are.
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
@@ -41,3 +45,11 @@ settings.load_profile("amp-studio")
 def checkout() -> Path:
     """Return the top of the checkout."""
     return Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def wide_family(tmp_path_factory: pytest.TempPathFactory) -> Schema:
+    """Return the schema of a family that is nothing like the 9/PC."""
+    from .wide_family import wide_schema  # after the folders above are set
+
+    return wide_schema(tmp_path_factory.mktemp("made") / "wide")

@@ -6,68 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import Header, ParameterFile
 from amp_studio.report import FORMATS, SORTS, build_report, write_report
 from amp_studio.report.model import Grid, Sort
-from amp_studio.schema import Value
-from amp_studio.schema.catalog import schema_of
-from amp_studio.schema.load import compile_family
-
-FAMILY = """
-family: wide
-name: Wide control
-document: wide-manual
-title: Wide Manual
-machines: [{key: machine, name: Machine}]
-default_machine: machine
-scopes:
-  global: {instances: [""], label: Control}
-  axis: {instances: ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11"], label: "Axis {i}"}
-  word: {instances: ["0", "1", "2"], label: "Word {i}"}
-units: {metric: {length: mm}}
-effect: {level: restart}
-groups: [all]
-"""
-GROUP = """
-key: all
-name: Everything
-chapter: "1"
-parameters:
-  - id: axis.position
-    name: Position
-    scope: axis
-    numbers: {format: "P10N{i}"}
-    type: real
-    quantity: length
-    help: {what: A length.}
-    page: "1-1"
-  - id: word.mode
-    name: Mode word
-    scope: word
-    numbers: {format: "P2N{i}"}
-    type: bits
-    bits:
-      - {bit: 0, label: Axis turns}
-      - {bit: 3, label: Second gear}
-      - {bit: 4, width: 2, label: Loop, choices: [{key: open, label: open, raw: 0}, {key: closed, label: closed, raw: 2}]}
-    default: {value: 0, page: "1-2"}
-    help: {what: Bits.}
-    page: "1-2"
-  - id: machine.name
-    name: Name of the machine
-    type: text
-    help: {what: A text.}
-    page: "1-3"
-"""
+from amp_studio.schema import Schema, Value
 
 
 @pytest.fixture
-def wide(tmp_path: Path) -> ParameterFile:
-    folder = tmp_path / "wide"
-    (folder / "groups").mkdir(parents=True)
-    (folder / "family.yaml").write_text(FAMILY)
-    (folder / "groups" / "all.yaml").write_text(GROUP)
-    file = ParameterFile(schema_of(compile_family(folder)))
+def wide(wide_family: Schema) -> ParameterFile:
+    file = ParameterFile(wide_family, Header(machine="small"))
     for n in range(12):
         file.set(("axis.position", str(n)), Value(n / 8, "mm"))
     file.set(("word.mode", "0"), Value(0b101001))

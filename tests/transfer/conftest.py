@@ -19,6 +19,7 @@ from amp_studio.transfer.faults import FaultyLine
 from amp_studio.transfer.link import Link
 from amp_studio.transfer.null_modem import NullModem, VirtualClock
 
+from . import images
 from .small_module import small_module
 from .small_num import small_num
 
@@ -175,3 +176,9 @@ def num(tmp_path_factory: pytest.TempPathFactory) -> Schema:
 def module(tmp_path_factory: pytest.TempPathFactory) -> Schema:
     """Return a small servo module with every kind of register."""
     return small_module(tmp_path_factory.mktemp("made") / "small")
+
+
+@pytest.fixture
+def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
+    """Return what makes a control that holds the old image."""
+    return lambda **options: new_control(initial=images.OLD, **options)

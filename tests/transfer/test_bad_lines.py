@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import random
 from collections.abc import Callable
 from typing import Any
@@ -16,25 +15,10 @@ from amp_studio.transfer import (
     Faults,
     LineCut,
     LinkError,
-    Session,
     TransferError,
 )
 
-OLD = b"1 old\n" * 20
-NEW = b"2 new!\n" * 14
-
-
-def sha(image: bytes) -> bytes:
-    return hashlib.sha256(image).digest()
-
-
-def send(session: Session, image: bytes = NEW, **options: Any) -> Any:
-    return session.send(image, signature="s1", expected=sha(OLD), **options)
-
-
-@pytest.fixture
-def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
-    return lambda **options: new_control(initial=OLD, **options)
+from .images import NEW, OLD, send
 
 
 def test_a_line_cut_at_any_byte_is_made_again_and_the_download_done(

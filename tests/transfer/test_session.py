@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -14,26 +13,11 @@ from amp_studio.transfer import (
     Faults,
     Flags,
     NotInEmergencyStop,
-    Session,
 )
 from amp_studio.transfer.frame import encode_frame
 from amp_studio.transfer.message import Ack, pack
 
-OLD = b"1 old\n" * 20
-NEW = b"2 new!\n" * 25
-
-
-def sha(image: bytes) -> bytes:
-    return hashlib.sha256(image).digest()
-
-
-def send(session: Session, image: bytes = NEW, **options: Any) -> Any:
-    return session.send(image, signature="s1", expected=sha(OLD), **options)
-
-
-@pytest.fixture
-def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
-    return lambda **options: new_control(initial=OLD, **options)
+from .images import NEW, OLD, send, sha
 
 
 def test_a_hello_tells_who_the_control_is(rig: Callable[..., Any], control: Callable[..., Any]) -> None:

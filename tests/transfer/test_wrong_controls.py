@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, ClassVar
@@ -21,7 +20,6 @@ from amp_studio.transfer import (
     NoConnection,
     NotInEmergencyStop,
     ProtocolMismatch,
-    Session,
     SignatureMismatch,
     TransferError,
     WrongFamily,
@@ -31,21 +29,7 @@ from amp_studio.transfer.frame import Frame, encode_frame
 from amp_studio.transfer.message import Ack, Code, Data, Gap, Hello, Message, OpenUpload, Read, Refused, pack
 from amp_studio.transfer.responder import Responder
 
-OLD = b"1 old\n" * 20
-NEW = b"2 new!\n" * 25
-
-
-def sha(image: bytes) -> bytes:
-    return hashlib.sha256(image).digest()
-
-
-def send(session: Session, image: bytes = NEW, **options: Any) -> Any:
-    return session.send(image, signature="s1", expected=sha(OLD), **options)
-
-
-@pytest.fixture
-def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
-    return lambda **options: new_control(initial=OLD, **options)
+from .images import NEW, OLD, send, sha
 
 
 def test_nothing_listens(rig: Callable[..., Any], control: Callable[..., Any]) -> None:

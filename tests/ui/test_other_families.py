@@ -10,82 +10,18 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, Header, ParameterFile
-from amp_studio.schema import Value
-from amp_studio.schema.catalog import schema_of
-from amp_studio.schema.load import compile_family
+from amp_studio.schema import Schema, Value
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.step_view import StepView
 from amp_studio.ui.workspace import Workspace
 
 from .conftest import Person, action
 
-FAMILY = """
-family: wide
-name: Wide control
-document: wide-manual
-title: Wide Manual
-machines: [{key: small, name: Small machine}, {key: large, name: Large machine}]
-default_machine: small
-scopes:
-  global: {instances: [""], label: Control}
-  axis: {instances: ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11"], label: "Axis {i}"}
-  word: {instances: ["0", "1", "2"], label: "Word {i}"}
-units: {metric: {length: mm}}
-effect: {level: restart}
-groups: [all]
-"""
-GROUP = """
-key: all
-name: Everything
-chapter: "1"
-parameters:
-  - id: axis.position
-    name: Position
-    scope: axis
-    numbers: {format: "P10N{i}"}
-    type: real
-    quantity: length
-    help: {what: A length.}
-    page: "1-1"
-  - id: word.mode
-    name: Mode word
-    scope: word
-    numbers: {format: "P2N{i}"}
-    type: bits
-    bits: [{bit: 0, label: Axis turns}, {bit: 3, label: Second gear}]
-    default: {value: 0, page: "1-2"}
-    effect: {level: command, command: load modes}
-    help: {what: Bits.}
-    page: "1-2"
-  - id: machine.name
-    name: Name of the machine
-    type: text
-    help: {what: A text.}
-    page: "1-3"
-"""
-
-
-GUIDE = """
-guides:
-  - id: start
-    title: Order of integration
-    page: "3-1"
-    steps:
-      - {title: The words, what: Set the words first., params: [word.mode], page: "3-1"}
-      - {title: The axes, params: [axis.position, word.mode], page: "3-2"}
-"""
-
 
 @pytest.fixture
-def wide(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
+def wide(open_window: Callable[..., MainWindow], wide_family: Schema, tmp_path: Path) -> MainWindow:
     """Return a window with a file of the wide family."""
-    folder = tmp_path / "wide"
-    (folder / "groups").mkdir(parents=True)
-    (folder / "family.yaml").write_text(FAMILY)
-    (folder / "groups" / "all.yaml").write_text(GROUP)
-    (folder / "guides").mkdir()
-    (folder / "guides" / "start.yaml").write_text(GUIDE)
-    file = ParameterFile(schema_of(compile_family(folder)), Header(name="wide", machine="small"))
+    file = ParameterFile(wide_family, Header(name="wide", machine="small"))
     file.values[("axis.position", "11")] = Value(1.5, "mm")
     window = open_window()
     window.show_workspace(Workspace(Document.create(file, tmp_path / "wide.amp")))

@@ -1,0 +1,21 @@
+"""Two images and how they are sent, for every test of the line."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Any
+
+from amp_studio.transfer import Session
+
+OLD = b"1 old\n" * 20
+NEW = b"2 new!\n" * 25
+
+
+def sha(image: bytes) -> bytes:
+    """Return what the control compares."""
+    return hashlib.sha256(image).digest()
+
+
+def send(session: Session, image: bytes = NEW, **options: Any) -> Any:
+    """Send an image to a control that holds the old one."""
+    return session.send(image, signature="s1", expected=sha(OLD), **options)
