@@ -336,6 +336,7 @@ def test_the_rules_that_read_a_value_are_known(mill) -> None:
     assert rules == [
         "9pc.zone.group-not-checked",
         "9pc.zone.group-empty",
+        "9pc.zone.home-in-zone2",
         "9pc.powerup.zones-without-groups",
         "9pc.deskew.slave-zone",
     ]
