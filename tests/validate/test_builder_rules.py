@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import dedent
 
 import pytest
 
@@ -152,3 +153,19 @@ def test_a_suppression_without_reason_or_name_is_refused(path: Path, reason: str
     with pytest.raises(ValueError, match="needs a reason and a name"):
         suppress(path, "builder.rapid", [], reason=reason, by=by)
     assert path.read_text(encoding="utf-8") == OWN_RULE
+
+
+def test_the_page_about_rules_of_your_own_shows_a_file_that_works(
+    checkout: Path, machine, path: Path
+) -> None:
+    page = (checkout / "docs" / "rules.md").read_text(encoding="utf-8")
+    block = page[page.index("    rules:\n") : page.index("\n## A rule")]
+    path.write_text(dedent(block), encoding="utf-8")
+    lathe = machine("lathe")
+    own = read_builder_rules(path, lathe.schema)
+    assert (own.faults, len(own.rules), len(own.suppressions)) == ((), 1, 1)
+    lathe.set(RAPID, Value(20000.0, "mm/min"))
+    (finding,) = of(Validator(lathe, own).run(), "works.lathe-rapid")
+    assert finding.message == "Rapid of axis 1 is 20000 mm/min; our lathes are built for 15000 mm/min."
+    assert finding.repairs == (Setting(RAPID, Value(15000.0, "mm/min")),)
+    assert of(Validator(machine("mill"), own).run(), "works.lathe-rapid") == []
