@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import FileFault, Project
+from amp_studio.schema import Address
 
 from .file_actions import FILTER
 from .questions import ask
-from .task import in_background
+from .task import PATIENCE_MS, ProgressDialog, in_background
 
 if TYPE_CHECKING:
     from .main_window import MainWindow
@@ -34,6 +35,7 @@ class ProjectActions:
         menu.addSeparator()
         menu.addActions([
             act("Open &File of the Project…", self.open_file, "Ctrl+Shift+O", "project"),
+            act("Chec&k All Files…", self.check, "Ctrl+Shift+F8", "project"),
             act("&Copy File…", self.copy, None, "project"),
             act("Copy from &Another Project…", self.copy_from, None, "project"),
             act("&Rename File…", self.rename, None, "project"),
@@ -127,6 +129,33 @@ class ProjectActions:
         path = self._choose("Open", self._the_project().files())
         if path:
             self.window.files.open_path(path)
+
+    def check(self) -> None:
+        """Check every file of the project as it is on disk, and list what is found."""
+        from .project_check import ProjectCheckDialog, check_files
+
+        paths = self._the_project().files()
+        if not paths:
+            raise ValueError("The project has no files yet.")
+        checking = ProgressDialog(
+            "Check All Files",
+            lambda progress, cancelled: check_files(paths, progress, cancelled),
+            self.window,
+        )
+        ProjectCheckDialog(checking.run(PATIENCE_MS), self._show_at, self.window).show()
+
+    def _show_at(self, path: Path, address: Address | None) -> None:
+        """Show a place in a file of the project, opening the file if it is another one."""
+
+        def show() -> None:
+            workspace = self.window.workspace
+            if workspace is None or workspace.path.resolve() != path.resolve():
+                self.window.files.open_path(path)
+            workspace = self.window.workspace
+            if address is not None and workspace is not None and workspace.path.resolve() == path.resolve():
+                self.window.go_to(address)
+
+        self.window.guarded(show, "Open")
 
     def copy(self) -> None:
         """Copy a file of the project under a new name and open the copy."""

@@ -10,6 +10,7 @@ from amp_studio.files import Document, Project, ProjectInfo
 from amp_studio.schema import Value
 from amp_studio.ui import file_dialogs
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.project_check import ProjectCheckDialog
 
 from .conftest import Person, action, on_disk
 
@@ -172,3 +173,23 @@ def test_a_broken_project_file_keeps_nobody_from_the_parameters(open_window, pat
     window = open_window(path)
     assert window.workspace is not None
     assert window.projects.project is None
+
+
+def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
+    window: MainWindow, project: Project
+) -> None:
+    with Document.open(project.path("second")) as second:
+        second.file.set_many({EXCESS: Value(1e9, "mm")}, force="by a test")
+        second.save()
+    project.path("third").write_text("family: 9pc\n", encoding="utf-8")
+    action(window, "Check All Files").trigger()
+    dialog = window.findChild(ProjectCheckDialog)
+    branches = {item.text(0): item for item in map(dialog.tree.topLevelItem, range(3))}
+    assert list(branches) == ["mill.amp", "second.amp", "third.amp"]
+    assert branches["third.amp"].text(4).startswith(str(project.path("third")))
+    assert "1 cannot be read" in dialog.text.text()
+    assert int(branches["second.amp"].text(1)) > int(branches["mill.amp"].text(1))
+    (leaf,) = (leaf for leaf in map(branches["second.amp"].child, range(branches["second.amp"].childCount()))
+               if "Excess Error 1000000000 mm is outside" in leaf.text(4))  # fmt: skip
+    dialog.tree.itemActivated.emit(leaf, 0)
+    assert (window.workspace.path, window.selected()) == (project.path("second"), EXCESS)
