@@ -229,9 +229,10 @@ class Situation:
         if address == (self.schema.family.machine_parameter, ""):
             self.forget()
             return
-        for asked in self._conditions.readers.get(address, ()):
+        conditions = self._conditions
+        for asked in tuple(conditions.readers.get(address, ())):  # another thread may be opening another file
             self._holds.pop(asked, None)
-            for plan in self._conditions.plans_asking.get(asked, ()):
+            for plan in tuple(conditions.plans_asking.get(asked, ())):
                 self._states.pop(plan, None)
 
     def forget(self) -> None:
