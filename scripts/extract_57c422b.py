@@ -9,13 +9,11 @@ defaults, each with its section and line. Bit layouts stand in figures, which th
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
-from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, written
+from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, write_facts
 
 HEAD = """Bare facts of the 57C422B 2-Axis Servo Module's manual, written by scripts/extract_57c422b.py. Not to be
 edited by hand: where the scanned text misleads the extractor, exceptions_57c422b.yaml says so."""
@@ -209,19 +207,5 @@ def sections(lines: Sequence[str], missed: list[str]) -> Iterator[Section]:
     yield from (part.facts() for part in parts)
 
 
-def main() -> int:
-    """Write the facts of the manual named on the command line."""
-    as_written = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    parser.add_argument("manual", type=Path, help="the manual's text")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the file of facts to write")
-    chosen = parser.parse_args()
-    missed: list[str] = []
-    lines = chosen.manual.read_text(encoding="utf-8").split("\n")
-    chosen.output.write_text(written(sections(lines, missed), HEAD), encoding="utf-8")
-    sys.stderr.writelines(f"{line}\n" for line in missed)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_facts(__doc__, HEAD, sections))

@@ -9,14 +9,21 @@ looks like a fact and is not understood is told on stderr; ``tests/manual`` hold
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
-from manual_facts import Fact, PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, written
+from manual_facts import (
+    Fact,
+    PrintedChoice,
+    PrintedNumber,
+    PrintedRange,
+    Section,
+    StoredRow,
+    cut,
+    write_facts,
+)
 
 HEAD = """Bare facts of the 9/PC AMP Reference Manual, written by scripts/extract_9pc.py. Not to be edited by hand:
 where the scanned text misleads the extractor, exceptions_9pc.yaml says so."""
@@ -326,19 +333,5 @@ def stored(row: StoredRow, said: str) -> StoredRow:
     return replace(row, low=found.low, high=found.high, unit=cut(f"{found.unit} {found.note}"))
 
 
-def main() -> int:
-    """Write the facts of the manual named on the command line."""
-    as_written = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    parser.add_argument("manual", type=Path, help="the manual's text, tables tab separated")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the file of facts to write")
-    chosen = parser.parse_args()
-    missed: list[str] = []
-    lines = chosen.manual.read_text(encoding="utf-8").split("\n")
-    chosen.output.write_text(written(sections(lines, missed), HEAD), encoding="utf-8")
-    sys.stderr.writelines(f"{line}\n" for line in missed)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_facts(__doc__, HEAD, sections))

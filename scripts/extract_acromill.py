@@ -10,15 +10,13 @@ of appendix C, each with the tab or chapter, its page and its line.
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
-from manual_facts import PrintedChoice, PrintedDefault, PrintedRange, Section, StoredRow, cut, written
+from manual_facts import PrintedChoice, PrintedDefault, PrintedRange, Section, StoredRow, cut, write_facts
 
 HEAD = """Bare facts of AcroMill's user's guide, written by scripts/extract_acromill.py. Not to be edited by hand: where
 the printed text misleads the extractor, exceptions_acromill.yaml says so."""
@@ -136,19 +134,5 @@ def _heads(text: str, title: str) -> bool:
     return text.startswith(title) if title == BEHIND else text.rstrip(".") == title
 
 
-def main() -> int:
-    """Write the facts of the manual named on the command line."""
-    as_written = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    parser.add_argument("manual", type=Path, help="the guide's text, tables tab separated")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the file of facts to write")
-    chosen = parser.parse_args()
-    missed: list[str] = []
-    lines = chosen.manual.read_text(encoding="utf-8").split("\n")
-    chosen.output.write_text(written(sections(lines, missed), HEAD), encoding="utf-8")
-    sys.stderr.writelines(f"{line}\n" for line in missed)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_facts(__doc__, HEAD, sections))

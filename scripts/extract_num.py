@@ -9,12 +9,10 @@ Sections whose heading the scan lost, and lines that look like facts and gave no
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from manual_facts import (
     ListedParameter,
@@ -25,7 +23,7 @@ from manual_facts import (
     PrintedWord,
     Section,
     cut,
-    written,
+    write_facts,
 )
 
 HEAD = """Bare facts of the NUM 1020/1040/1060 Parameter Manual, written by scripts/extract_num.py. Not to be edited by
@@ -338,19 +336,5 @@ def read_ranges(draft: Draft, n: int, text: str) -> None:
         said(value_of(one[1]), value_of(one[1]), "")
 
 
-def main() -> int:
-    """Write the facts of the manual named on the command line."""
-    as_written = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    parser.add_argument("manual", type=Path, help="the manual's text, tables tab separated")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the file of facts to write")
-    chosen = parser.parse_args()
-    missed: list[str] = []
-    lines = chosen.manual.read_text(encoding="utf-8").split("\n")
-    chosen.output.write_text(written(sections(lines, missed), HEAD), encoding="utf-8")
-    sys.stderr.writelines(f"{line}\n" for line in missed)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_facts(__doc__, HEAD, sections))

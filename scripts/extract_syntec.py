@@ -8,15 +8,13 @@ numbers (``21~40`` is one fact), units, defaults, ranges and values with their l
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
 
-from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, written
+from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, write_facts
 
 HEAD = """Bare facts of Syntec's slides on the axis parameters, written by scripts/extract_syntec.py. Not to be edited
 by hand: where the printed text misleads, exceptions_syntec.yaml says so."""
@@ -180,17 +178,5 @@ def sections(lines: Sequence[str]) -> Iterator[Section]:
             yield section
 
 
-def main() -> int:
-    """Write the facts of the manual named on the command line."""
-    as_written = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_written)
-    parser.add_argument("manual", type=Path, help="the slides' text, tables tab separated")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the file of facts to write")
-    chosen = parser.parse_args()
-    lines = chosen.manual.read_text(encoding="utf-8").split("\n")
-    chosen.output.write_text(written(sections(lines), HEAD), encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_facts(__doc__, HEAD, lambda lines, _: sections(lines)))

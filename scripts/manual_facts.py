@@ -7,8 +7,10 @@ neither ``amp_studio`` nor ``parameter_db``, because what it finds is there to j
 
 from __future__ import annotations
 
+import argparse
 import json
-from collections.abc import Iterable
+import sys
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 
@@ -161,6 +163,26 @@ Fact = (
     | PrintedDefault
 )
 KINDS = ("numbers", "ranges", "choices", "stored", "listed", "sizes", "words", "bits", "defaults")
+
+
+Extractor = Callable[[Sequence[str], list[str]], Iterable[Section]]
+"""What gives the sections for the lines of a manual, and adds what it missed to the list."""
+
+
+def write_facts(about: str | None, head: str, sections: Extractor) -> int:
+    """Write the facts of the manual named on the command line, and what was missed on standard error."""
+    as_written = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=about, formatter_class=as_written)
+    parser.add_argument(
+        "manual", type=Path, help="the manual's text, the cells of its tables separated by tabs"
+    )
+    parser.add_argument("-o", "--output", type=Path, required=True, help="the file of facts to write")
+    chosen = parser.parse_args()
+    missed: list[str] = []
+    lines = chosen.manual.read_text(encoding="utf-8").split("\n")
+    chosen.output.write_text(written(sections(lines, missed), head), encoding="utf-8")
+    sys.stderr.writelines(f"{line}\n" for line in missed)
+    return 0
 
 
 def written(sections: Iterable[Section], head: str) -> str:
