@@ -1,49 +1,17 @@
-"""The printed 9/PC manual beside the database: which parameter a printed fact speaks of, and how both are compared."""
+"""The printed 9/PC manual beside the database: which parameter a printed fact speaks of."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
-from pathlib import Path
+from functools import cached_property
 
-from manual_facts import PrintedNumber, Section, StoredRow, read
-from pydantic import TypeAdapter
-from ruamel.yaml import YAML
+from manual_facts import PrintedNumber, Section, StoredRow
+from printed_book import Book, Claim, squashed
 
-from amp_studio.schema import Parameter, Schema, unit_named
+from amp_studio.schema import Parameter, unit_named
 
-FACTS = Path(__file__).with_name("9pc.yaml")
-EXEMPTIONS = Path(__file__).with_name("exceptions_9pc.yaml")
 PATCH_PAGE = "37-3"
-
-
-@dataclass(frozen=True)
-class Disagreement:
-    """One place where manual and database say different things."""
-
-    check: str
-    line: int
-    """Line of the manual's text; 0 where the database says something that is printed nowhere."""
-    about: str
-    """A parameter's number or id."""
-    section: str
-    manual: str
-    database: str
-
-    def __str__(self) -> str:
-        where = f"line {self.line}, {self.section}" if self.line else self.section
-        return f"{self.check}: {self.about} ({where}): manual {self.manual}; database {self.database}"
-
-
-@dataclass(frozen=True)
-class Claim:
-    """An instance of a parameter that claims a number, on these machine types."""
-
-    parameter: str
-    instance: str
-    machines: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -55,17 +23,8 @@ class Home:
     numbers: tuple[str, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class Book:
-    """The facts of the manual and the database they are held against."""
-
-    schema: Schema
-    sections: tuple[Section, ...]
-
-    @property
-    def claims(self) -> dict[str, tuple[Claim, ...]]:
-        """Number -> the instances that claim it."""
-        return claims_of(self.schema)
+class Reference(Book):
+    """The facts of the AMP reference manual and the database they are held against."""
 
     @cached_property
     def described_in(self) -> dict[str, str]:
@@ -114,40 +73,6 @@ class Book:
             for key, numbers in found.items()
         )
 
-    def explained(
-        self, parameter: Parameter, page: str, said: Iterable[str], held: Iterable[object] = ()
-    ) -> bool:
-        """Tell whether an erratum names all that is printed on a page, and takes what is held, not that."""
-        said, held = tuple(said), tuple(map(str, held))
-        return bool(said) and any(
-            all(mentions(reading.says, one) for one in said)
-            and all(mentions(erratum.taken, one) for one in held)
-            and not (held and all(mentions(erratum.taken, one) for one in said))
-            for erratum in (self.schema.errata[key] for key in parameter.errata)
-            for reading in erratum.readings
-            if page in re.findall(r"\w+(?:[-.]\d+)*", reading.page)
-        )
-
-
-@cache
-def printed() -> tuple[Section, ...]:
-    """Return the facts of the manual."""
-    return read(FACTS)
-
-
-@cache
-def claims_of(schema: Schema) -> dict[str, tuple[Claim, ...]]:
-    """Return number -> the instances that claim it, and on which machine types."""
-    found: dict[str, dict[tuple[str, str], set[str]]] = {}
-    for machine in schema.family.machines:
-        for parameter in schema.parameters.values():
-            for instance, number in schema.numbers(parameter, machine.key).items():
-                found.setdefault(number, {}).setdefault((parameter.id, instance), set()).add(machine.key)
-    return {
-        number: tuple(Claim(*address, frozenset(machines)) for address, machines in claims.items())
-        for number, claims in found.items()
-    }
-
 
 def headings(section: Section) -> tuple[str, ...]:
     """Return the headings a section stands under."""
@@ -167,11 +92,6 @@ COUNTING = re.compile(
     r"(?:\d+|st|nd|rd|th|to|and|or|for|gears?|spindles?|spn|skip|set|mill|only|that|g|p|#)*"
 )
 """What a heading or a row says beyond the name when one parameter has many instances."""
-
-
-def squashed(text: str) -> str:
-    """Return letters, digits and signs only: a scan loses blanks and adds them."""
-    return re.sub(r"[^a-z0-9.<>$+%#]|(?<!\d)\.|\.(?!\d)", "", text.lower())
 
 
 def spelled(text: str) -> str:
@@ -225,7 +145,7 @@ def fits(number: PrintedNumber, claim: Claim) -> bool:
     return not (number.axis == "All" and claim.instance)
 
 
-# -- figures ----------------------------------------------------------------------------------------------
+# -- units ------------------------------------------------------------------------------------------------
 
 UNITS = {
     "volts dc": "V",
@@ -241,68 +161,3 @@ UNITS = {
 def unit_of(said: str) -> str:
     """Return the schema's unit for a printed one."""
     return UNITS[said] if said in UNITS else unit_named(said)
-
-
-def figures(text: str) -> set[float]:
-    """Return the numbers in a text."""
-    return {float(n.replace(",", "")) for n in re.findall(r"(?<![\d.])-?\d[\d,]*(?:\.\d+)?", text)}
-
-
-def mentions(text: str, said: str) -> bool:
-    """Tell whether a text names a printed figure, or else the printed words one after the other."""
-    try:
-        return float(said) in figures(text)
-    except ValueError:
-        words = map(re.escape, re.findall(r"[a-z0-9]+", said.lower()))
-        return re.search(rf"(?<![a-z0-9]){'[^a-z0-9]*'.join(words)}(?![a-z0-9])", text.lower()) is not None
-
-
-# -- exceptions -------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class Exempt:
-    """A place of the manual that no rule can judge, and why; it must be needed on every line of its span."""
-
-    check: str
-    lines: str
-    """``1754``, or ``1754-1761``; ``0`` where the database says something that is printed nowhere."""
-    about: tuple[str, ...] = ()
-    """What it is about, where the lines alone do not tell it."""
-    why: str
-
-    @property
-    def span(self) -> range:
-        first, _, last = self.lines.partition("-")
-        return range(int(first), int(last or first) + 1)
-
-    def needed_for(self) -> Iterator[tuple[int, str]]:
-        """Yield every line and subject that must have a disagreement."""
-        yield from ((line, about) for line in self.span for about in self.about or ("",))
-
-    def covers(self, found: Disagreement) -> bool:
-        """Tell whether a disagreement is excused."""
-        return (
-            found.check == self.check
-            and found.line in self.span
-            and (not self.about or found.about in self.about)
-        )
-
-
-def exemptions(path: Path = EXEMPTIONS) -> tuple[Exempt, ...]:
-    """Return the hand-kept list."""
-    return TypeAdapter(tuple[Exempt, ...]).validate_python(
-        YAML(typ="safe").load(path.read_text("utf-8")) or ()
-    )
-
-
-def unsettled(check: str, found: Iterable[Disagreement], exempt: Iterable[Exempt]) -> list[str]:
-    """Return the disagreements no exception covers, and the exceptions that are not needed any more."""
-    found, exempt = list(found), [e for e in exempt if e.check == check]
-    open_ones = [str(one) for one in found if not any(e.covers(one) for e in exempt)]
-    return open_ones + [
-        f"{check}: the exception for line {line} {about}".rstrip() + " is not needed any more"
-        for e in exempt
-        for line, about in e.needed_for()
-        if not any(e.covers(one) and one.line == line and about in {"", one.about} for one in found)
-    ]

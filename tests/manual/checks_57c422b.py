@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator
 from functools import cache
 
-from book_9pc import Book, Disagreement, claims_of, mentions, squashed
+from disagreements import Disagreement, at_line, nowhere
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow
+from printed_book import Book, claims_of, mentions, squashed
 
 from amp_studio.schema import Parameter, Schema
 
-NOWHERE = "says nothing"
 OF_Y = 2048
 SHARED = {64, 4095}
 """Registers that both axes have together; every other one of X has its like on Y, so many registers on."""
@@ -25,14 +25,6 @@ def registers(printed: str) -> list[int]:
     for first, last in re.findall(r"(\d+)(?:-(\d+))?", printed):
         found += range(int(first), int(last or first) + 1)
     return found
-
-
-def odd(check: str, section: Section, line: int, about: str, manual: str, database: str) -> Disagreement:
-    return Disagreement(check, line, about, f"{section.page} {section.heading}", manual, database)
-
-
-def nowhere(check: str, about: str, database: str) -> Disagreement:
-    return Disagreement(check, 0, about, "the whole text", NOWHERE, database)
 
 
 @cache
@@ -119,7 +111,7 @@ def number_of(book: Module, section: Section, fact: PrintedNumber) -> Iterator[D
     """Tell what is wrong with those who hold a printed register."""
 
     def differs(manual: str, database: str) -> Disagreement:
-        return odd("numbers", section, fact.line, fact.number, manual, database)
+        return at_line("numbers", section, fact.line, fact.number, manual, database)
 
     printed = registers(fact.number)
     for register in printed:
@@ -162,17 +154,19 @@ def choice_of(book: Module, section: Section, fact: PrintedChoice) -> Iterator[D
     owners = book.owners(fact.number)
     here = [parameter.id for parameter in book.of_section(section)]
     if not owners:
-        yield odd("choices", section, fact.line, fact.number, fact.letter or fact.text, "no parameter has it")
+        yield at_line(
+            "choices", section, fact.line, fact.number, fact.letter or fact.text, "no parameter has it"
+        )
     for parameter in owners:
         named = [bit for bit in parameter.bits or () if not bit.label.startswith("Unnamed")]
         known = [bit for one in named for bit in range(one.bit, one.bit + one.width)]
         readings = [r.says for key in parameter.errata for r in book.schema.errata[key].readings]
         doubted = any(mentions(says, f"bit {fact.letter}") for says in readings)
         if fact.letter and int(fact.letter) not in known and not doubted:
-            yield odd("choices", section, fact.line, parameter.id, f"bit {fact.letter}", f"knows {known}")
+            yield at_line("choices", section, fact.line, parameter.id, f"bit {fact.letter}", f"knows {known}")
         told = (words_of(book.schema, name) for name in (parameter.id, *here))
         if fact.text and not any(squashed(fact.text) in one for one in told):
-            yield odd("choices", section, fact.line, parameter.id, f"names {fact.text!r}", "does not")
+            yield at_line("choices", section, fact.line, parameter.id, f"names {fact.text!r}", "does not")
 
 
 # -- ranges, units and defaults ---------------------------------------------------------------------------
@@ -241,12 +235,14 @@ def range_of(book: Module, section: Section, fact: PrintedRange) -> Iterator[Dis
     for end, said in ends(fact):
         if not any(is_bound(p, end, said) for p in owners):
             held = {p.id: bounds_of(p) for p in owners if bounds_of(p)}
-            yield odd("ranges", section, fact.line, f"{fact.low} to {fact.high}", f"end {said:g}", f"{held}")
+            yield at_line(
+                "ranges", section, fact.line, f"{fact.low} to {fact.high}", f"end {said:g}", f"{held}"
+            )
     if " to " in fact.low + fact.high:
         taken = " ".join(book.schema.errata[key].taken for p in owners for key in p.errata)
         low, high = (figure(f"0{said}".partition(" ")[0]) for said in (fact.low, fact.high))
         if f"{low:g} to {high:g} times" not in taken:
-            yield odd(
+            yield at_line(
                 "ranges", section, fact.line, fact.low, f"{fact.low} and {fact.high}", f"takes {taken!r}"
             )
 
@@ -274,15 +270,17 @@ def check_stored(book: Module) -> Iterator[Disagreement]:
 def row_of(book: Module, section: Section, row: StoredRow) -> Iterator[Disagreement]:
     """Tell the disagreements on a printed unit or default."""
     if not book.owners(row.numbers[0]):
-        yield odd(
+        yield at_line(
             "stored", section, row.line, row.numbers[0], f"{row.default} {row.unit}", "no parameter has it"
         )
     for parameter in book.owners(row.numbers[0]):
         storage, default = parameter.storage, parameter.default
         unit = (storage.unit if storage else None) or ""
         if row.unit and UNITS.get(row.unit, row.unit) != unit:
-            yield odd("stored", section, row.line, parameter.id, f"unit {row.unit}", f"unit {unit}")
+            yield at_line("stored", section, row.line, parameter.id, f"unit {row.unit}", f"unit {unit}")
         scale = storage.scale if storage else 1.0
         held = default.value * scale if default and isinstance(default.value, int | float) else None
         if row.default and (held is None or abs(held - float(row.default)) > 1e-9):
-            yield odd("stored", section, row.line, parameter.id, f"default {row.default}", f"default {held}")
+            yield at_line(
+                "stored", section, row.line, parameter.id, f"default {row.default}", f"default {held}"
+            )

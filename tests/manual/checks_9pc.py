@@ -9,23 +9,20 @@ from string import ascii_lowercase
 
 from book_9pc import (
     PATCH_PAGE,
-    Book,
-    Claim,
-    Disagreement,
     Home,
+    Reference,
     headings,
     pages,
     same_name,
     spelled,
-    squashed,
     unit_of,
 )
+from disagreements import NOWHERE, Disagreement
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow
+from printed_book import Claim, squashed
 
 from amp_studio.schema import Choice, Parameter
 from amp_studio.schema.model import Bound, BoundRef, Range
-
-NOWHERE = "says nothing"
 
 
 def told(section: Section) -> str:
@@ -35,7 +32,7 @@ def told(section: Section) -> str:
 # -- numbers, names and pages -----------------------------------------------------------------------------
 
 
-def check_numbers(book: Book) -> Iterator[Disagreement]:
+def check_numbers(book: Reference) -> Iterator[Disagreement]:
     """Every printed number belongs to the parameters that claim it, and every claim is printed."""
     for section in book.sections:
         yield from numbers_of(book, section)
@@ -56,7 +53,7 @@ def check_numbers(book: Book) -> Iterator[Disagreement]:
                 yield from _printed_elsewhere(book, text, claim, stored.get(text))
 
 
-def numbers_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def numbers_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the numbers of one section."""
     for number in section.numbers:
         if not book.claims.get(number.number):
@@ -67,7 +64,7 @@ def numbers_of(book: Book, section: Section) -> Iterator[Disagreement]:
 
 
 def _at_home(
-    book: Book, section: Section, number: PrintedNumber, at_home: tuple[Claim, ...]
+    book: Reference, section: Section, number: PrintedNumber, at_home: tuple[Claim, ...]
 ) -> Iterator[Disagreement]:
     """Tell what is wrong with the claims that a printed number belongs to."""
 
@@ -88,7 +85,7 @@ def _at_home(
 
 
 def _printed_elsewhere(
-    book: Book, number: str, claim: Claim, row: StoredRow | None
+    book: Reference, number: str, claim: Claim, row: StoredRow | None
 ) -> Iterator[Disagreement]:
     """Tell of a claim that no section prints: it stands in the Patch AMP table under its name, or is invented."""
     page, where = book.page(claim), _claim(book, claim)
@@ -116,7 +113,7 @@ def _row(number: PrintedNumber) -> str:
     return "prints it: " + ", ".join(said)
 
 
-def _claim(book: Book, claim: Claim) -> str:
+def _claim(book: Reference, claim: Claim) -> str:
     instance = f"@{claim.instance}" if claim.instance else ""
     return f"{claim.parameter}{instance} (page {book.page(claim)})"
 
@@ -124,13 +121,13 @@ def _claim(book: Book, claim: Claim) -> str:
 # -- ranges -----------------------------------------------------------------------------------------------
 
 
-def check_ranges(book: Book) -> Iterator[Disagreement]:
+def check_ranges(book: Reference) -> Iterator[Disagreement]:
     """Every printed range is what the database holds in that unit, and it holds no other."""
     for section in book.sections:
         yield from ranges_of(book, section)
 
 
-def ranges_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def ranges_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the ranges of one section."""
     homes = book.homes(section)
     for fact in section.ranges:
@@ -144,7 +141,7 @@ def ranges_of(book: Book, section: Section) -> Iterator[Disagreement]:
 
 
 def _ranges(
-    book: Book, section: Section, parameter: Parameter, facts: list[PrintedRange]
+    book: Reference, section: Section, parameter: Parameter, facts: list[PrintedRange]
 ) -> Iterator[Disagreement]:
     held = held_ranges(parameter)
     exact = [one for one in held if any(range_is(book, fact, one) for fact in facts)]
@@ -168,19 +165,19 @@ def _ranges(
             yield Disagreement("ranges", 0, about, told(section), NOWHERE, held_text(*one))
 
 
-def neighbour_units(book: Book, held: list[tuple[str, Range]]) -> set[str]:
+def neighbour_units(book: Reference, held: list[tuple[str, Range]]) -> set[str]:
     """Return the units of the parameters that are bounds: a range printed in words only holds in all of them."""
     bounds = [bound.param for _, both in held for bound in both if isinstance(bound, BoundRef)]
     return {unit for name in bounds for unit, _ in held_ranges(book.schema.parameters[name])}
 
 
-def range_is(book: Book, fact: PrintedRange, held: tuple[str, Range]) -> bool:
+def range_is(book: Reference, fact: PrintedRange, held: tuple[str, Range]) -> bool:
     """Tell whether a range is held as it is printed."""
     return unit_agrees(fact, held[0]) and not list(wrong_bounds(book, fact, held[1]))
 
 
 def range_explained(
-    book: Book, section: Section, parameter: Parameter, fact: PrintedRange, held: tuple[str, Range]
+    book: Reference, section: Section, parameter: Parameter, fact: PrintedRange, held: tuple[str, Range]
 ) -> bool:
     """Tell whether an erratum names both readings of all bounds that differ."""
     wrong = list(wrong_bounds(book, fact, held[1]))
@@ -193,7 +190,7 @@ def range_explained(
     return unit_agrees(fact, held[0]) and book.explained(parameter, section.page, said, instead)
 
 
-def wrong_bounds(book: Book, fact: PrintedRange, bounds: Range) -> Iterator[tuple[str, Bound]]:
+def wrong_bounds(book: Reference, fact: PrintedRange, bounds: Range) -> Iterator[tuple[str, Bound]]:
     """Yield both readings of the bounds that differ."""
     for said, bound in zip((fact.low, fact.high), bounds, strict=True):
         if not bound_agrees(book, said, bound):
@@ -228,7 +225,7 @@ def is_worded(fact: PrintedRange) -> bool:
     return not fact.unit and not re.match(r"-?\d", fact.low) and not re.match(r"-?\d", fact.high)
 
 
-def bound_agrees(book: Book, said: str, bound: Bound) -> bool:
+def bound_agrees(book: Reference, said: str, bound: Bound) -> bool:
     """Tell whether a printed bound, a figure or the name of another parameter, is the one of the database."""
     if isinstance(bound, BoundRef):
         return same_name(book.schema.parameters[bound.param].name, said, said.removesuffix(" value"))
@@ -238,7 +235,7 @@ def bound_agrees(book: Book, said: str, bound: Bound) -> bool:
         return False
 
 
-def choices_span(book: Book, section: Section, parameter: Parameter, fact: PrintedRange) -> bool:
+def choices_span(book: Reference, section: Section, parameter: Parameter, fact: PrintedRange) -> bool:
     """Tell whether the codes of a choice fill a printed range, or an erratum names the bounds that no code has."""
     codes = [choice.raw for choice in parameter.choices or () if choice.raw is not None]
     ends = zip((fact.low, fact.high), (min(codes, default=None), max(codes, default=None)), strict=True)
@@ -262,7 +259,7 @@ def held_text(unit: str, bounds: Range) -> str:
 # -- choices ----------------------------------------------------------------------------------------------
 
 
-def check_choices(book: Book) -> Iterator[Disagreement]:
+def check_choices(book: Reference) -> Iterator[Disagreement]:
     """Every printed choice has its letter and its label in the database, and it has no other."""
     described = set()
     for section in book.sections:
@@ -275,7 +272,7 @@ def check_choices(book: Book) -> Iterator[Disagreement]:
                 yield Disagreement("choices", 0, about, parameter.page, "has no section of it", database)
 
 
-def choices_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def choices_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the choices of one section."""
     homes = book.homes(section)
     for fact in section.choices:
@@ -293,7 +290,7 @@ def lettered(facts: list[PrintedChoice]) -> list[PrintedChoice]:
 
 
 def _choices(
-    book: Book, section: Section, parameter: Parameter, facts: list[PrintedChoice]
+    book: Reference, section: Section, parameter: Parameter, facts: list[PrintedChoice]
 ) -> Iterator[Disagreement]:
     held = list(parameter.choices or ())
     odd: list[Choice] = []
@@ -315,7 +312,7 @@ def _choices(
 
 
 def choice_agrees(
-    book: Book, section: Section, parameter: Parameter, fact: PrintedChoice, choice: Choice
+    book: Reference, section: Section, parameter: Parameter, fact: PrintedChoice, choice: Choice
 ) -> bool:
     """Tell whether a choice has its letter and its label, or an erratum names both labels."""
     if fact.letter != choice.code:

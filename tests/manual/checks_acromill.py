@@ -6,12 +6,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from book_9pc import Book, Disagreement, mentions, squashed
+from disagreements import Disagreement, at_line, nowhere
 from manual_facts import PrintedChoice, PrintedRange, Section, StoredRow
+from printed_book import Book, mentions, squashed
 
 from amp_studio.schema import Parameter
 
-NOWHERE = "says nothing"
 KINDS = {"Boolean": "boolean", "Integer": "integer", "Float": "real", "Sign": "choice", "NA": ""}
 """Words of the column of units that are no units, and the type they stand for."""
 UNITS = {
@@ -40,14 +40,6 @@ SHORT = {"spd": "speed", "mach": "machine", "for": "forward", "back": "backward"
          "src": "source", "mult": "multiplier", "tangen": "tangent", "compensat": "compensation", "pos": "position",
          "excesserr": "excesserror", "units": "", "per": "", "linear": "", "unit": "", "travel": "", "in": "", "sec": "",
          "msec": "", "disp": "display", "big": "", "small": "", "stp": "stop", "colorviadcodes": "colorviadcodes"}  # fmt: skip
-
-
-def odd(check: str, section: Section, line: int, about: str, manual: str, database: str) -> Disagreement:
-    return Disagreement(check, line, about, f"{section.page} {section.heading}", manual, database)
-
-
-def nowhere(check: str, about: str, database: str) -> Disagreement:
-    return Disagreement(check, 0, about, "the tabs", NOWHERE, database)
 
 
 def long(name: str) -> str:
@@ -88,18 +80,22 @@ def check_names(book: Guide) -> Iterator[Disagreement]:
             found = book.called(section, row.name)
             if len(found) != 1:
                 held = ", ".join(parameter.id for parameter in found) or "nothing"
-                yield odd("names", section, row.line, row.name, f"is called {row.name!r}", f"calls so {held}")
+                yield at_line(
+                    "names", section, row.line, row.name, f"is called {row.name!r}", f"calls so {held}"
+                )
             elif (
                 row.default
                 and squashed(found[0].name) != squashed(row.name)
                 and not book.told(found[0], row.name)
             ):
-                yield odd("names", section, row.line, row.name, f"is {row.name!r}", f"is {found[0].name!r}")
+                yield at_line(
+                    "names", section, row.line, row.name, f"is {row.name!r}", f"is {found[0].name!r}"
+                )
             printed |= {parameter.id for parameter in found}
     pages = {section.page for section in book.sections}
     for parameter in book.schema.parameters.values():
         if parameter.page in pages and parameter.id not in printed:
-            yield nowhere("names", parameter.id, f"is called {parameter.name!r}")
+            yield nowhere("names", parameter.id, f"is called {parameter.name!r}", "the tabs")
 
 
 def check_values(book: Guide) -> Iterator[Disagreement]:
@@ -113,7 +109,7 @@ def check_values(book: Guide) -> Iterator[Disagreement]:
     pages = {section.page for section in book.sections}
     for parameter in book.schema.parameters.values():
         if parameter.page in pages and parameter.default and parameter.id not in printed:
-            yield nowhere("values", parameter.id, f"default {parameter.default.value}")
+            yield nowhere("values", parameter.id, f"default {parameter.default.value}", "the tabs")
 
 
 def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter) -> Iterator[Disagreement]:
@@ -131,11 +127,11 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
             for erratum in errata
         )
         if not doubted:
-            yield odd("values", section, row.line, row.name, f"default {row.default}", f"default {held}")
+            yield at_line("values", section, row.line, row.name, f"default {row.default}", f"default {held}")
     if row.unit in KINDS:
         types = {KINDS[row.unit] or parameter.type, "bits" if row.unit == "Integer" else ""}
         if parameter.type not in types:
-            yield odd("values", section, row.line, row.name, row.unit, f"is {parameter.type}")
+            yield at_line("values", section, row.line, row.name, row.unit, f"is {parameter.type}")
     elif row.unit:
         units = book.schema.units_of(parameter)
         doubts = [e.taken for e in errata if any(mentions(reading.says, row.unit) for reading in e.readings)]
@@ -146,7 +142,7 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
             else UNITS.get(row.unit) in units
         )
         if not right and not (parameter.choices and row.unit in UNITS):
-            yield odd("values", section, row.line, row.name, f"unit {row.unit}", f"units {units}")
+            yield at_line("values", section, row.line, row.name, f"unit {row.unit}", f"units {units}")
     shown = row.codes.get("shown", "")
     known = {"Disable", *labels.values(), *(choice.code for choice in parameter.choices or ())}
     if (
@@ -154,7 +150,7 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
         and parameter.choices
         and not any(one and shown.casefold().startswith(one.casefold()) for one in known)
     ):
-        yield odd("values", section, row.line, row.name, f"shows {shown}", f"has {labels}")
+        yield at_line("values", section, row.line, row.name, f"shows {shown}", f"has {labels}")
 
 
 def check_typical(book: Guide) -> Iterator[Disagreement]:
@@ -166,7 +162,9 @@ def check_typical(book: Guide) -> Iterator[Disagreement]:
                 continue
             found = book.called(section, row.name)
             if not any(typical in f"{p.help.what} {p.help.find} {p.help.wrong}" for p in found):
-                yield odd("typical", section, row.line, row.name, f"typically {typical}", "does not tell it")
+                yield at_line(
+                    "typical", section, row.line, row.name, f"typically {typical}", "does not tell it"
+                )
 
 
 def check_runs(book: Guide) -> Iterator[Disagreement]:
@@ -175,7 +173,7 @@ def check_runs(book: Guide) -> Iterator[Disagreement]:
     printed: dict[str, list[float]] = {name: [] for name in table.head[1:-1]}
     for section in book.sections:
         if section.defaults and section.page != table.page:
-            yield odd(
+            yield at_line(
                 "runs", section, section.line, table.title, "lists of gains", f"is of page {table.page}"
             )
         for fact in section.defaults:
@@ -207,7 +205,7 @@ def range_of(book: Guide, section: Section, fact: PrintedRange) -> Iterator[Disa
     found = book.called(section, fact.applies)
     held = [tuple(both) for p in found for both in (p.ranges or {}).values()]
     if (float(fact.low), float(fact.high)) not in held:
-        yield odd("ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", f"{held}")
+        yield at_line("ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", f"{held}")
 
 
 def choice_of(book: Guide, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:
@@ -215,4 +213,6 @@ def choice_of(book: Guide, section: Section, fact: PrintedChoice) -> Iterator[Di
     found = book.called(section, fact.number)
     told = " ".join(f"{p.help.what} {p.help.find}" for p in found)
     if not any(mentions(told, fact.letter) and p.type == "integer" for p in found):
-        yield odd("ranges", section, fact.line, fact.number, f"{fact.letter} {fact.text}", "does not tell it")
+        yield at_line(
+            "ranges", section, fact.line, fact.number, f"{fact.letter} {fact.text}", "does not tell it"
+        )

@@ -4,44 +4,37 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import NamedTuple
 
-from book_9pc import Disagreement, mentions
+from disagreements import Disagreement
 from manual_facts import ListedParameter, PrintedChoice, PrintedDefault, PrintedRange, PrintedWord, Section
+from printed_book import Book, mentions
 
-from amp_studio.schema import Choice, Parameter, Schema
+from amp_studio.schema import Choice, Parameter
 
-FACTS = Path(__file__).with_name("num.yaml")
-EXEMPTIONS = Path(__file__).with_name("exceptions_num.yaml")
 MACHINE = "cnc"
 
 
-class Claim(NamedTuple):
+class Claimant(NamedTuple):
     """An instance of a parameter that claims a word."""
 
     parameter: Parameter
     instance: str
 
 
-@dataclass(frozen=True, eq=False)
-class Book:
-    """The facts of the manual and the database they are held against."""
-
-    schema: Schema
-    sections: tuple[Section, ...]
+class Words(Book):
+    """The facts of the parameter manual and the database they are held against."""
 
     @cached_property
-    def words(self) -> dict[str, dict[int, tuple[Claim, ...]]]:
+    def words(self) -> dict[str, dict[int, tuple[Claimant, ...]]]:
         """``P35`` -> word -> who claims it."""
-        found: dict[str, dict[int, tuple[Claim, ...]]] = {}
+        found: dict[str, dict[int, tuple[Claimant, ...]]] = {}
         for parameter in self.schema.parameters.values():
             for instance, said in self.schema.numbers(parameter, MACHINE).items():
                 number, _, word = said.partition("N")
                 claimed = found.setdefault(number, {})
-                claimed[int(word)] = (*claimed.get(int(word), ()), Claim(parameter, instance))
+                claimed[int(word)] = (*claimed.get(int(word), ()), Claimant(parameter, instance))
         return found
 
     @cached_property
@@ -73,14 +66,14 @@ class Book:
             if fact.applies.startswith("type ")
         }
 
-    def claims(self, number: str, word: str = "") -> tuple[Claim, ...]:
+    def claims_on(self, number: str, word: str = "") -> tuple[Claimant, ...]:
         """Return who claims these words of a parameter, or any word of it."""
         held = self.words.get(number, {})
         return tuple(claim for n in (span(word) if word else held) for claim in held.get(n, ()))
 
-    def explained(self, number: str, said: str, held: Iterable[object] = ()) -> bool:
+    def has_erratum(self, number: str, said: str, held: Iterable[object] = ()) -> bool:
         """Tell whether an erratum of this parameter names what is printed and takes what is held."""
-        errata = {key for claim in self.claims(number) for key in claim.parameter.errata}
+        errata = {key for claim in self.claims_on(number) for key in claim.parameter.errata}
         return any(
             any(mentions(reading.says, said) for reading in self.schema.errata[key].readings)
             and all(mentions(self.schema.errata[key].taken, str(one)) for one in held)
@@ -118,34 +111,39 @@ def figure(said: str, *, hexadecimal: bool = False) -> float:
 # -- the list of chapter 2 --------------------------------------------------------------------------------
 
 
-def check_list(book: Book) -> Iterator[Disagreement]:
+def check_list(book: Words) -> Iterator[Disagreement]:
     """Every P of chapter 2 is there with its type, category and page, and there is no other."""
     for section in book.sections:
-        for row in section.listed:
-            yield from row_of(book, row)
+        yield from listed_of(book, section)
     for number in book.words.keys() - book.pages.keys():
         yield Disagreement("list", 0, number, "chapter 2", "does not list it", "claims words of it")
 
 
-def row_of(book: Book, row: ListedParameter) -> Iterator[Disagreement]:
+def listed_of(book: Words, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the rows of the list."""
+    for row in section.listed:
+        yield from row_of(book, row)
+
+
+def row_of(book: Words, row: ListedParameter) -> Iterator[Disagreement]:
     """Tell the disagreements on one row of the list."""
 
     def differs(manual: str, database: str) -> Disagreement:
         return Disagreement("list", row.line, row.number, "chapter 2", manual, database)
 
-    claims = book.claims(row.number)
+    claims = book.claims_on(row.number)
     if not claims:
         yield differs("lists it", "has no such parameter")
     codes = {claim.parameter.storage.code if claim.parameter.storage else None for claim in claims}
     wrong = sorted(str(code) for code in codes if str(code) != row.type and (code is not None or row.type))
-    if wrong and not book.explained(row.number, row.type, wrong):
+    if wrong and not book.has_erratum(row.number, row.type, wrong):
         yield differs(f"type {row.type}", f"type {', '.join(wrong)}")
     pages = {book.schema.page((claim.parameter.id, claim.instance)) for claim in claims}
     if row.page[:1].isdigit():
         odd = {page for page in pages if page != row.page}
     else:
         odd = {page for page in pages if not page.startswith("2-")}
-    if odd and not book.explained(row.number, row.page, odd):
+    if odd and not book.has_erratum(row.number, row.page, odd):
         yield differs(f"page {row.page}", f"page {', '.join(sorted(odd))}")
     groups = {book.schema.group_of[claim.parameter.id].key for claim in claims}
     category = re.sub(r"[^a-z]", "_", row.category.lower()) or "reserved"
@@ -156,14 +154,14 @@ def row_of(book: Book, row: ListedParameter) -> Iterator[Disagreement]:
 # -- words and bits ---------------------------------------------------------------------------------------
 
 
-def check_words(book: Book) -> Iterator[Disagreement]:
+def check_words(book: Words) -> Iterator[Disagreement]:
     """The words of the database are those that are printed, each once, and every type is that of the section."""
     for section in book.sections:
         yield from words_of(book, section)
     for number, held in book.words.items():
         printed = book.printed_words.get(number, set())
         more = held.keys() - printed
-        if more and not (printed and book.explained(number, runs(more))):
+        if more and not (printed and book.has_erratum(number, runs(more))):
             says = f"prints {runs(printed) or 'no words'}"
             yield Disagreement("words", 0, number, book.pages.get(number, ""), says, f"has {runs(more)}")
         twice = [word for word, claims in held.items() if len(claims) > 1]
@@ -172,42 +170,42 @@ def check_words(book: Book) -> Iterator[Disagreement]:
             yield Disagreement("words", 0, number, "twice", f"prints {runs(twice)} once", ", ".join(names))
 
 
-def words_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def words_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the words of one section."""
     for size in section.sizes:
         held = book.words.get(size.number, {})
-        codes = {str(c.parameter.storage and c.parameter.storage.code) for c in book.claims(size.number)}
+        codes = {str(c.parameter.storage and c.parameter.storage.code) for c in book.claims_on(size.number)}
         odd = codes - {size.type}
         where = f"{section.page} {section.heading}"
-        if odd and not book.explained(size.number, size.type, odd):
+        if odd and not book.has_erratum(size.number, size.type, odd):
             says = f"type {size.type}"
             yield Disagreement("words", size.line, size.number, where, says, f"type {', '.join(sorted(odd))}")
-        if len(held) != size.words and not book.explained(size.number, str(size.words)):
+        if len(held) != size.words and not book.has_erratum(size.number, str(size.words)):
             says = f"{size.words} words"
             yield Disagreement("words", size.line, size.number, where, says, f"{len(held)} words")
     for fact in section.words:
         lost = [n for n in span(fact.word) if n not in book.words.get(fact.number, {})]
-        if lost and not book.explained(fact.number, fact.word):
+        if lost and not book.has_erratum(fact.number, fact.word):
             where = f"{section.page} {section.heading}"
             yield Disagreement("words", fact.line, fact.number, where, fact.word, f"lacks {runs(lost)}")
 
 
-def check_bits(book: Book) -> Iterator[Disagreement]:
+def check_bits(book: Words) -> Iterator[Disagreement]:
     """Every printed bit is one that its word has, and stands at the ends of a field there."""
     for section in book.sections:
         yield from bits_of(book, section)
 
 
-def bits_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def bits_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the bits of one section."""
     for fact in section.bits:
-        if not any(has_bits(claim.parameter, fact) for claim in book.claims(fact.number, fact.word)):
+        if not any(has_bits(claim.parameter, fact) for claim in book.claims_on(fact.number, fact.word)):
             about = f"{fact.number} {fact.word}".strip()
             held = ", ".join(
                 sorted(
                     {
                         f"{claim.parameter.id} {fields(claim.parameter)}"
-                        for claim in book.claims(fact.number, fact.word)
+                        for claim in book.claims_on(fact.number, fact.word)
                     }
                 )
             )
@@ -235,13 +233,13 @@ def has_bits(parameter: Parameter, fact: PrintedWord) -> bool:
 # -- codes of bits ----------------------------------------------------------------------------------------
 
 
-def check_codes(book: Book) -> Iterator[Disagreement]:
+def check_codes(book: Words) -> Iterator[Disagreement]:
     """Every printed code of a field of bits has its text in the database, and the field has no other."""
     for section in book.sections:
         yield from codes_of(book, section)
 
 
-def codes_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def codes_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the codes of one section, and the choices of its fields that no code prints."""
     where = f"{section.page} {section.heading}"
     told: dict[tuple[str, str], list[int]] = {}
@@ -262,10 +260,10 @@ def codes_of(book: Book, section: Section) -> Iterator[Disagreement]:
                 yield Disagreement("codes", 0, f"{number} bits {bits}", where, says, held_one)
 
 
-def choices_of(book: Book, fact: PrintedChoice) -> list[Choice]:
+def choices_of(book: Words, fact: PrintedChoice) -> list[Choice]:
     """Return the choices of the field of bits that a code is printed for."""
     low, high = sorted(map(int, fact.applies.split("-")))
-    found = {claim.parameter.id: claim.parameter for claim in book.claims(fact.number)}
+    found = {claim.parameter.id: claim.parameter for claim in book.claims_on(fact.number)}
     return [
         choice
         for parameter in found.values()
@@ -284,13 +282,15 @@ def same_text(label: str, said: str) -> bool:
 # -- defaults and bounds ----------------------------------------------------------------------------------
 
 
-def check_defaults(book: Book) -> Iterator[Disagreement]:
+def check_defaults(book: Words) -> Iterator[Disagreement]:
     """Every printed default is the one of its word, and no other is held."""
     printed: set[str] = set()
     for section in book.sections:
         yield from defaults_of(book, section)
         printed |= {
-            claim.parameter.id for fact in section.defaults for claim in book.claims(fact.number, fact.word)
+            claim.parameter.id
+            for fact in section.defaults
+            for claim in book.claims_on(fact.number, fact.word)
         }
     for parameter in book.schema.parameters.values():
         if parameter.default is not None and parameter.id not in printed:
@@ -298,13 +298,13 @@ def check_defaults(book: Book) -> Iterator[Disagreement]:
             yield Disagreement("defaults", 0, parameter.id, parameter.page, "prints none", says)
 
 
-def defaults_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def defaults_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the defaults of one section; without a word, one of its words must have it."""
     for fact in section.defaults:
-        claims = book.claims(fact.number, fact.word)
+        claims = book.claims_on(fact.number, fact.word)
         agreed = [default_is(claim, fact) for claim in claims]
         whole = all(agreed) if fact.word else any(agreed)
-        if not (agreed and whole) and not book.explained(fact.number, fact.value):
+        if not (agreed and whole) and not book.has_erratum(fact.number, fact.value):
             about = f"{fact.number} {fact.word}".strip()
             held = sorted({f"{c.parameter.id} {held_default(c)}" for c in claims}) or ["has no such word"]
             says = f"{fact.note} {fact.value} {fact.unit}".strip()
@@ -312,7 +312,7 @@ def defaults_of(book: Book, section: Section) -> Iterator[Disagreement]:
             yield Disagreement("defaults", fact.line, about, where, says, ", ".join(held))
 
 
-def held_default(claim: Claim) -> float | bool | str | None:
+def held_default(claim: Claimant) -> float | bool | str | None:
     """Return the default of an instance; that of a choice is its code."""
     default = claim.parameter.default
     if default is None:
@@ -322,7 +322,7 @@ def held_default(claim: Claim) -> float | bool | str | None:
     return codes.get(str(value)) if str(value) in codes else value
 
 
-def default_is(claim: Claim, fact: PrintedDefault) -> bool:
+def default_is(claim: Claimant, fact: PrintedDefault) -> bool:
     """Tell whether an instance has the printed default, in the printed unit."""
     held, default = held_default(claim), claim.parameter.default
     if held is None or default is None:
@@ -335,7 +335,7 @@ def default_is(claim: Claim, fact: PrintedDefault) -> bool:
         return fact.value.lower() in {str(default.value).lower(), labels.get(str(default.value), "").lower()}
 
 
-def check_ranges(book: Book) -> Iterator[Disagreement]:
+def check_ranges(book: Words) -> Iterator[Disagreement]:
     """Every printed bound is held, and what is held is either printed or the whole range of the type."""
     printed: set[str] = set()
     for section in book.sections:
@@ -343,7 +343,7 @@ def check_ranges(book: Book) -> Iterator[Disagreement]:
         printed |= {
             claim.parameter.id
             for fact in section.ranges
-            for claim in book.claims(*place_of(fact))
+            for claim in book.claims_on(*place_of(fact))
             if place_of(fact)[0]
         }
     for parameter in book.schema.parameters.values():
@@ -363,15 +363,15 @@ def place_of(fact: PrintedRange) -> tuple[str, str]:
     return ("", "") if number == "type" else (number, word)
 
 
-def ranges_of(book: Book, section: Section) -> Iterator[Disagreement]:
+def ranges_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the bounds of one section."""
     for fact in section.ranges:
         number, word = place_of(fact)
-        claims = book.claims(number, word)
+        claims = book.claims_on(number, word)
         if not number or (claims and all(range_is(claim.parameter, fact) for claim in claims)):
             continue
         if fact.note == "recommended" or all(
-            book.explained(number, said) for said in (fact.low, fact.high) if said
+            book.has_erratum(number, said) for said in (fact.low, fact.high) if said
         ):
             continue
         held = sorted({f"{claim.parameter.id} {held_range(claim.parameter)}" for claim in claims})

@@ -6,12 +6,11 @@ import re
 from collections.abc import Iterator
 from functools import cached_property
 
-from book_9pc import Book, Claim, Disagreement, figures, squashed
+from disagreements import Disagreement, at_line, nowhere
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow
+from printed_book import Book, Claim, figures, squashed
 
 from amp_studio.schema import Parameter
-
-NOWHERE = "says nothing"
 
 
 def spanned(printed: str) -> range:
@@ -47,14 +46,6 @@ class Slides(Book):
         return any(said in self.schema.errata[key].taken for key in parameter.errata)
 
 
-def odd(check: str, section: Section, line: int, about: str, manual: str, database: str) -> Disagreement:
-    return Disagreement(check, line, about, f"{section.page} {section.heading}", manual, database)
-
-
-def nowhere(check: str, about: str, database: str) -> Disagreement:
-    return Disagreement(check, 0, about, "the whole text", NOWHERE, database)
-
-
 # -- numbers ----------------------------------------------------------------------------------------------
 
 
@@ -87,7 +78,7 @@ def number_of(book: Slides, section: Section, fact: PrintedNumber) -> Iterator[D
     """Tell what is wrong with those who claim a printed number."""
 
     def differs(manual: str, database: str) -> Disagreement:
-        return odd("numbers", section, fact.line, fact.number, manual, database)
+        return at_line("numbers", section, fact.line, fact.number, manual, database)
 
     span = spanned(fact.number)
     for number in span:
@@ -142,7 +133,7 @@ def check_choices(book: Slides) -> Iterator[Disagreement]:
 def choice_of(book: Slides, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:
     """Tell the disagreements on one printed value."""
     if not book.owners(fact.number):
-        yield odd(
+        yield at_line(
             "choices", section, fact.line, fact.number, f"{fact.letter} {fact.text}", "no parameter has it"
         )
     for parameter in book.owners(fact.number):
@@ -154,7 +145,7 @@ def choice_of(book: Slides, section: Section, fact: PrintedChoice) -> Iterator[D
                 or choice.raw != int(code)
             ):
                 held = f"{choice.code} {choice.label} (raw {choice.raw})" if choice else f"has no {code}"
-                yield odd("choices", section, fact.line, parameter.id, f"{fact.letter} {fact.text}", held)
+                yield at_line("choices", section, fact.line, parameter.id, f"{fact.letter} {fact.text}", held)
 
 
 def check_ranges(book: Slides) -> Iterator[Disagreement]:
@@ -172,7 +163,7 @@ def check_ranges(book: Slides) -> Iterator[Disagreement]:
 def range_of(book: Slides, section: Section, fact: PrintedRange) -> Iterator[Disagreement]:
     """Tell the disagreements on one printed range."""
     if not book.owners(fact.applies):
-        yield odd(
+        yield at_line(
             "ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", "no parameter has it"
         )
     for parameter in book.owners(fact.applies):
@@ -180,7 +171,7 @@ def range_of(book: Slides, section: Section, fact: PrintedRange) -> Iterator[Dis
         pairs = zip((fact.low, fact.high), held or (), strict=False)
         if held is None or any(said and float(said) != bound for said, bound in pairs):
             manual = f"{fact.low} to {fact.high} {fact.unit}"
-            yield odd("ranges", section, fact.line, parameter.id, manual, str(parameter.ranges))
+            yield at_line("ranges", section, fact.line, parameter.id, manual, str(parameter.ranges))
 
 
 def unit_held(parameter: Parameter) -> str:
@@ -217,13 +208,17 @@ def row_of(book: Slides, section: Section, row: StoredRow) -> Iterator[Disagreem
         text = f"{parameter.help.what} {parameter.help.find}"
         unit = unit_held(parameter)
         if row.unit and (squashed(row.unit) != squashed(unit) if unit else row.unit not in text):
-            yield odd("stored", section, row.line, parameter.id, f"unit {row.unit}", f"unit {unit!r}")
+            yield at_line("stored", section, row.line, parameter.id, f"unit {row.unit}", f"unit {unit!r}")
         for series, value in row.codes.items():
             if not re.search(rf"\b{value}\b", text) or not words(series) - {"series"} <= words(text):
-                yield odd("stored", section, row.line, parameter.id, f"{series}: {value}", "does not tell it")
+                yield at_line(
+                    "stored", section, row.line, parameter.id, f"{series}: {value}", "does not tell it"
+                )
     if row.default and not any({value} == figures(row.default) for value in defaults):
         explained = not defaults and any(
             book.explained(p, section.page, map(str, figures(row.default))) for p in owners
         )
         if not explained:
-            yield odd("stored", section, row.line, row.numbers[0], f"default {row.default}", f"{defaults}")
+            yield at_line(
+                "stored", section, row.line, row.numbers[0], f"default {row.default}", f"{defaults}"
+            )

@@ -6,9 +6,11 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from book_9pc import PATCH_PAGE, Book, Claim, Disagreement, mentions, squashed, unit_of
+from book_9pc import PATCH_PAGE, Reference, unit_of
 from checks_9pc import held_ranges
-from manual_facts import StoredRow
+from disagreements import Disagreement
+from manual_facts import Section, StoredRow
+from printed_book import Claim, mentions, squashed
 
 from amp_studio.schema import Parameter, UnitError, convert
 from amp_studio.schema.model import BoundRef
@@ -24,13 +26,13 @@ class Difference(NamedTuple):
     held: tuple[object, ...] = ()
 
 
-def check_stored(book: Book) -> Iterator[Disagreement]:
+def check_stored(book: Reference) -> Iterator[Disagreement]:
     """Every row of the Patch AMP table is what the database holds: default, bounds, codes and mark."""
     rows = {
         claim.parameter for row in book.stored for number in row.numbers for claim in owners_of(book, number)
     }
-    for row in book.stored:
-        yield from row_of(book, row)
+    for section in book.sections:
+        yield from rows_of(book, section)
     for parameter in book.schema.parameters.values():
         if parameter.patchable and parameter.id not in rows:
             yield Disagreement(
@@ -38,7 +40,13 @@ def check_stored(book: Book) -> Iterator[Disagreement]:
             )
 
 
-def row_of(book: Book, row: StoredRow) -> Iterator[Disagreement]:
+def rows_of(book: Reference, section: Section) -> Iterator[Disagreement]:
+    """Tell the disagreements on the rows of one section."""
+    for row in section.stored:
+        yield from row_of(book, row)
+
+
+def row_of(book: Reference, row: StoredRow) -> Iterator[Disagreement]:
     """Tell the disagreements on one row."""
     where = f"{PATCH_PAGE} {row.name}"
     owners = {number: owners_of(book, number) for number in row.numbers}
@@ -55,7 +63,7 @@ def row_of(book: Book, row: StoredRow) -> Iterator[Disagreement]:
                 yield Disagreement("stored", row.line, about, where, found.manual, database)
 
 
-def owners_of(book: Book, number: str) -> list[Claim]:
+def owners_of(book: Reference, number: str) -> list[Claim]:
     """Return the instances a number belongs to where no other one disputes it."""
     machines = [machine.key for machine in book.schema.family.machines]
     claims = book.claims.get(number, ())
@@ -64,7 +72,7 @@ def owners_of(book: Book, number: str) -> list[Claim]:
     ]
 
 
-def left_out(book: Book, row: StoredRow, number: str) -> bool:
+def left_out(book: Reference, row: StoredRow, number: str) -> bool:
     """Tell whether an erratum names a row of the table, by the number of its first axis, that is no parameter."""
     readings = (
         r for erratum in book.schema.errata.values() for r in erratum.readings if r.page == PATCH_PAGE
@@ -73,7 +81,7 @@ def left_out(book: Book, row: StoredRow, number: str) -> bool:
     return any(all(mentions(reading.says, name) for name in names) for reading in readings)
 
 
-def differences(book: Book, row: StoredRow, claim: Claim) -> Iterator[Difference]:
+def differences(book: Reference, row: StoredRow, claim: Claim) -> Iterator[Difference]:
     """Yield everything in which a row and a parameter differ."""
     parameter = book.schema.parameters[claim.parameter]
     if not parameter.patchable:
@@ -95,7 +103,7 @@ def differences(book: Book, row: StoredRow, claim: Claim) -> Iterator[Difference
         yield from bound_differences(book, row, parameter)
 
 
-def only_on(book: Book, claim: Claim, machine: str) -> bool:
+def only_on(book: Reference, claim: Claim, machine: str) -> bool:
     """Tell whether a parameter has no number on every other machine type, or is out of force there."""
     others = {m.key for m in book.schema.family.machines} - {machine}
     conditions = book.schema.family.conditions
@@ -127,7 +135,7 @@ def default_difference(row: StoredRow, claim: Claim, parameter: Parameter) -> It
         yield Difference("default", manual, database, said, (value,))
 
 
-def bound_differences(book: Book, row: StoredRow, parameter: Parameter) -> Iterator[Difference]:
+def bound_differences(book: Reference, row: StoredRow, parameter: Parameter) -> Iterator[Difference]:
     """Yield the bounds that differ, and the unit in which the value is kept."""
     unit = row.unit.removesuffix(" nominal rated torque")
     kept = parameter.storage.unit if parameter.storage else None
@@ -140,7 +148,7 @@ def bound_differences(book: Book, row: StoredRow, parameter: Parameter) -> Itera
             yield Difference(name, f"{name} bound {figure} {row.unit}".rstrip(), database, (figure,))
 
 
-def outermost(book: Book, parameter: Parameter, end: int) -> Iterator[tuple[str, float]]:
+def outermost(book: Reference, parameter: Parameter, end: int) -> Iterator[tuple[str, float]]:
     """Yield unit and figure of a bound; one that is another parameter reaches as far as that one's own bound."""
     for unit, bounds in held_ranges(parameter):
         bound = bounds[end]

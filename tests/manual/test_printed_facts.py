@@ -1,0 +1,105 @@
+"""The databases hold what their manuals print: numbers, names, bounds, choices, units and defaults, or say why not.
+
+The facts in ``<family>.yaml`` were taken from each manual without a look at the database (``scripts/extract_*.py``).
+Each check tells all its disagreements at once, each with line and section of the manual and with both readings.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from altered import altered_facts
+from disagreements import Disagreement, Exempt, unsettled
+from families import FAMILIES
+from family import AlteredEntry, AlteredFact, Family
+from manual_facts import KINDS
+
+AnyFamily = Family[Any]
+EVERY_FAMILY = pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+
+
+@pytest.mark.parametrize(
+    ("family", "check"),
+    [
+        pytest.param(family, check, id=f"{family.key}-{check}")
+        for family in FAMILIES.values()
+        for check in family.checks
+    ],
+)
+def test_the_database_holds_what_the_manual_prints(family: AnyFamily, check: str) -> None:
+    disagreements = unsettled(check, family.checks[check](family.book), family.exempt)
+    assert not disagreements, "\n".join([f"{len(disagreements)} disagreements:", *disagreements])
+
+
+@EVERY_FAMILY
+def test_the_facts_are_those_of_the_whole_manual(family: AnyFamily) -> None:
+    counts = {kind: sum(len(getattr(section, kind)) for section in family.book.sections) for kind in KINDS}
+    assert {kind: count for kind, count in counts.items() if count} == family.counts
+    numbers = [number for section in family.book.sections for number in section.numbers]
+    assert len({number.number for number in numbers if number.place == "table"}) == family.described
+
+
+# -- exceptions -------------------------------------------------------------------------------------------
+
+
+@EVERY_FAMILY
+def test_an_exception_says_why_in_a_sentence(family: AnyFamily) -> None:
+    for exempt in family.exempt:
+        assert exempt.check in family.checks
+        assert len(exempt.why.split()) > 4
+        assert exempt.why.endswith(".")
+        assert exempt.about or 0 not in exempt.span, "nothing else tells what is printed nowhere"
+
+
+def test_an_exception_covers_its_lines_and_fails_where_it_is_not_needed() -> None:
+    def odd(line: int, about: str) -> Disagreement:
+        return Disagreement("ranges", line, about, "5-10 Home Calibration", "0 to 1 mm", "0 to 2 mm")
+
+    exempt = [
+        Exempt(check="ranges", lines="10-11", why="The scan is torn."),
+        Exempt(check="choices", lines="99", why="Of another check."),
+    ]
+    assert unsettled("ranges", [odd(10, "a"), odd(11, "b")], exempt) == []
+    assert unsettled("ranges", [odd(10, "a"), odd(11, "b"), odd(12, "c")], exempt) == [str(odd(12, "c"))]
+    (spare,) = unsettled("ranges", [odd(10, "a")], exempt)
+    assert "line 11" in spare
+    assert "not needed" in spare
+    narrow = [Exempt(check="ranges", lines="10", about=("a",), why="Only this one.")]
+    assert unsettled("ranges", [odd(10, "a"), odd(10, "b")], narrow) == [str(odd(10, "b"))]
+
+
+# -- no altered fact of a manual goes unseen, nor one of the database --------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("family", "fact"),
+    [
+        pytest.param(family, fact, id=f"{family.key}-{at}-{fact.check}-{fact.kind}")
+        for family in FAMILIES.values()
+        for at, fact in enumerate(family.facts)
+    ],
+)
+def test_no_fact_of_the_manual_can_be_altered_unseen(family: AnyFamily, fact: AlteredFact) -> None:
+    excused = family.excused(fact.check)
+    altered = [
+        (line, what, bool(family.new_with_section(fact.check, at, now)))
+        for at, section in enumerate(family.book.sections)
+        for line, what, now in altered_facts(section, fact.kind, fact.alter)
+        if line not in excused
+    ]
+    assert altered
+    assert [(line, what) for line, what, seen in altered if not seen] == []
+
+
+@pytest.mark.parametrize(
+    ("family", "entry"),
+    [
+        pytest.param(family, entry, id=f"{family.key}-{at}-{entry.check}-{entry.parameter}")
+        for family in FAMILIES.values()
+        for at, entry in enumerate(family.entries)
+    ],
+)
+def test_an_altered_database_is_told(family: AnyFamily, entry: AlteredEntry) -> None:
+    new = family.new_with_entry(entry)
+    assert any(entry.told in str(disagreement) for disagreement in new), new
