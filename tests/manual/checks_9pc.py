@@ -17,17 +17,12 @@ from book_9pc import (
     spelled,
     unit_of,
 )
-from disagreements import NOWHERE, Disagreement
+from disagreements import NOWHERE, Disagreement, at_line
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow
 from printed_book import Claim, squashed
 
 from amp_studio.schema import Choice, Parameter
 from amp_studio.schema.model import Bound, BoundRef, Range
-
-
-def told(section: Section) -> str:
-    return f"{section.page} {section.heading}"
-
 
 # -- numbers, names and pages -----------------------------------------------------------------------------
 
@@ -58,7 +53,7 @@ def numbers_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     for number in section.numbers:
         if not book.claims.get(number.number):
             about, nobody = number.number, "no parameter has it"
-            yield Disagreement("numbers", number.line, about, told(section), _row(number), nobody)
+            yield at_line("numbers", section, number.line, about, _row(number), nobody)
         elif number.place == book.described_in[number.number]:
             yield from _at_home(book, section, number, book.at_home(section, number))
 
@@ -69,7 +64,7 @@ def _at_home(
     """Tell what is wrong with the claims that a printed number belongs to."""
 
     def differs(manual: str, database: str) -> Disagreement:
-        return Disagreement("numbers", number.line, number.number, told(section), manual, database)
+        return at_line("numbers", section, number.line, number.number, manual, database)
 
     if not at_home:
         others = "; ".join(_claim(book, claim) for claim in book.claims[number.number])
@@ -132,9 +127,7 @@ def ranges_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     homes = book.homes(section)
     for fact in section.ranges:
         if not any(applies(fact, home) for home in homes):
-            yield Disagreement(
-                "ranges", fact.line, section.heading, told(section), range_text(fact), "has no parameter"
-            )
+            yield at_line("ranges", section, fact.line, section.heading, range_text(fact), "has no parameter")
     for home in homes:
         facts = [fact for fact in section.ranges if applies(fact, home)]
         yield from _ranges(book, section, home.parameter, facts)
@@ -157,12 +150,12 @@ def _ranges(
         if not agreed and not (parameter.choices and choices_span(book, section, parameter, fact)):
             odd.append(fact)
             database = ", ".join(held_text(*one) for one in held) or "has no range"
-            yield Disagreement("ranges", fact.line, parameter.id, told(section), range_text(fact), database)
+            yield at_line("ranges", section, fact.line, parameter.id, range_text(fact), database)
     for one in held:
         agreed = one in exact or any(range_explained(book, section, parameter, fact, one) for fact in facts)
         if not agreed and not any(unit_agrees(fact, one[0]) for fact in odd):
             about = f"{parameter.id} [{one[0]}]"
-            yield Disagreement("ranges", 0, about, told(section), NOWHERE, held_text(*one))
+            yield at_line("ranges", section, 0, about, NOWHERE, held_text(*one))
 
 
 def neighbour_units(book: Reference, held: list[tuple[str, Range]]) -> set[str]:
@@ -278,7 +271,7 @@ def choices_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     for fact in section.choices:
         if not any(applies(fact, home) for home in homes):
             said = f"({fact.letter}) {fact.text}"
-            yield Disagreement("choices", fact.line, section.heading, told(section), said, "has no parameter")
+            yield at_line("choices", section, fact.line, section.heading, said, "has no parameter")
     for home in homes:
         facts = lettered([fact for fact in section.choices if applies(fact, home)])
         yield from _choices(book, section, home.parameter, facts)
@@ -300,7 +293,7 @@ def _choices(
             odd += near
             database = ", ".join(f"({c.code}) {c.label}" for c in near) or "does not have it"
             about, said = f"{parameter.id} {fact.letter}", f"({fact.letter}) {fact.text}"
-            yield Disagreement("choices", fact.line, about, told(section), said, database)
+            yield at_line("choices", section, fact.line, about, said, database)
     if facts and all(fact.number for fact in facts):
         return  # a screen is no list
     for choice in held:
@@ -308,7 +301,7 @@ def _choices(
         agreed = any(choice_agrees(book, section, parameter, fact, choice) for fact in facts)
         if not added and not agreed and choice not in odd:
             about, database = f"{parameter.id} {choice.code or choice.key}", f"({choice.code}) {choice.label}"
-            yield Disagreement("choices", 0, about, told(section), NOWHERE, database)
+            yield at_line("choices", section, 0, about, NOWHERE, database)
 
 
 def choice_agrees(

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import NamedTuple
 
-from disagreements import Disagreement
+from disagreements import Disagreement, at_line
 from manual_facts import ListedParameter, PrintedChoice, PrintedDefault, PrintedRange, PrintedWord, Section
 from printed_book import Book, mentions
 
@@ -176,18 +176,16 @@ def words_of(book: Words, section: Section) -> Iterator[Disagreement]:
         held = book.words.get(size.number, {})
         codes = {str(c.parameter.storage and c.parameter.storage.code) for c in book.claims_on(size.number)}
         odd = codes - {size.type}
-        where = f"{section.page} {section.heading}"
         if odd and not book.has_erratum(size.number, size.type, odd):
             says = f"type {size.type}"
-            yield Disagreement("words", size.line, size.number, where, says, f"type {', '.join(sorted(odd))}")
+            yield at_line("words", section, size.line, size.number, says, f"type {', '.join(sorted(odd))}")
         if len(held) != size.words and not book.has_erratum(size.number, str(size.words)):
             says = f"{size.words} words"
-            yield Disagreement("words", size.line, size.number, where, says, f"{len(held)} words")
+            yield at_line("words", section, size.line, size.number, says, f"{len(held)} words")
     for fact in section.words:
         lost = [n for n in span(fact.word) if n not in book.words.get(fact.number, {})]
         if lost and not book.has_erratum(fact.number, fact.word):
-            where = f"{section.page} {section.heading}"
-            yield Disagreement("words", fact.line, fact.number, where, fact.word, f"lacks {runs(lost)}")
+            yield at_line("words", section, fact.line, fact.number, fact.word, f"lacks {runs(lost)}")
 
 
 def check_bits(book: Words) -> Iterator[Disagreement]:
@@ -209,10 +207,7 @@ def bits_of(book: Words, section: Section) -> Iterator[Disagreement]:
                     }
                 )
             )
-            where = f"{section.page} {section.heading}"
-            yield Disagreement(
-                "bits", fact.line, about, where, f"bit {fact.bits}", held or "has no such word"
-            )
+            yield at_line("bits", section, fact.line, about, f"bit {fact.bits}", held or "has no such word")
 
 
 def fields(parameter: Parameter) -> list[tuple[int, int]]:
@@ -241,7 +236,6 @@ def check_codes(book: Words) -> Iterator[Disagreement]:
 
 def codes_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Tell the disagreements on the codes of one section, and the choices of its fields that no code prints."""
-    where = f"{section.page} {section.heading}"
     told: dict[tuple[str, str], list[int]] = {}
     for fact in section.choices:
         held = choices_of(book, fact)
@@ -251,13 +245,13 @@ def codes_of(book: Words, section: Section) -> Iterator[Disagreement]:
         ):
             labels = ", ".join(f"{choice.raw} {choice.label}" for choice in held) or "has no such field"
             about, says = f"{fact.number} bits {fact.applies}", f"{fact.letter} {fact.text}"
-            yield Disagreement("codes", fact.line, about, where, says, labels)
+            yield at_line("codes", section, fact.line, about, says, labels)
     for (number, bits), codes in told.items():
         fact = PrintedChoice(line=0, letter="", text="", number=number, applies=bits)
         for choice in choices_of(book, fact):
             if choice.raw not in codes:
                 says, held_one = "does not print it", f"{choice.raw} {choice.label}"
-                yield Disagreement("codes", 0, f"{number} bits {bits}", where, says, held_one)
+                yield at_line("codes", section, 0, f"{number} bits {bits}", says, held_one)
 
 
 def choices_of(book: Words, fact: PrintedChoice) -> list[Choice]:
@@ -308,8 +302,7 @@ def defaults_of(book: Words, section: Section) -> Iterator[Disagreement]:
             about = f"{fact.number} {fact.word}".strip()
             held = sorted({f"{c.parameter.id} {held_default(c)}" for c in claims}) or ["has no such word"]
             says = f"{fact.note} {fact.value} {fact.unit}".strip()
-            where = f"{section.page} {section.heading}"
-            yield Disagreement("defaults", fact.line, about, where, says, ", ".join(held))
+            yield at_line("defaults", section, fact.line, about, says, ", ".join(held))
 
 
 def held_default(claim: Claimant) -> float | bool | str | None:
@@ -375,11 +368,8 @@ def ranges_of(book: Words, section: Section) -> Iterator[Disagreement]:
         ):
             continue
         held = sorted({f"{claim.parameter.id} {held_range(claim.parameter)}" for claim in claims})
-        where = f"{section.page} {section.heading}"
         says = f"{fact.low} to {fact.high} {fact.unit}".strip()
-        yield Disagreement(
-            "ranges", fact.line, fact.applies, where, says, ", ".join(held) or "has no such word"
-        )
+        yield at_line("ranges", section, fact.line, fact.applies, says, ", ".join(held) or "has no such word")
 
 
 def held_range(parameter: Parameter) -> str:
