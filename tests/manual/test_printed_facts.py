@@ -72,14 +72,16 @@ def test_an_exception_covers_its_lines_and_fails_where_it_is_not_needed() -> Non
 # -- no altered fact of a manual goes unseen, nor one of the database --------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("family", "fact"),
-    [
-        pytest.param(family, fact, id=f"{family.key}-{at}-{fact.check}-{fact.kind}")
+def cases(kind: str) -> list[Any]:
+    """Return every family with each of its altered facts, or of its altered entries."""
+    return [
+        pytest.param(family, one, id=f"{family.key}-{at}-{'-'.join(one[:2])}")
         for family in FAMILIES.values()
-        for at, fact in enumerate(family.facts)
-    ],
-)
+        for at, one in enumerate(getattr(family, kind))
+    ]
+
+
+@pytest.mark.parametrize(("family", "fact"), cases("facts"))
 def test_no_fact_of_the_manual_can_be_altered_unseen(family: AnyFamily, fact: AlteredFact) -> None:
     excused = family.excused(fact.check)
     altered = [
@@ -92,14 +94,7 @@ def test_no_fact_of_the_manual_can_be_altered_unseen(family: AnyFamily, fact: Al
     assert [(line, what) for line, what, seen in altered if not seen] == []
 
 
-@pytest.mark.parametrize(
-    ("family", "entry"),
-    [
-        pytest.param(family, entry, id=f"{family.key}-{at}-{entry.check}-{entry.parameter}")
-        for family in FAMILIES.values()
-        for at, entry in enumerate(family.entries)
-    ],
-)
+@pytest.mark.parametrize(("family", "entry"), cases("entries"))
 def test_an_altered_database_is_told(family: AnyFamily, entry: AlteredEntry) -> None:
     new = family.new_with_entry(entry)
     assert any(entry.told in str(disagreement) for disagreement in new), new
