@@ -56,7 +56,7 @@ def validate_verb(options: argparse.Namespace) -> int:
             show("checked", n, len(paths))
     good = [one for one in checked if not one.fault]
     if options.json and good:
-        print_json(good[0].told if len(paths) == 1 else {"files": [one.told for one in good]})
+        print_json(good[0].told if paths == options.paths[:1] else {"files": [one.told for one in good]})
     return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
 
 

@@ -82,6 +82,15 @@ def test_the_files_of_a_folder_are_checked_in_the_order_of_their_names(amp, mach
     assert len(said.json["files"]) == 20
 
 
+def test_a_folder_gives_a_list_even_of_one_file(amp, tmp_path: Path, mill: Path) -> None:
+    folder = tmp_path / "one"
+    folder.mkdir()
+    (folder / "a.amp").write_bytes(mill.read_bytes())
+    assert [document["file"] for document in amp("validate", folder, "--json").json["files"]] == [
+        str(folder / "a.amp")
+    ]
+
+
 def test_several_processes_say_the_same_in_the_same_order(amp, machines: Path, mill: Path) -> None:
     for options in ((), ("--json",), ("--why",)):
         alone = amp("validate", mill, machines, "--jobs", 1, *options)
