@@ -8,7 +8,6 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -78,6 +77,8 @@ def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | N
     if wanted == 1:
         yield from map(check, paths)
         return
+    from concurrent.futures import ProcessPoolExecutor  # a single file need not wait for it
+
     with ProcessPoolExecutor(wanted, initializer=_start) as pool:
         yield from pool.map(check, paths, chunksize=AT_A_TIME)
 
