@@ -21,6 +21,7 @@ from amp_studio.validate.num import (
     internal_unit_mm,
     largest_travel_mm,
     limited_in_force,
+    measured_step,
     multi_divi,
     rotary_unit_deg,
     servo_coefficient,
@@ -170,6 +171,29 @@ def test_the_factor_of_divi_is_that_of_page_5_8(bits: int, factor: int) -> None:
 def test_a_frame_has_at_least_one_bit() -> None:
     with pytest.raises(ValueError, match="number of bits"):
         ssi_divi_factor(0)
+
+
+@pytest.mark.parametrize(
+    ("multi", "divi", "sensor", "step"),
+    [
+        (1, 2, 0, 0.5),
+        (1, 16, 0x02000060, 1),  # page 5-8: 12 bits
+        (1, 16, 0x04000060, 1 / 16),  # combined: the increments are counted
+        (1, 16, 0x00000060, 1 / 16),
+        (1, 16, 0x02000080, 1 / 16),  # 16 bits
+        (1, 16, 0x02000007, 1 / 16),  # a frame without bits has a rule of its own
+        (1, 16, 0x0A0001E0 - 0x80, 1),  # bits beside the fields do not count
+    ],
+)
+def test_the_step_of_a_short_frame_is_that_before_its_shift(
+    multi: int, divi: int, sensor: int, step: float
+) -> None:
+    assert step == measured_step(multi, divi, sensor)
+
+
+def test_a_step_needs_a_denominator() -> None:
+    with pytest.raises(ValueError, match="DIVI"):
+        measured_step(1, 0, 0)
 
 
 def test_the_coded_scale_of_page_5_22() -> None:

@@ -37,6 +37,18 @@ def ssi_divi_factor(bits: float) -> float:
     return 2.0 ** max(0, 16 - whole("The number of bits", bits))
 
 
+def measured_step(multi: float, divi: float, sensor: float) -> float:
+    """Movement of one encoder increment in internal units (page 5-6): MULTI / DIVI, whatever a short frame is shifted by.
+
+    The sensor is the word of P34. What an SSI frame of fewer than 16 bits sends is shifted to the left first (page
+    5-8): 1 / 16 with 12 bits is one unit.
+    """
+    word = int(sensor)
+    bits = word >> 3 & 31
+    factor = ssi_divi_factor(bits) if word >> 25 & 3 == 1 and bits else 1.0
+    return multi * factor / positive("DIVI", divi)
+
+
 def coded_conversion(period: float, interpolation: float) -> tuple[int, int]:
     """MULTI and DIVI of a scale that moves with the axis, from its period in internal units (page 5-22).
 
