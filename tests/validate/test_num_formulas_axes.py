@@ -191,9 +191,12 @@ def test_the_step_of_a_short_frame_is_that_before_its_shift(
     assert step == measured_step(multi, divi, sensor)
 
 
-def test_a_step_needs_a_denominator() -> None:
-    with pytest.raises(ValueError, match="DIVI"):
+def test_a_step_needs_a_denominator_that_holds_the_shift() -> None:
+    with pytest.raises(ValueError, match="greater than zero"):
         measured_step(1, 0, 0)
+    assert measured_step(1, 48, 0x02000060) == 1 / 3
+    with pytest.raises(ValueError, match="multiple of 16 with this frame, not 24"):
+        measured_step(1, 24, 0x02000060)
 
 
 def test_the_coded_scale_of_page_5_22() -> None:

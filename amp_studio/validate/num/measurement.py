@@ -41,11 +41,13 @@ def measured_step(multi: float, divi: float, sensor: float) -> float:
     """Movement of one encoder increment in internal units (page 5-6): MULTI / DIVI, whatever a short frame is shifted by.
 
     The sensor is the word of P34. What an SSI frame of fewer than 16 bits sends is shifted to the left first (page
-    5-8): 1 / 16 with 12 bits is one unit.
+    5-8): 1 / 16 with 12 bits is one unit. A DIVI that does not hold the shift gives no scale at all.
     """
     word = int(sensor)
     bits = word >> 3 & 31
     factor = ssi_divi_factor(bits) if word >> 25 & 3 == 1 and bits else 1.0
+    if factor > 1.0 and divi % factor:
+        raise ValueError(f"DIVI must be a multiple of {factor:.0f} with this frame, not {divi:g}.")
     return multi * factor / positive("DIVI", divi)
 
 
