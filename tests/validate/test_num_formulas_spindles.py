@@ -108,6 +108,8 @@ def test_a_limit_speed_ends_its_range() -> None:
     # Page 8-16: above it another range is looked for, which M42 with 400 and more is not.
     assert num.speed_gap(*EXAMPLE, [0, 398, 0, 0, 0, 0]) == 398
     assert num.speed_gap(*EXAMPLE, [0, 399, 1000, 0, 0, 0]) == 0
+    assert num.speed_gap(*EXAMPLE, [9, 0, 0, 0, 0, 0]) == 0
+    assert num.speed_gap(*EXAMPLE, [10, 0, 0, 0, 0, 0]) == 10
     assert num.speed_gap([None, 80, 400], [None, 500, 2000], [None, None, 0]) == 0
     assert num.speed_gap([10, None, 400], [100, 500, 2000], [0, 0, 0]) == 100
 

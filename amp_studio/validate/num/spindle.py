@@ -94,10 +94,11 @@ def speed_gap(
     """Speed in rpm above which the next range begins too late, 0 where no speed between the ranges is lost (page 8-16).
 
     A range ends at its limit speed, or at its highest speed where that is 0; the next speed is 1 rpm higher. A range
-    whose highest speed is 0 does not exist.
+    whose highest speed is 0 does not exist, and one that ends before it begins has no speeds.
     """
     _same_length(minima, maxima, limits)
-    ranges = [(low, limit or high) for low, high, limit in zip(minima, maxima, limits, strict=True) if high]
+    there = [(low, limit or high) for low, high, limit in zip(minima, maxima, limits, strict=True) if high]
+    ranges = [(low, end) for low, end in there if low is None or low <= end]
     last = max((end for _, end in ranges), default=0.0)
     for _, end in sorted(ranges, key=lambda found: found[1]):
         following = (low for low, other in ranges if other > end and low is not None)
