@@ -164,8 +164,10 @@ class RuleChecks:
             texts[name] = ", ".join(map(self._shown, addresses))
         own = tuple(single.address for single in check.singles)
         turns = any(situation.turns(address) for address in own)
+        entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
         for name, expression in check.expressions.values:
-            texts[name] = self._text(expression, given.context, rule.units.get(name, ""), turns)
+            unit = rule.units.get(name, "")
+            texts[name] = self._text(expression, given.context, angular(unit) if turns else unit, entered)
         about = own or tuple(
             a for _, addresses in check.lists for a in addresses if situation.state(a).state == "in-force"
         )
@@ -185,7 +187,8 @@ class RuleChecks:
     def _shown(self, address: Address) -> str:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
 
-    def _text(self, expression: Program, context: Context, unit: str, turns: bool) -> str:
+    def _text(self, expression: Program, context: Context, unit: str, entered: set[str]) -> str:
+        """Return a figure worked out; in inches where the file, or a value it comes from, is in inches."""
         try:
             found = expression.execute(context)
         except EVALUATION_FAULTS:
@@ -193,9 +196,8 @@ class RuleChecks:
         if isinstance(found, (bool, str)) or not isinstance(found, (int, float)):
             return str(found)
         if unit:
-            unit = angular(unit) if turns else unit
             inch = unit.replace("mm", "in", 1)
-            if self._file.header.units == "inch" and inch != unit:
+            if inch != unit and (self._file.header.units == "inch" or inch in entered):
                 found, unit = convert(float(found), unit, inch), inch
         return f"{write_number(float(f'{found:.7g}'))} {shown(unit)}".rstrip()
 

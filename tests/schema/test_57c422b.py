@@ -79,6 +79,7 @@ STORED = [
     ("output.max_voltage@X", "10 V", 1984),
     ("command.direct_reference@X", "-10 V", -1984),
     ("command.gear_ratio@X", "1", 16777216),
+    ("command.gear_ratio@X", "0", 0),
     ("output.feedback_unwind@X", "1600000 counts", 1600000),
     ("setup.max_velocity_error@X", "3200000 counts/s", 4000),
     # Page 5-5.
@@ -110,7 +111,7 @@ REFUSED = [
     ("command.direct_reference@X", Value(10.1, "V")),
     ("output.max_voltage@X", Value(-0.1, "V")),
     ("command.gear_ratio@X", Value(127.1)),
-    ("command.gear_ratio@X", Value(0.0)),
+    ("command.gear_ratio@X", Value(-0.1)),
     ("command.gear_denominator@X", Value(0)),
     ("cam.position_increment@X", Value(-1, "counts")),
     ("cam.position_increment@X", Value(32768, "counts")),

@@ -256,6 +256,12 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     )
 
 
+def test_a_figure_is_told_in_the_inches_of_the_values_it_comes_from(mill) -> None:
+    mill.set(EXCESS, Value(0.4, "in"))
+    message = the(mill, "9pc.servo.excess-below-following-error").message
+    assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in message
+
+
 def test_an_axis_that_turns_is_told_in_degrees(mill) -> None:
     mill.set(("servo.excess_error", "4"), Value(11.0, "deg"))
     assert "by 12°, more than Excess Error 11° allows" in the(
