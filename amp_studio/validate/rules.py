@@ -188,11 +188,13 @@ class RuleChecks:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
 
     def _text(self, expression: Program, context: Context, unit: str, entered: set[str]) -> str:
-        """Return a figure worked out; in inches where the file, or a value it comes from, is in inches."""
+        """Return what was worked out: a figure in inches where the file, or a value it comes from, is; a list in commas."""
         try:
             found = expression.execute(context)
         except EVALUATION_FAULTS:
             return "?"
+        if isinstance(found, list):
+            return ", ".join(map(str, found))
         if isinstance(found, (bool, str)) or not isinstance(found, (int, float)):
             return str(found)
         if unit:

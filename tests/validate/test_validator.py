@@ -305,6 +305,24 @@ def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) ->
     assert finding_json(mill, finding)["effective"] == [{"param": "1203", "value": "100 in/min"}]
 
 
+def test_a_list_that_a_rule_works_out_is_told_with_commas(mill) -> None:
+    own = Rule(
+        id="own.names",
+        title="Two at once",
+        severity="warning",
+        reads={"rapid": "feedrate.rapid"},
+        check="false",
+        values={
+            "who": "[['fast', rapid], ['slow', 0.0]].filter(one, one[1] > 0.0).map(one, one[0]) + ['none']"
+        },
+        message="{who}.",
+        page="1",
+    )
+    validator = Validator(mill, BuilderRules((own,)))
+    (finding,) = (f for f in validator.run() if f.rule == "own.names" and f.addresses == (RAPID,))
+    assert finding.message == "fast, none."
+
+
 def test_a_repair_that_would_not_help_is_not_offered(mill) -> None:
     """Nine tenths of no suppression point are not below it."""
     mill.set(("servo.feedrate_suppression", "1"), Value(0.0, "mm"))
