@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
@@ -17,8 +18,8 @@ from ruamel.yaml import YAML
 
 from amp_studio.demo import examples_folder
 from amp_studio.files import ParameterFile, new_file, open_file
-from amp_studio.schema import Address, Value, family_ids
-from amp_studio.validate import Finding, Validator
+from amp_studio.schema import Address, Value, canonical_value, family_ids
+from amp_studio.validate import Finding, Setting, Validator
 
 HERE = Path(__file__).parent
 FAMILIES = tuple(family_ids())
@@ -45,13 +46,17 @@ def each(name: str) -> list[str]:
     return [f"{several['before']}{n}" for n in range(int(several["first"]), int(several["last"]) + 1)]
 
 
+def value_of(file: ParameterFile, address: Address, text: str) -> Value:
+    """Return what a person means who writes millimetres also for what turns."""
+    return file.read(address, text.replace("mm", "deg") if file.situation.turns(address) else text)
+
+
 def change(file: ParameterFile, texts: Change) -> list[Address]:
     """Write values into a file as a person would, out of range if it must be; returns where."""
     wanted: dict[Address, Value | None] = {}
     for name, text in ((one, text) for several, text in texts.items() for one in each(several)):
         address = file.find(name)
-        written = str(text).replace("mm", "deg") if file.situation.turns(address) else str(text)
-        wanted[address] = None if text is None else file.read(address, written)
+        wanted[address] = None if text is None else value_of(file, address, str(text))
     file.set_many(wanted, force="by a test")
     return list(wanted)
 
@@ -169,6 +174,8 @@ class Case:
     breaks: Change | None = None
     times: int = 1
     uses: Change | None = None
+    mends: Change | None = None
+    says: str | list[str] = ""
     unmended: str = ""
     holds: Change | None = None
 
@@ -179,6 +186,36 @@ class Case:
     def stand(self) -> Stand:
         """The machine it starts from."""
         return stand(self.family, self.of, self.application)
+
+    def offers(self, found: Iterable[Finding]) -> bool:
+        """Tell whether findings, of the machine as it stands now, offer what the case says it ``mends``."""
+        return self._are(self.mends or {}, (repair for finding in found for repair in finding.repairs))
+
+    def knows_used(self, found: Iterable[Finding]) -> bool:
+        """Tell whether findings, of the machine as it stands now, tell what the case says the control ``uses``."""
+        return self._are(self.uses or {}, (used for finding in found for used in finding.effective))
+
+    def is_said(self, found: Collection[Finding]) -> bool:
+        """Tell whether every piece that the case ``says`` is in the message of a finding."""
+        pieces = [self.says] if isinstance(self.says, str) else self.says
+        return all(any(piece in finding.message for finding in found) for piece in pieces)
+
+    def _are(self, texts: Change, settings: Iterable[Setting]) -> bool:
+        """Tell whether settings are the values written, to seven digits."""
+        wanted = {a: str(text) for name, text in texts.items() for a in map(self.stand.file.find, each(name))}
+        got = {setting.address: setting.value for setting in settings}
+        return wanted.keys() == got.keys() and all(
+            _as_good_as_equal(value_of(self.stand.file, address, text), got[address])
+            for address, text in wanted.items()
+        )
+
+
+def _as_good_as_equal(one: Value, other: Value) -> bool:
+    """Tell whether two values are equal, numbers to seven digits."""
+    numbers = [canonical_value(value) for value in (one, other)]
+    if all(isinstance(number, float) for number in numbers):
+        return math.isclose(*numbers, rel_tol=5e-7)
+    return one == other
 
 
 @cache

@@ -1,0 +1,152 @@
+"""What a rule offers and says is in the tables of cases too: changed in one place, it no longer offers or says that.
+
+Of every rule of every family the expressions of its repairs, of what the control uses instead and of the figures in its
+message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by what it ``mends``, by what it
+``uses`` and by what it ``says``; also, as ``test_rules.py`` does, when there is no longer a repair, or one that should
+not be there, or when what the control uses instead breaks the rule as well.
+"""
+
+from __future__ import annotations
+
+import logging
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import pytest
+from mutations import EQUIVALENT, EVERY_MUTANT, variations
+from rule_stands import FAMILIES, Case, cases
+
+from amp_studio.schema import Rule, load_schema, program
+from amp_studio.validate import Finding
+from amp_studio.validate.expressions import Expressions
+from amp_studio.validate.plan import RuleCheck, checks_of
+from amp_studio.validate.rules import RuleChecks
+
+PARTS = {"fix": "fixes", "effective": "effective", "values": "values"}
+"""Part of a rule -> the field of its compiled expressions."""
+
+CHOICE = re.compile(r"'([^']*)'")
+
+
+@dataclass(frozen=True)
+class Told:
+    """A rule of which one expression of what it tells was changed."""
+
+    part: str
+    n: int
+    """Which of that part."""
+    text: str
+    before: str
+    change: str
+
+    def has(self, piece: str) -> bool:
+        """Tell whether a piece of text is what was changed here."""
+        return piece in self.text and piece not in self.before
+
+    def of(self, expressions: Expressions) -> Expressions:
+        """Return the expressions of the rule with this change; raises ValueError if it cannot be compiled."""
+        field = PARTS[self.part]
+        all_of_it = list(getattr(expressions, field))
+        all_of_it[self.n] = (all_of_it[self.n][0], program(self.text))
+        return replace(expressions, **{field: tuple(all_of_it)})
+
+
+def told_by(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
+    """Yield the expressions of what a rule tells: the part, which of it, its name, its text."""
+    for part in ("fix", "effective"):
+        for n, assignment in enumerate(getattr(rule, part)):
+            yield part, n, assignment.set, assignment.value
+    for n, (name, text) in enumerate(rule.values.items()):
+        yield "values", n, name, text
+
+
+def told_mutants(rule: Rule) -> Iterator[Told]:
+    """Yield what a rule tells with one thing changed after the other."""
+    for part, n, name, written in told_by(rule):
+        text = " ".join(written.split())
+        for changed, change in (*variations(text), *other_values(rule, part, name, text)):
+            yield Told(part, n, changed, text, f"{rule.id}: {part} {name}: {change}")
+
+
+def other_values(rule: Rule, part: str, name: str, text: str) -> Iterator[tuple[str, str]]:
+    """Yield an expression that gives another value of the parameter to be set, and what was changed for it."""
+    if part == "values" or not EVERY_MUTANT:
+        return
+    family = load_schema(rule.id.partition(".")[0])
+    parameter = family.parameters[rule.reads[name].partition("@")[0]]
+    if parameter.type in ("integer", "real", "bits"):
+        yield f"({text}) + 1.0", "one more"
+    keys = [choice.key for choice in parameter.choices or ()]
+    for named in dict.fromkeys(CHOICE.findall(text)):
+        for instead in [key for key in keys if named in keys and key != named][:2]:
+            yield text.replace(f"'{named}'", f"'{instead}'"), f"{named} → {instead}"
+
+
+def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck]) -> bool:
+    """Tell whether a case gets something else than it says; the findings are those of the checks."""
+    rule = checks[0].rule
+    if rule.fix and any(finding.repairs for finding in found) is bool(case.unmended):
+        return True
+    if case.mends is not None and not case.offers(found):
+        return True
+    if any("?" in finding.message for finding in found) or not case.is_said(found):
+        return True
+    if not rule.effective:
+        return False
+    if case.uses is not None:
+        return not case.knows_used(found)
+    if not all(finding.effective for finding in found):
+        return True
+    here = case.stand
+    with here.recorded():
+        here.set({used.address: used.value for finding in found for used in finding.effective})
+        values = RuleChecks(here.file, here.file.machine)
+        return any(values.finding(check) for check in checks)
+
+
+def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
+    """Return the mutants of a rule that a case does not notice."""
+    here, left = case.stand, []
+    with here.changed(case.given), here.changed(case.breaks or {}):
+        values = RuleChecks(here.file, here.file.machine)
+        broken = [
+            check for check in checks_of(here.file.situation, (rule,)) if values.finding(check) is not None
+        ]
+        for mutant in mutants:
+            try:
+                expressions = mutant.of(broken[0].expressions)
+            except ValueError:
+                continue
+            found = [
+                one
+                for check in broken
+                if (one := values.finding(replace(check, expressions=expressions))) is not None
+            ]
+            if not notices(case, found, broken):
+                left.append(mutant)
+    return tuple(left)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_no_mutant_of_what_a_rule_tells_passes_the_tables(
+    family: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.CRITICAL, "cel")  # a mutant may call a formula with what it does not take
+    rules = {rule.id: rule for rule in load_schema(family).rules}
+    left = {rule.id: tuple(told_mutants(rule)) for rule in rules.values()}
+    total = sum(map(len, left.values()))
+    for case in cases(family):
+        if case.breaks is not None and left[case.rule]:
+            left[case.rule] = alive(case, rules[case.rule], left[case.rule])
+    print(f"{family}: {total} mutants of what is told, {sum(map(len, left.values()))} alive")
+    unknown = [
+        mutant.change
+        for rule, mutants in left.items()
+        for mutant in mutants
+        if not any(mutant.has(piece) for piece in EQUIVALENT.get(rule, {}).get("told", {}))
+    ]
+    assert unknown == [], "let a case say what it mends, uses or says"
+    listed = {(rule, piece) for rule in left for piece in EQUIVALENT.get(rule, {}).get("told", {})}
+    met = {(rule, piece) for rule, piece in listed for mutant in left[rule] if mutant.has(piece)}
+    assert not EVERY_MUTANT or listed == met, "what is listed is alive"
