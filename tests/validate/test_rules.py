@@ -54,6 +54,7 @@ def test_a_broken_rule_is_found(case: Case) -> None:
                 assert (finding.severity, finding.page) == (rule.severity, rule.page)
                 assert finding.addresses
                 assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
+            assert case.is_said(found), [finding.message for finding in found]
 
 
 @pytest.mark.parametrize("case", HOLDING, ids=str)
@@ -77,6 +78,7 @@ def test_the_repairs_of_a_rule_mend_it_and_cause_no_error(case: Case) -> None:
         broken = here.findings
         mendable = [finding for finding in here.of(case.rule) if finding.repairs]
         assert bool(mendable) is not bool(case.unmended), "a case whose findings offer no repair says why"
+        assert case.mends is None or case.offers(mendable), [finding.repairs for finding in mendable]
         with here.recorded():
             here.set({repair.address: repair.value for finding in mendable for repair in finding.repairs})
             assert {f.addresses for f in mendable} & {f.addresses for f in here.of(case.rule)} == set()
@@ -90,8 +92,7 @@ def test_what_the_control_uses_instead_is_told(case: Case) -> None:
         found = here.of(case.rule)
         uses = {setting.address: setting.value for finding in found for setting in finding.effective}
         if case.uses is not None:
-            expected = {here.file.find(name): str(text) for name, text in case.uses.items()}
-            assert uses == {address: here.file.read(address, text) for address, text in expected.items()}
+            assert case.knows_used(found), uses
             return
         assert all(finding.effective for finding in found)
         with here.recorded():
