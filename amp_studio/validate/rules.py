@@ -201,7 +201,8 @@ class RuleChecks:
             inch = unit.replace("mm", "in", 1)
             if inch != unit and (self._file.header.units == "inch" or inch in entered):
                 found, unit = convert(float(found), unit, inch), inch
-        return f"{write_number(float(f'{found:.7g}'))} {shown(unit)}".rstrip()
+        number, sign = write_number(float(f"{found:.7g}")), shown(unit)
+        return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
 
     def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
         """Return what the rule would change; nothing if a part of it is not allowed, or if it would not help."""
