@@ -201,7 +201,7 @@ class Case:
         return all(any(piece in finding.message for finding in found) for piece in pieces)
 
     def _are(self, texts: Change, settings: Iterable[Setting]) -> bool:
-        """Tell whether settings are the values written, to seven digits."""
+        """Tell whether settings are the values written, but for the last digits of a number."""
         wanted = {a: str(text) for name, text in texts.items() for a in map(self.stand.file.find, each(name))}
         got = {setting.address: setting.value for setting in settings}
         return wanted.keys() == got.keys() and all(
@@ -211,10 +211,10 @@ class Case:
 
 
 def _as_good_as_equal(one: Value, other: Value) -> bool:
-    """Tell whether two values are equal, numbers to seven digits."""
+    """Tell whether two values are equal, numbers but for the last digits."""
     numbers = [canonical_value(value) for value in (one, other)]
     if all(isinstance(number, float) for number in numbers):
-        return math.isclose(*numbers, rel_tol=5e-7)
+        return math.isclose(*numbers, rel_tol=1e-9)
     return one == other
 
 
