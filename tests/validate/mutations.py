@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
-
-from rule_stands import HERE, read
+from collections.abc import Iterator
 
 EVERY_MUTANT = os.environ.get("AMP_STUDIO_FULL") == "1"
 """Without it only comparisons, logic and negations are changed."""
@@ -44,10 +42,6 @@ CONNECTED = re.compile(r"'[^']*'|&&|\|\||[([{,?:)\]}]")
 """What begins or ends an operand of "and" and "or", and texts, which may have any of these in them."""
 GUARD = re.compile(r"\(?[^&|]+ [!=]= null\)?|\w+ < size\(\w+\)")
 """What asks whether something is there at all. Without it a rule that meets nothing is an error, so nothing is said."""
-
-
-EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_mutants.yaml")
-"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it says the same as the rule."""
 
 
 def variations(text: str) -> Iterator[tuple[str, str]]:

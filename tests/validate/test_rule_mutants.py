@@ -13,12 +13,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import pytest
-from mutations import EQUIVALENT, EVERY_MUTANT, operands, variations
-from rule_stands import FAMILIES, Stand, cases, machines, stand
+from mutations import EVERY_MUTANT, operands, variations
+from rule_stands import FAMILIES, HERE, Stand, cases, machines, read, stand
 
 from amp_studio.schema import Rule, load_schema
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
+
+EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_mutants.yaml")
+"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it says the same as the rule."""
+
 
 @dataclass(frozen=True)
 class Mutant:
