@@ -60,11 +60,10 @@ class Situation:
 
     def canonical(self, address: Address) -> Canonical:
         """Return a value in canonical units: double, choice key, bool or text; None when unset."""
-        try:
-            return self._canonical[address]
-        except KeyError:
+        found = self._canonical.get(address)
+        if found is None and address not in self._canonical:
             found = self._canonical[address] = canonical_value(self._value(address))
-            return found
+        return found
 
     def scope(self, address: Address) -> Scope | None:
         """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 from fractions import Fraction
+from functools import cache, lru_cache
 
 # unit -> (dimension, factor to the canonical unit of the dimension)
 UNITS: dict[str, tuple[str, Fraction]] = {
@@ -124,7 +125,7 @@ def dimension(unit: str) -> str:
 def canonical(value: float, unit: str) -> float:
     """Return ``value`` in the canonical unit of its dimension, exact before one rounding: 0.3 in is 7.62 mm."""
     factor = UNITS[unit][1]
-    return float(value) if factor == 1 else _rounded(value, factor)
+    return float(value) if factor == 1 else _converted(value, unit, None)
 
 
 def convert(value: float, unit: str, to: str) -> float:
@@ -133,19 +134,25 @@ def convert(value: float, unit: str, to: str) -> float:
         return value
     if UNITS[unit][0] != UNITS[to][0]:
         raise UnitError(f"{unit or 'a bare number'} cannot be given in {to or 'a bare number'}")
-    return _rounded(value, UNITS[unit][1] / UNITS[to][1])
+    return _converted(value, unit, to)
 
 
-def _rounded(value: float, factor: Fraction) -> float:
-    """Return the double nearest to the exact product; infinite where no double is that large, no number as it is."""
+@lru_cache(maxsize=10_000)  # exact and slow; the same bounds and values come up again and again
+def _converted(value: float, unit: str, to: str | None) -> float:
+    """Return the double nearest to the exact product; infinite where no double is that large, no number as it is.
+
+    Without ``to`` it is the canonical unit.
+    """
     if math.isnan(value):
         return value
+    factor = UNITS[unit][1] / (UNITS[to][1] if to is not None else 1)
     try:
         return float(Fraction(Decimal(repr(float(value)))) * factor)
     except OverflowError:
         return math.copysign(math.inf, value)
 
 
+@cache
 def canonical_unit(unit: str) -> str:
     """Return the canonical unit of the dimension of ``unit``."""
     measured = UNITS[unit][0]

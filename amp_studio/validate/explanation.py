@@ -57,7 +57,7 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
         return _of_a_value(validator, finding)
     context, rule = validator.context_of(check), check.rule
     named = [(s.name, s.address) for s in check.singles]
-    named += [(name, address) for name, addresses in check.lists for address in addresses]
+    named += [(name, address) for name, listed in check.lists for address in listed.addresses]
     seen = tuple(
         _seen(validator, address, name) for name, address in named if not _is_hidden(validator, address)
     )
@@ -124,8 +124,8 @@ def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:
     """Return the demand with the values in the place of the names, in the units in which rules compare."""
     file = validator.file
     texts = {single.name: _value(validator, single.address) for single in check.singles}
-    for name, addresses in check.lists:
-        told = [_value(validator, a) for a in addresses if not _is_hidden(validator, a)]
+    for name, listed in check.lists:
+        told = [_value(validator, a) for a in listed.addresses if not _is_hidden(validator, a)]
         texts[name] = f"[{', '.join(told[:_LONG_LIST])}{', …' if len(told) > _LONG_LIST else ''}]"
     texts |= {"machine": file.machine, "application": file.header.application, "instance": check.instance}
     return _NAME.sub(lambda m: texts.get(m[0], m[0]), _plain(rule.check))

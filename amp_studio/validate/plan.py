@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import count
 
 from amp_studio.schema import Address, Reading, Rule, Schema, Situation, UnknownParameter, read_address
@@ -28,7 +28,19 @@ class Single:
     any_state: bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
+class Listed:
+    """Instances that rules read as a list: one object for all that read the same, so that it is quick to look up."""
+
+    addresses: tuple[Address, ...]
+
+
+@cache
+def _listed(addresses: tuple[Address, ...]) -> Listed:
+    return Listed(addresses)
+
+
+@dataclass(frozen=True)
 class RuleCheck:
     """One rule for one instance, its names resolved."""
 
@@ -38,7 +50,7 @@ class RuleCheck:
     instance: str
     expressions: Expressions
     singles: tuple[Single, ...]
-    lists: tuple[tuple[str, tuple[Address, ...]], ...]
+    lists: tuple[tuple[str, Listed], ...]
     names: tuple[str, ...]
     """Of the single values, then of the lists."""
     plain: tuple[Address, ...]
@@ -47,7 +59,10 @@ class RuleCheck:
     @property
     def addresses(self) -> tuple[Address, ...]:
         """Every address the rule reads here, single values first."""
-        return (*(s.address for s in self.singles), *(a for _, addresses in self.lists for a in addresses))
+        return (
+            *(s.address for s in self.singles),
+            *(a for _, listed in self.lists for a in listed.addresses),
+        )
 
     def address_of(self, name: str) -> Address:
         """Return what a name of a single value stands for."""
@@ -135,7 +150,9 @@ def checks_of(situation: Situation, rules: tuple[Rule, ...]) -> tuple[RuleCheck,
                 for name, reading in readings.items()
                 if not reading.is_list
             )
-            lists = tuple((name, reading.addresses) for name, reading in readings.items() if reading.is_list)
+            lists = tuple(
+                (name, _listed(reading.addresses)) for name, reading in readings.items() if reading.is_list
+            )
             names = (*(single.name for single in singles), *(name for name, _ in lists))
             others = lists or rule.optional or rule.any_state
             plain = () if others else tuple(single.address for single in singles)

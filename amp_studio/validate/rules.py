@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from operator import is_
 from typing import Any
@@ -27,7 +27,7 @@ from amp_studio.schema.units import angular
 
 from .finding import Finding, Setting
 from .formulas import rule_functions
-from .plan import RuleCheck
+from .plan import Listed, RuleCheck
 
 EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
 """What CEL raises for a value of a kind that an expression does not speak of."""
@@ -50,14 +50,17 @@ class RuleChecks:
         self._given: dict[int, tuple[list[Any], bool]] = {}
         """Place of a check -> the values it was given, and whether it was broken by them."""
         self._seen: dict[Address, Canonical] = {}
-        self._lists: dict[tuple[Address, ...], list[Canonical]] = {}
-        self._lists_before: dict[tuple[Address, ...], list[Canonical]] = {}
+        self._lists: dict[Listed, list[Canonical]] = {}
+        self._lists_before: dict[Listed, list[Canonical]] = {}
+        self._list_keys: dict[Listed, Hashable] = {}
+        """What stands for the lists in a key."""
 
     def look_again(self) -> None:
         """Forget the values, which may have changed; called before the checks of a round."""
         self._seen.clear()
         self._lists_before.update(self._lists)
         self._lists.clear()
+        self._list_keys.clear()
 
     def finding(self, check: RuleCheck) -> Finding | None:
         """Return what is wrong if the rule is broken; None too where what it needs is unset or out of force."""
@@ -75,8 +78,11 @@ class RuleChecks:
     def _is_broken(self, check: RuleCheck, values: list[Any]) -> bool:
         """Tell whether a rule is broken by values; what it came to for equal ones before is remembered."""
         expressions = check.expressions
-        always = tuple([self._always(check, name) for name in expressions.always])
-        key = (always, same_values(values))
+        key = same_values(values[: len(check.singles)])
+        if check.lists:
+            key = key, *[self._list_key(listed) for _, listed in check.lists]
+        if expressions.always:
+            key = key, *[self._always(check, name) for name in expressions.always]
         found = expressions.verdicts.get(key)
         if found is None:
             try:
@@ -127,8 +133,8 @@ class RuleChecks:
             if found is None and not single.optional:
                 return None
             values.append(found)
-        for _, addresses in check.lists:
-            values.append(lists[addresses] if addresses in lists else self._list(addresses))
+        for _, listed in check.lists:
+            values.append(lists[listed] if listed in lists else self._list(listed))
         return values
 
     def _see(self, address: Address) -> Canonical:
@@ -141,13 +147,19 @@ class RuleChecks:
         situation = self._file.situation
         return situation.canonical(address) if situation.state(address).state != "hidden" else None
 
-    def _list(self, addresses: tuple[Address, ...]) -> list[Canonical]:
+    def _list_key(self, listed: Listed) -> Hashable:
+        found = self._list_keys.get(listed)
+        if found is None:
+            found = self._list_keys[listed] = same_values(self._lists[listed])
+        return found
+
+    def _list(self, listed: Listed) -> list[Canonical]:
         """Return the values of several instances: the same list as before while they are the same."""
-        found = [self._seen[a] if a in self._seen else self._see(a) for a in addresses]
-        before = self._lists_before.get(addresses)
+        found = [self._seen[a] if a in self._seen else self._see(a) for a in listed.addresses]
+        before = self._lists_before.get(listed)
         if before is not None and all(map(is_, found, before)):
             found = before
-        self._lists[addresses] = found
+        self._lists[listed] = found
         return found
 
     # -- what is said ----------------------------------------------------------
@@ -160,8 +172,8 @@ class RuleChecks:
         texts["part"] = check.instance.partition(".")[2]
         for single in check.singles:
             texts[single.name] = self._shown(single.address)
-        for name, addresses in check.lists:
-            texts[name] = ", ".join(map(self._shown, addresses))
+        for name, listed in check.lists:
+            texts[name] = ", ".join(map(self._shown, listed.addresses))
         own = tuple(single.address for single in check.singles)
         turns = any(situation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
@@ -169,7 +181,7 @@ class RuleChecks:
             unit = rule.units.get(name, "")
             texts[name] = self._text(expression, given.context, angular(unit) if turns else unit, entered)
         about = own or tuple(
-            a for _, addresses in check.lists for a in addresses if situation.state(a).state == "in-force"
+            a for _, listed in check.lists for a in listed.addresses if situation.state(a).state == "in-force"
         )
         repairs = self._repairs(check, given)
         safe = bool(repairs) and all(fix.safe for fix in rule.fix)
@@ -226,9 +238,9 @@ class RuleChecks:
         mended = {repair.address: canonical_value(repair.value) for repair in repairs}
         before = dict(zip(check.names, given.values, strict=True))
         after: dict[str, Any] = {s.name: mended[s.address] for s in check.singles if s.address in mended}
-        for name, addresses in check.lists:
-            if not mended.keys().isdisjoint(addresses):
-                after[name] = [mended.get(a, value) for a, value in zip(addresses, before[name], strict=True)]
+        for name, listed in check.lists:
+            if not mended.keys().isdisjoint(listed.addresses):
+                after[name] = [mended.get(a, v) for a, v in zip(listed.addresses, before[name], strict=True)]
         given.context.update(after)
         try:
             return check.expressions.broken.execute(given.context) is not True

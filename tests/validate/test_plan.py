@@ -78,7 +78,7 @@ def seen(schema: Schema, reads: dict[str, str], machine: str = "mill") -> dict[s
     situation = Situation(schema, lambda _: None, lambda: machine)
     return {
         check.instance: {s.name: s.address[1] for s in check.singles}
-        | {name: [a[1] for a in addresses] for name, addresses in check.lists}
+        | {name: [a[1] for a in listed.addresses] for name, listed in check.lists}
         for check in checks_of(situation, (rule(reads),))
     }
 
