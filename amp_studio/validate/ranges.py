@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 from amp_studio.files import ParameterFile
@@ -20,6 +20,7 @@ from amp_studio.schema import (
     show_value,
     shown,
 )
+from amp_studio.schema.conditions import Verdicts
 from amp_studio.schema.model import BoundRef
 
 from .finding import Finding, Setting
@@ -40,6 +41,8 @@ class _Facts:
     """The same on an axis that turns; None where that makes no difference."""
     own_range: bool
     """Its range is the same for every instance and in every situation."""
+    fine: Verdicts = field(default_factory=Verdicts, repr=False)
+    """Values with nothing wrong in them, in whatever file; only where the range is its own."""
 
 
 @lru_cache(maxsize=32)
@@ -78,10 +81,14 @@ class ValueChecks:
     def finding(self, address: Address, value: Value) -> Finding | None:
         """Return what is wrong with a value, if anything is."""
         facts = self._facts[address[0]]
+        turns = facts.turning is not None and self._turns(address)
+        key = (value.value.__class__, value.value, value.unit, turns)
+        if key in facts.fine:
+            return None
         said = _wrong_kind(facts, value)
         if said is not None:
             return self._finding(address, value, said, self._file.default(address))
-        if not self._measures_right(facts, address, value):
+        if not _measures_right(facts, value, turns):
             unit = self._file.situation.unit(address, self._file.header.units)
             written = show_value(facts.parameter, value)
             said = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
@@ -89,19 +96,14 @@ class ValueChecks:
                 address, value, said, Value(value.value, unit)
             )  # the control knows the figure only
         if self._within(facts, address, value):
+            if facts.own_range:
+                facts.fine[key] = True
             return None
         said = fault(self._file.situation, address, value)
         if said is None:
             return None
         mended = self._file.default(address) if facts.keys else clip(self._file.situation, address, value)
         return self._finding(address, value, said, mended)
-
-    def _measures_right(self, facts: _Facts, address: Address, value: Value) -> bool:
-        """Tell whether a number is in degrees where the axis turns, in a length where it does not, and so on."""
-        if isinstance(value.value, (str, bool)):
-            return True
-        turns = facts.turning is not None and self._turns(address)
-        return dimension(value.unit) in (facts.turning if turns and facts.turning else facts.measures)
 
     def _turns(self, address: Address) -> bool:
         return self._angular is not None and self._file.situation.holds(self._angular, address[1], "axis")
@@ -130,6 +132,13 @@ class ValueChecks:
         forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
         kind = "schema.choice" if parameter.choices else "schema.range"
         return Finding(kind, "error", (address,), said + "." + forced, repairs, parameter.page)
+
+
+def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:
+    """Tell whether a number is in degrees where the axis turns, in a length where it does not, and so on."""
+    if isinstance(value.value, (str, bool)):
+        return True
+    return dimension(value.unit) in (facts.turning if turns and facts.turning else facts.measures)
 
 
 def _wrong_kind(facts: _Facts, value: Value) -> str | None:
