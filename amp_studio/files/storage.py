@@ -42,6 +42,9 @@ _HEADER = ("name", "application", "revision", "machine", "units", "notes", "sign
 _KNOWN = {"amp_studio", "family", "values", "forced", *_HEADER}
 
 
+_RARE = re.compile("[\x85\u2028\u2029\ufeff\r]")
+
+
 class FileFault(ValueError):
     """A file that cannot be used: path, line and one clear sentence; nothing was changed."""
 
@@ -252,7 +255,7 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     for key in [k for k in tree if k not in header and k not in ("values", "forced")]:
         _drop(tree, key)
     for key, value in header.items():
-        if tree.get(key) != value:
+        if tree.get(key) != value or _is_rare(value):
             tree[key] = _quoted(value)
     _fill(tree, "values", _entries(file), CommentedMap)
     _fill(tree, "forced", {written(a): why for a, why in file.forced.items()}, CommentedMap)
@@ -281,16 +284,30 @@ def _fill(tree: Any, section: str, entries: dict[str, str], empty: type) -> None
         _drop(part, key)
     named = {str(key): key for key in part}
     for key, text in entries.items():
-        if key not in named or _scalar(part[named[key]]) != text:
+        if key not in named or _scalar(part[named[key]]) != text or _is_rare(text):
             part[named.get(key, key)] = _quoted(text)
 
 
+def _is_rare(value: Any) -> bool:
+    """Tell whether there is a sign in a text, or anywhere in a list or mapping, that YAML keeps as an escape only."""
+    if isinstance(value, dict):
+        return any(map(_is_rare, (*value.keys(), *value.values())))
+    if isinstance(value, list):
+        return any(map(_is_rare, value))
+    return isinstance(value, str) and _RARE.search(value) is not None
+
+
 def _quoted(value: Any) -> Any:
-    """Return a text so that YAML keeps every sign of it: it folds the rarer line ends unless they are written as escapes."""
+    """Return a value so that YAML keeps every sign of it: it folds the rarer line ends unless they are written as escapes."""
     from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
-    rare = isinstance(value, str) and any(sign in value for sign in "\x85\u2028\u2029\ufeff\r")
-    return DoubleQuotedScalarString(value) if rare else value
+    if not _is_rare(value):
+        return value
+    if isinstance(value, dict):
+        return {_quoted(key): _quoted(inside) for key, inside in value.items()}
+    return (
+        [_quoted(inside) for inside in value] if isinstance(value, list) else DoubleQuotedScalarString(value)
+    )
 
 
 def _drop(part: Any, key: Any) -> None:

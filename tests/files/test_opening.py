@@ -392,6 +392,23 @@ def test_any_text_of_the_header_is_kept(name: str, notes: str, key: str, extra: 
     assert first == content_of(again, first)
 
 
+@pytest.mark.parametrize("sign", ["\x85", "\u2028", "\u2029", "\ufeff", "\r"])
+def test_rare_line_ends_survive_a_save_that_does_not_touch_them(sign: str) -> None:
+    """In a file with remarks, where what did not change is written as it was read: in texts, lists and mappings."""
+    file = ParameterFile(load_schema("9pc"))
+    told = f"a{sign} b"
+    file.header.notes, file.header.extra["made_by"] = f"# {told}", {"lines": [told, "plain"], told: "x"}
+    file.unknown["other.text"] = told
+    first = content_of(file)
+    again = read_content(HERE, first)
+    assert content_of(again, first) == first
+    assert (again.header.notes, again.header.extra, again.unknown) == (
+        file.header.notes,
+        file.header.extra,
+        file.unknown,
+    )
+
+
 @given(st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(["mm", "in", "deg"]))
 def test_any_number_is_kept_exactly(number: float, unit: str) -> None:
     file = ParameterFile(load_schema("9pc"))
