@@ -393,11 +393,11 @@ def test_any_text_of_the_header_is_kept(name: str, notes: str, key: str, extra: 
 
 
 @pytest.mark.parametrize("sign", ["\x85", "\u2028", "\u2029", "\ufeff", "\r"])
-def test_rare_line_ends_survive_a_save_that_does_not_touch_them(sign: str) -> None:
+@pytest.mark.parametrize("told", ["{}", "a{}b", "a{} b", "a {}"])
+def test_rare_line_ends_survive_a_save_that_does_not_touch_them(sign: str, told: str) -> None:
     """In a file with remarks, where what did not change is written as it was read: in texts, lists and mappings."""
-    file = ParameterFile(load_schema("9pc"))
-    told = f"a{sign} b"
-    file.header.notes, file.header.extra["made_by"] = f"# {told}", {"lines": [told, "plain"], told: "x"}
+    file, told = ParameterFile(load_schema("9pc")), told.format(sign)
+    file.header.notes, file.header.extra["made_by"] = told, {"lines": [told, "plain"], told: "#"}
     file.unknown["other.text"] = told
     first = content_of(file)
     again = read_content(HERE, first)
