@@ -26,7 +26,7 @@ test: setup ## set up what is missing and run all tests
 mutants: setup ## change every rule and what it tells in every way, one at a time, and tell what no case notices
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_told_mutants.py
 
-campaign: setup ## write anything whatever into machines of every family, thousands of times (a quarter of an hour)
+campaign: setup ## write anything whatever into machines of every family, thousands of times
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py
 
 check: setup ## format, lint, types and the import contracts

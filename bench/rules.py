@@ -31,7 +31,7 @@ HALL = 1000
 """Files; a quick run takes a few that are still shared among processes."""
 FEW = 60
 EDITED: Address = ("servo.excess_error", "1")
-"""Seven rules and two ranges read it."""
+"""Many rules read it."""
 
 
 def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:

@@ -21,6 +21,8 @@ from .console import UsageFault, note, print_json, progress
 
 MANY = 50
 """From so many files on it pays to start more processes."""
+MOST = 61
+"""Processes that Windows lets one wait for."""
 AT_A_TIME = 8
 """Files a process is handed at once."""
 
@@ -73,7 +75,7 @@ def _files(paths: Sequence[Path]) -> Iterator[Path]:
 
 def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | None) -> Iterator[Checked]:
     """Yield what there is to say of files, in their order, whichever process is ready first."""
-    wanted = jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1)
+    wanted = min(MOST, jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1))
     if wanted == 1:
         yield from map(check, paths)
         return

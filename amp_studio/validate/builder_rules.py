@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from io import StringIO
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from amp_studio.files import write_atomic
+from amp_studio.files.atomic import digest_of
 from amp_studio.schema import (
     BuilderRule,
     DatabaseFault,
@@ -57,6 +58,11 @@ def rules_beside(path: Path, schema: Schema) -> BuilderRules:
 
 def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
     """Return what a file says to files of a family; faults of the file are findings."""
+    return _read(path, digest_of(path), schema)
+
+
+@lru_cache(maxsize=32)  # it lies beside many files
+def _read(path: Path, _digest: str | None, schema: Schema) -> BuilderRules:
     entries, faults = read_entries(path, {"rules": BuilderRule, "suppressions": Suppression})
     rules: list[BuilderRule] = []
     suppressions: list[Suppression] = []

@@ -84,15 +84,19 @@ class Plan:
 
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:
     """Return the plan for a machine type with the family's rules and further ones; raises RuleFault."""
-    return _make(schema, machine, extra) if extra else _family_plan(schema, machine)
+    return _make(schema, machine, _Further(tuple(rule.model_dump_json() for rule in extra), extra))
+
+
+@dataclass(frozen=True)
+class _Further:
+    """Rules of which equal ones have one plan, in whatever file they were read for."""
+
+    texts: tuple[str, ...]
+    rules: tuple[Rule, ...] = field(compare=False)
 
 
 @lru_cache(maxsize=32)
-def _family_plan(schema: Schema, machine: str) -> Plan:
-    return _make(schema, machine, ())
-
-
-def _make(schema: Schema, machine: str, extra: tuple[Rule, ...]) -> Plan:
+def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     situation = Situation(schema, lambda _: None, lambda: machine)
     addresses = schema.addresses(machine)
     states = {address: frozenset(situation.state_reads(address)) for address in addresses}
@@ -101,7 +105,7 @@ def _make(schema: Schema, machine: str, extra: tuple[Rule, ...]) -> Plan:
     for address in addresses:
         for read in {address} | states[address] | bounds[address]:
             range_readers.setdefault(read, set()).add(address)
-    checks = checks_of(situation, schema.rules + extra)
+    checks = checks_of(situation, schema.rules + further.rules)
     rule_readers: dict[Address, list[RuleCheck]] = {}
     for check in checks:
         read_by_check = {seen for address in check.addresses for seen in {address} | states[address]}

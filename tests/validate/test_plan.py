@@ -186,6 +186,9 @@ def test_a_repair_is_looked_at_again_when_its_bound_moves(small) -> None:
 
 def test_the_plan_of_a_family_is_made_once(small) -> None:
     assert make_plan(small, "mill") is make_plan(small, "mill")
+    length, width = rule(LENGTH), rule(LENGTH, title="Width")
+    assert make_plan(small, "mill", (length,)) is make_plan(small, "mill", (length.model_copy(),))
+    assert make_plan(small, "mill", (length,)) is not make_plan(small, "mill", (width,))
 
 
 # ------------------------------------------------------------------------------- rules that cannot be meant
