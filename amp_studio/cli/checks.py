@@ -17,7 +17,8 @@ from amp_studio.files import ENDING, FileFault, open_file
 from amp_studio.report import finding_json, finding_text, suppressed_text, why_parts, why_text, write_report
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rules_beside
 
-from .console import UsageFault, note, print_json, progress
+from .console import note, print_json, progress
+from .errors import UsageFault
 
 MANY = 50
 """From so many files on it pays to start more processes."""

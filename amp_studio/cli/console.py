@@ -9,14 +9,19 @@ from typing import Any
 
 from amp_studio.schema import Schema, family_ids, load_schema
 
-
-class UsageFault(Exception):
-    """Input that cannot be used; the text is the one line the user sees."""
+from .errors import UsageFault
+from .screen import tell, tell_over
 
 
 def note(text: str) -> None:
     """Print a line that is no result."""
-    print(text, file=sys.stderr)
+    tell(" ".join(text.split()))
+
+
+def ask(question: str) -> str:
+    """Return a person's answer; the question goes through the stream that keeps texts from steering the terminal."""
+    tell(question, end="")
+    return input()
 
 
 def print_json(data: Any) -> None:
@@ -41,14 +46,9 @@ def progress() -> Callable[[str, int, int], None]:
         if last.get(stage) != percent:
             last[stage] = percent
             if sys.stderr.isatty():
-                print(
-                    f"\r{stage} {percent:3d} %",
-                    end="\n" if percent == 100 else "",
-                    file=sys.stderr,
-                    flush=True,
-                )
+                tell_over(f"{stage} {percent:3d} %", last=percent == 100)
             elif percent == 100:
-                print(f"{stage} 100 %", file=sys.stderr, flush=True)
+                tell(f"{stage} 100 %")
 
     return show
 

@@ -10,7 +10,8 @@ from amp_studio.files.lock import now
 from amp_studio.schema import Address, ValueFault
 from amp_studio.transfer.parameters import download_file, emulate, fetch_file, out_of_range
 
-from .console import UsageFault, family, note, progress
+from .console import ask, family, note, progress
+from .errors import UsageFault
 from .files import diff_verb
 
 
@@ -51,14 +52,14 @@ def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: st
             f"{by} holds an illegal value, nothing was written: {said} (--on-fault keep takes it)"
         )
     while on_fault == "ask":
-        answer = input(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
+        answer = ask(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
         if answer.startswith("q"):
             raise UsageFault("given up, nothing was written")
         if answer.startswith("c"):
             break
         if answer.startswith("e"):
             try:
-                file.set_many({address: file.read(address, input("new value: "))})
+                file.set_many({address: file.read(address, ask("new value: "))})
                 return
             except (ValueFault, RangeFault) as error:
                 note(str(error))

@@ -8,7 +8,8 @@ from amp_studio.report import cells_of, definition, one_line, page_of, table_lin
 from amp_studio.schema import family_ids
 from amp_studio.validate import calculate, calculators, shown_result
 
-from .console import UsageFault, assignments, family, print_json
+from .console import assignments, family, print_json
+from .errors import UsageFault
 
 
 def families_verb(options: argparse.Namespace) -> int:

@@ -21,7 +21,8 @@ from amp_studio.files.lock import now
 from amp_studio.schema import Address, Value, field_at, field_value, show_value, with_field, write_value
 from amp_studio.schema.stored import stored_number
 
-from .console import UsageFault, assignments, family, note, print_json, progress
+from .console import assignments, family, note, print_json, progress
+from .errors import UsageFault
 
 
 def new_verb(options: argparse.Namespace) -> int:

@@ -9,8 +9,9 @@ from amp_studio.schema import written
 from amp_studio.transfer.formats import FamilyUntold, export_file, import_file
 from amp_studio.transfer.parameters import out_of_range
 
-from .console import UsageFault, note
+from .console import note
 from .control import walk
+from .errors import UsageFault
 
 
 def import_verb(options: argparse.Namespace) -> int:

@@ -10,7 +10,8 @@ from amp_studio.schema import ValueFault, canonical, unit_named, write_value
 from amp_studio.schema.values import read_number
 from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
 
-from .console import UsageFault, assignments, print_json
+from .console import assignments, print_json
+from .errors import UsageFault
 from .files import wanted
 
 

@@ -8,7 +8,7 @@ from typing import NoReturn
 
 from amp_studio import __version__
 
-from .console import UsageFault
+from .errors import UsageFault
 
 
 class _Parser(argparse.ArgumentParser):
@@ -26,9 +26,10 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"amp-studio {__version__}")
     verbs = top.add_subparsers(metavar="VERB", required=True, parser_class=_Parser)
 
-    def verb(name: str, module: str, told: str) -> argparse.ArgumentParser:
+    def verb(name: str, module: str, told: str, writes: str = "") -> argparse.ArgumentParser:
+        """Add a verb; ``writes`` names the option whose file it may replace."""
         sub = verbs.add_parser(name, help=told, description=told)
-        sub.set_defaults(verb=f"{name}_verb", module=module)
+        sub.set_defaults(verb=f"{name}_verb", module=module, writes=writes.split())
         return sub
 
     def json_option(sub: argparse.ArgumentParser) -> None:
@@ -58,12 +59,14 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("family")
     sub.add_argument("formula", nargs="?")
     sub.add_argument("arguments", nargs="*", metavar="NAME=VALUE")
-    sub = verb("new", "files", "a new parameter file with the family's defaults")
+    sub = verb("new", "files", "a new parameter file with the family's defaults", writes="path")
     sub.add_argument("family")
     sub.add_argument("path", type=Path)
     sub.add_argument("--machine")
     sub.add_argument("--axes", help="axis names in order, with commas")
-    sub = verb("set", "files", "change values, all or none; the previous file becomes the backup")
+    sub = verb(
+        "set", "files", "change values, all or none; the previous file becomes the backup", writes="path"
+    )
     sub.add_argument("path", type=Path)
     sub.add_argument("assignments", nargs="+", metavar="PARAM=VALUE")
     sub.add_argument("--force", action="store_true", help="take values out of range, and mark them")
@@ -88,16 +91,16 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("a")
     sub.add_argument("b")
     json_option(sub)
-    sub = verb("merge", "files", "three-way merge by parameter")
+    sub = verb("merge", "files", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
         sub.add_argument(name, type=Path)
     sub.add_argument("-o", "--output", type=Path, required=True)
-    sub = verb("report", "checks", "documentation as .pdf, .html, .csv or .txt")
+    sub = verb("report", "checks", "documentation as .pdf, .html, .csv or .txt", writes="output")
     sub.add_argument("path", type=Path)
     sub.add_argument("-o", "--output", type=Path, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
     sub.add_argument("--changed-only", action="store_true")
-    sub = verb("import", "formats", "a new parameter file from a control's own text format")
+    sub = verb("import", "formats", "a new parameter file from a control's own text format", writes="output")
     sub.add_argument("text", type=Path, metavar="FILE")
     sub.add_argument("-o", "--output", type=Path, required=True)
     sub.add_argument("--family", help="where the text does not tell it")
@@ -106,7 +109,9 @@ def parser() -> argparse.ArgumentParser:
         "--keep-unknown", action="store_true", help="keep what is not understood, to be written back"
     )
     on_fault(sub)
-    sub = verb("export", "formats", "a parameter file in a text format; the ending tells which")
+    sub = verb(
+        "export", "formats", "a parameter file in a text format; the ending tells which", writes="output"
+    )
     sub.add_argument("path", type=Path)
     sub.add_argument("-o", "--output", type=Path, required=True)
     sub.add_argument("--format", help="where the ending does not tell it")
@@ -131,7 +136,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--keep", type=Path, metavar="DIR", help="where to keep what the control held (beside the file)"
     )
-    sub = verb("upload", "control", "fetch the control's file under a new name")
+    sub = verb("upload", "control", "fetch the control's file under a new name", writes="output")
     sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
     sub.add_argument("-o", "--output", type=Path, required=True)
     on_fault(sub)
@@ -139,7 +144,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("path", type=Path)
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
     json_option(sub)
-    sub = verb("simulate", "motion", "check settings in motion")
+    sub = verb("simulate", "motion", "check settings in motion", writes="output")
     sub.add_argument("path", type=Path)
     sub.add_argument("scenario")
     sub.add_argument("--axis")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 
+from amp_studio.files.spreadsheet import text_cell
+
 from .model import Report, Row
 
 HEADS = (
@@ -30,7 +32,7 @@ def render_csv(report: Report) -> bytes:
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\r\n")
     table.writerow(HEADS)
-    table.writerows(_line(row) for row in report.rows())
+    table.writerows(map(text_cell, _line(row)) for row in report.rows())
     return stream.getvalue().encode("utf-8-sig")
 
 

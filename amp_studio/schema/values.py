@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from .model import Bit, Parameter
 from .units import UnitError, dimension, shown, unit_named
+from .visible import visible
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +217,7 @@ def show_value(parameter: Parameter, value: Value | None) -> str:
     if value is None:
         return "—"
     if isinstance(value.value, (str, bool)):
-        return write_value(parameter, value)
+        return visible(write_value(parameter, value))
     number = _number_text(parameter, value)
     unit = shown(value.unit)
     return f"{number}{unit}" if unit == "°" else f"{number} {unit}" if unit else number

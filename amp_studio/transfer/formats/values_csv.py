@@ -10,6 +10,7 @@ import csv
 import io
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.schema import Address, Schema, Value, ValueFault, read_value, write_value, written
 
 from .text_format import FormatFault, TextFormat, TextRead
@@ -33,7 +34,8 @@ def _write(file: ParameterFile) -> str:
             parameter = file.schema.parameters[address[0]]
             number = file.schema.number(address, file.machine) or ""
             plain = write_value(parameter, Value(value.value))
-            table.writerow((number, *address, parameter.name, plain, value.unit))
+            cells = (number, *address, parameter.name, plain, value.unit)
+            table.writerow(map(text_cell, cells))
     return _MARK + stream.getvalue()
 
 
@@ -58,7 +60,7 @@ def _take(
 ) -> None:
     if len(cells) != len(heads):
         raise FormatFault(f"{len(cells)} cells below {len(heads)} columns", line)
-    row = dict(zip(heads, cells, strict=True))
+    row = dict(zip(heads, map(cell_text, cells), strict=True))
     address: Address = (row["id"].strip(), row.get("instance", "").strip())
     said = f"{row['value']} {row['unit']}".strip()
     parameter = schema.parameters.get(address[0])

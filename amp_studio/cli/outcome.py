@@ -1,0 +1,49 @@
+"""What a verb that failed or was stopped has changed all the same: found by a look at the disk, not by memory."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+Mark = tuple[int, int, int, int] | None
+"""What tells one state of a file from another: device, number, size and time; None where there is no file."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """A file that a verb may replace, and its backup, as they were before it began."""
+
+    path: Path
+    mark: Mark
+    backup: Path
+    backup_mark: Mark
+
+    def sentence(self) -> str:
+        """Return what holds now where the file has been replaced; nothing where it is as it was."""
+        now = _mark(self.path)
+        if now == self.mark:
+            return ""
+        if now is None:
+            return f"{self.path} is no longer there"
+        if self.mark is None:
+            return f"{self.path} has been written and is complete"
+        kept = f"; its previous content is in {self.backup}" if _mark(self.backup) != self.backup_mark else ""
+        return f"{self.path} has been changed and holds the new content{kept}"
+
+
+def targets(paths: Sequence[Path]) -> list[Target]:
+    """Return the files that a verb may replace, to be asked later what has become of them."""
+    if not paths:
+        return []
+    from amp_studio.files import backup_path  # only a verb that writes needs it
+
+    return [Target(path, _mark(path), backup_path(path), _mark(backup_path(path))) for path in paths]
+
+
+def _mark(path: Path) -> Mark:
+    try:
+        found = path.stat()
+    except (OSError, ValueError):
+        return None
+    return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns

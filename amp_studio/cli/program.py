@@ -1,0 +1,100 @@
+"""Runs a verb and ends with the truth: an exit code and one line that says what went wrong and what holds now.
+
+argparse is used because it answers misuse with exit code 2 and costs no start-up time; the module of a verb, with the
+rooms it needs, is loaded when the verb is called.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import TYPE_CHECKING, NoReturn
+
+from .stopping import answer_once, no_more, was_asked
+
+if TYPE_CHECKING:
+    from .outcome import Target
+
+FAULT, CHANGED = 2, 3
+
+
+def start(arguments: Sequence[str] | None) -> NoReturn:
+    """Be the program: run one verb on the standard streams and exit with its code."""
+    try:
+        answer_once()
+        from .screen import open_streams
+
+        open_streams()
+        code = run_verb(sys.argv[1:] if arguments is None else arguments)
+    except KeyboardInterrupt:  # before the verb had begun
+        code = FAULT
+    no_more()
+    sys.exit(code)
+
+
+def run_verb(arguments: Sequence[str]) -> int:
+    """Run one verb and return its exit code."""
+    if not arguments:
+        from amp_studio.ui import main as desktop
+
+        return desktop([])
+    replaced: list[Target] = []
+    try:
+        return _run(arguments, replaced)
+    except KeyboardInterrupt:  # also one that came while another refusal was put into words
+        return _refuse("stopped", replaced)
+
+
+def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
+    """Run one verb; ``replaced`` takes the files that it may replace."""
+    from .outcome import targets
+    from .parser import parser
+    from .screen import flush_results
+
+    try:
+        try:
+            options = parser().parse_args(arguments)
+        except SystemExit:  # help or the version has been printed
+            flush_results()
+            return 0
+        replaced += targets([path for name in options.writes if (path := getattr(options, name))])
+        verb = getattr(import_module(f".{options.module}", __package__), options.verb)
+        code = int(verb(options))
+        if was_asked():
+            raise KeyboardInterrupt
+        flush_results()
+    except BrokenPipeError:  # a reader that has enough is no fault to be shown
+        return _refuse("nobody reads the results any more", replaced, quiet=True)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a panic of the rule engine is no Exception
+        if was_asked():  # what was interrupted may end in any error
+            raise KeyboardInterrupt from None
+        return _refuse(_sentence(error), replaced)
+    return code
+
+
+def _sentence(error: BaseException) -> str:
+    """Return the one line a person sees; what nobody has foreseen is named, with where its details are."""
+    from amp_studio.schema import DatabaseFault, UnknownParameter
+
+    from .errors import UsageFault
+    from .trouble import keep_details
+
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename or 'the results cannot be written'}: {error.strerror}"
+    if isinstance(error, (UsageFault, UnknownParameter, DatabaseFault, ValueError, OSError)):
+        return str(error)
+    return keep_details(error)
+
+
+def _refuse(text: str, replaced: Sequence[Target], *, quiet: bool = False) -> int:
+    """Say in one line what went wrong and what holds now, and return the exit code; ``quiet`` where nothing has changed."""
+    from .screen import end_results, tell
+
+    end_results()
+    now = "; ".join(filter(None, (target.sentence() for target in replaced)))
+    if now or not quiet:
+        tell(f"amp-studio: {' '.join(text.split())}{f'; {now}' if now else ''}")
+    return CHANGED if now else FAULT

@@ -1,0 +1,92 @@
+"""The standard streams of the program: there whatever the shell has closed, and no text on them steers the terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+from pathlib import Path
+from typing import TextIO
+
+
+class Screen(io.TextIOWrapper):
+    """A standard stream that shows steering signs instead of passing them on; only line ends and tabs pass."""
+
+    def write(self, text: str) -> int:
+        """Write a text with its steering signs made visible."""
+        return super().write(_shown(text))
+
+    def overwrite(self, text: str) -> None:
+        """Write over the present line of a terminal."""
+        super().write("\r" + _shown(text) + "\x1b[K")
+        self.flush()
+
+
+def _shown(text: str) -> str:
+    if text.replace("\n", "").replace("\t", "").isprintable():
+        return text
+    from amp_studio.schema.visible import visible  # the rooms are loaded when they are needed
+
+    return visible(text, keep="\n\t")
+
+
+def open_streams() -> None:
+    """Put streams of this module in the place of Python's; a handle that the shell has closed leads nowhere."""
+    while (
+        handle := os.open(os.devnull, os.O_RDWR)
+    ) <= 2:  # a file opened later must not become standard output
+        pass
+    os.close(handle)
+    sys.stdin = sys.stdin or io.TextIOWrapper(io.BytesIO())
+    sys.stdout, sys.stderr = _screen(sys.stdout), _screen(sys.stderr)
+
+
+def _screen(stream: TextIO | None) -> TextIO:
+    if stream is None:
+        return Screen(Path(os.devnull).open("wb"), encoding="utf-8")
+    if not isinstance(stream, io.TextIOWrapper):
+        return stream
+    encoding, lines = stream.encoding, stream.line_buffering
+    return Screen(stream.detach(), encoding=encoding, errors="backslashreplace", line_buffering=lines)
+
+
+def flush_results() -> None:
+    """Write out what was printed; raises OSError where nobody can take it."""
+    sys.stdout.flush()
+
+
+def end_results() -> None:
+    """Write out what was printed as far as somebody takes it; the rest goes nowhere."""
+    try:
+        flush_results()
+    except (OSError, ValueError):
+        abandon(sys.stdout)
+
+
+def tell(text: str, end: str = "\n") -> None:
+    """Print a line on standard error; where nobody can read it the work goes on all the same."""
+    try:
+        print(text, end=end, file=sys.stderr, flush=True)
+    except (OSError, ValueError):
+        abandon(sys.stderr)
+
+
+def tell_over(text: str, *, last: bool) -> None:
+    """Show a line that the next one replaces, where standard error is a terminal."""
+    stream = sys.stderr
+    try:
+        if isinstance(stream, Screen) and stream.isatty():
+            stream.overwrite(text)
+            if last:
+                stream.write("\n")
+    except (OSError, ValueError):
+        abandon(stream)
+
+
+def abandon(stream: TextIO) -> None:
+    """Lead a stream nowhere, so that the end of the program does not fail on it again."""
+    with contextlib.suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)

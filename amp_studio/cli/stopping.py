@@ -1,0 +1,41 @@
+"""Ctrl-C, answered once and by everything that runs.
+
+The first one raises KeyboardInterrupt; what comes while the verb ends and says what holds now is not heard. Python and
+the rule engine lose an interrupt that comes in the wrong moment (while an object is put away, inside a function that an
+expression calls): ``was_asked`` remembers it.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+from typing import Any, NoReturn
+
+_asked: list[int] = []
+
+
+def answer_once() -> None:
+    """Begin to answer Ctrl-C."""
+    signal.signal(signal.SIGINT, _stop)
+    sys.unraisablehook = _unraised
+
+
+def no_more() -> None:
+    """Answer no more: nothing is left that could be stopped."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def was_asked() -> bool:
+    """Return whether Ctrl-C has come, also where nothing was raised by it in the end."""
+    return bool(_asked)
+
+
+def _stop(number: int, _frame: object) -> NoReturn:
+    no_more()
+    _asked.append(number)
+    raise KeyboardInterrupt
+
+
+def _unraised(unraisable: Any) -> None:
+    if unraisable.exc_type is not KeyboardInterrupt:
+        sys.__unraisablehook__(unraisable)

@@ -1,0 +1,20 @@
+"""A fault of the program itself: one line for the person, the details in a file for whoever mends it."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+
+import platformdirs
+
+
+def keep_details(error: BaseException) -> str:
+    """Keep the traceback of an unforeseen error and return one sentence that names it and the place."""
+    told = f"this should not have happened ({type(error).__name__}: {error})"
+    try:
+        place = Path(platformdirs.user_log_dir("amp-studio")) / "trouble.txt"
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text("".join(traceback.format_exception(error)), encoding="utf-8")
+    except OSError:
+        return told
+    return f"{told}; the details are in {place}"

@@ -1,0 +1,48 @@
+"""Stops the program at moments that chance chooses, and holds its exit code against the disk."""
+
+from __future__ import annotations
+
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+LONGEST = 0.8
+"""Seconds after the start within which it is stopped; a verb takes about as long."""
+
+
+def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
+    """Change a value again and again and stop each change; return what was not true of it."""
+    chance = random.Random(seed)
+    faults = []
+    for number in range(rounds):
+        before, delay = path.read_bytes(), chance.uniform(0, LONGEST)
+        again = chance.random() < 0.3
+        code, said = _stopped(path, f"1300={number + 1}.125", delay, again)
+        changed = path.read_bytes() != before
+        # Python itself ends by the signal (-2) where it comes before the program has begun.
+        fits = {0: changed, 2: not changed, 3: changed, -signal.SIGINT: not changed}.get(code, False)
+        if (
+            not fits
+            or "Traceback" in said
+            or "ignored" in said
+            or (code == 3) != ("has been changed" in said)
+        ):
+            faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: {code}, {changed}, {said!r}")
+        if left := [p.name for p in path.parent.iterdir() if p.suffix in (".tmp", ".lock", ".holder")]:
+            faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: left {left}")
+    return faults
+
+
+def _stopped(path: Path, assignment: str, delay: float, again: bool) -> tuple[int, str]:
+    command = [sys.executable, "-m", "amp_studio.cli", "set", str(path), assignment]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+        time.sleep(delay)
+        program.send_signal(signal.SIGINT)
+        if again:
+            time.sleep(0.01)
+            program.send_signal(signal.SIGINT)
+        _, said = program.communicate(timeout=30)
+    return program.returncode, said

@@ -1,0 +1,152 @@
+"""How the program ends: the exit code is the truth about the disk, whatever becomes of its streams and whoever stops it."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from amp_studio import cli
+from amp_studio.cli import stopping
+from tests.cli.stopped import set_while_stopped
+
+PROGRAM = [sys.executable, "-m", "amp_studio.cli"]
+NOBODY = "amp-studio: nobody reads the results any more"
+
+
+def start(*arguments: object, before: Callable[[], object] | None = None, **streams: int) -> tuple[int, str]:
+    """Run the program on given streams; return its exit code and what it says on standard error."""
+    ended = subprocess.run(
+        [*PROGRAM, *map(str, arguments)],
+        **({"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | streams),
+        stdin=subprocess.DEVNULL,
+        preexec_fn=before,
+        check=False,
+    )
+    return ended.returncode, (ended.stderr or b"").decode()
+
+
+@pytest.fixture
+def full():
+    """Return a handle to which nothing can be written."""
+    with Path("/dev/full").open("wb") as stream:
+        yield stream.fileno()
+
+
+@pytest.fixture
+def unread():
+    """Return the writing end of a pipe that nobody reads."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    yield writing
+    os.close(writing)
+
+
+def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_printed(
+    mill: Path, full: int
+) -> None:
+    code, said = start("set", mill, "1300=1.5", stdout=full)
+    assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
+    assert said == (
+        f"amp-studio: the results cannot be written: No space left on device; {mill} has been changed and holds the "
+        f"new content; its previous content is in {mill}.bak\n"
+    )
+
+
+def test_a_value_that_is_in_the_file_is_no_refusal_where_nobody_reads_the_result(
+    mill: Path, unread: int
+) -> None:
+    code, said = start("set", mill, "1300=1.5", stdout=unread)
+    assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
+    assert said.startswith(f"{NOBODY}; {mill} has been changed")
+
+
+def test_a_new_file_is_said_to_be_there(mill: Path, tmp_path: Path, full: int) -> None:
+    code, said = start("report", mill, "-o", tmp_path / "mill.txt", stdout=full)
+    assert code == 3
+    assert f"{tmp_path / 'mill.txt'} has been written and is complete" in said
+
+
+@pytest.mark.parametrize(
+    "arguments", [("get", "{mill}"), ("schema", "9pc", "--json"), ("--help",), ("--version",)]
+)
+def test_results_that_cannot_be_printed_are_a_refusal_where_nothing_was_changed(
+    mill: Path, full: int, arguments: tuple[str, ...]
+) -> None:
+    code, said = start(*(text.format(mill=mill) for text in arguments), stdout=full)
+    assert (code, said) == (2, "amp-studio: the results cannot be written: No space left on device\n")
+
+
+def test_a_reader_that_has_enough_is_not_told_so(mill: Path, unread: int) -> None:
+    assert start("get", mill, stdout=unread) == (2, "")
+
+
+def test_notes_that_nobody_can_read_stop_nothing(mill: Path, full: int, unread: int) -> None:
+    for stream in (full, unread):  # 1300=0 mm is so already, which is a note
+        assert start("set", mill, "1300=0", stderr=stream)[0] == 0
+        assert start("set", mill, "1300=1e9", stderr=stream)[0] == 2
+
+
+@pytest.mark.parametrize("closed", [(1,), (2,), (0, 1, 2)])
+def test_streams_that_the_shell_has_closed_stop_nothing_and_spoil_no_file(
+    mill: Path, closed: tuple[int, ...]
+) -> None:
+    def close() -> None:
+        for handle in closed:
+            os.close(handle)
+
+    assert start("set", mill, "1300=2.5", before=close)[0] == 0
+    assert start("get", mill, "--all", before=close)[0] == 0
+    assert cli.run(["get", str(mill), "1300"]) == 0
+    assert b"home.calibration@1: 2.5 mm" in mill.read_bytes()
+    assert start("get", mill, "99999", before=close)[0] == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a signal cannot be sent to a process there")
+def test_it_can_be_stopped_at_any_moment_and_says_what_holds(mill: Path) -> None:
+    assert set_while_stopped(mill, seed=1, rounds=12) == []
+
+
+def test_an_interrupt_that_an_expression_has_swallowed_is_not_forgotten(amp, mill: Path, monkeypatch) -> None:
+    def swallow(_: object) -> int:
+        monkeypatch.setattr(stopping, "_asked", [signal.SIGINT])
+        return 0
+
+    monkeypatch.setattr("amp_studio.cli.files.get_verb", swallow)
+    assert (amp("get", mill).code, amp("get", mill).err) == (2, "amp-studio: stopped\n")
+
+
+def test_an_interrupt_while_a_refusal_is_worded_says_what_holds(amp, mill: Path, monkeypatch) -> None:
+    def stop(*_: object) -> str:
+        raise KeyboardInterrupt
+
+    def fail(options: object) -> int:
+        mill.with_name("new").write_bytes(b"")
+        mill.with_name("new").replace(mill)
+        raise ValueError("after the change")
+
+    monkeypatch.setattr("amp_studio.cli.program._sentence", stop)
+    monkeypatch.setattr("amp_studio.cli.files.set_verb", fail)
+    said = amp("set", mill, "1300=1")
+    assert (said.code, said.err) == (
+        3,
+        f"amp-studio: stopped; {mill} has been changed and holds the new content\n",
+    )
+
+
+def test_what_nobody_has_foreseen_is_one_line_with_the_place_of_the_details(
+    amp, mill: Path, monkeypatch
+) -> None:
+    def fail(_: object) -> int:
+        raise KeyError("never")
+
+    monkeypatch.setattr("amp_studio.cli.files.get_verb", fail)
+    said = amp("get", mill)
+    assert (said.code, "should not have happened (KeyError: 'never')" in said.err) == (2, True)
+    place = Path(said.err.rpartition("the details are in ")[2].strip())
+    assert 'raise KeyError("never")' in place.read_text(encoding="utf-8")
