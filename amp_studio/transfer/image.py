@@ -4,6 +4,9 @@ UTF-8 text, one record a line, so that two images can be compared byte for
 byte. ``docs/protocols/image.md`` specifies it. Numbers travel with the unit
 they were entered in; choices as the code the control stores, where one is
 printed, else as their key.
+
+A file has exactly one image: what would not be written the same again is no
+image, however it came about.
 """
 
 from __future__ import annotations
@@ -11,37 +14,53 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import Header, ParameterFile
+from amp_studio.files.storage import read_stored
 from amp_studio.schema import (
     Address,
+    Choice,
     Parameter,
+    Schema,
     UnknownParameter,
     Value,
     ValueFault,
     angular,
+    family_ids,
     load_schema,
     read_address,
+    read_value,
     write_number,
     written,
 )
-from amp_studio.schema.units import UNITS
 from amp_studio.schema.values import read_number
 
 MAGIC = "AMP-IMAGE 1"
+_HEAD = ("family", "signature", "machine", "application", "revision")
+_LONGEST = 200
+"""Signs of a value that is no text; the longest that is written has far fewer."""
+_SHOWN = 60
+"""Signs of a damaged line that a message shows."""
+
+_CONTROL_SIGN = re.compile(
+    r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"
+)  # none but TAB and the line feed stand in an image
+_PLAIN_SIGN = re.compile(r"[\x00-\x1f\x7f-\x9f\\]")
+_ESCAPE = re.compile(r"\\(?:x([0-9a-f]{2})|(.))", re.DOTALL)
+_LETTERS = {"\\": "\\", "\n": "n", "\t": "t"}
+_SIGNS = {letter: sign for sign, letter in _LETTERS.items()}
 
 
 class ImageFault(ValueError):
-    """Bytes that are not a whole control image; one clear sentence."""
+    """Bytes that are not a whole control image, or a file that has none; one clear sentence."""
 
 
-class PatchFault(ValueError):
+class PatchFault(ValueFault):
     """A value that cannot be keyed in at the control; one clear sentence."""
 
 
 def encode_image(file: ParameterFile) -> bytes:
-    """Return the image of a file: every value that is set, in the manual's order."""
+    """Return the image of a file: every value that is set, in the manual's order; raises ImageFault."""
     schema, machine = file.schema, file.machine
-    lines = [MAGIC, f"family {schema.family.family}", f"signature {schema.signature}", f"machine {machine}",
-             f"application {file.header.application}", f"revision {file.header.revision}"]  # fmt: skip
+    lines = head_of(file)
     order = {a: n for n, a in enumerate(file.addresses())}
     values = sorted((a for a in file.values if a in order), key=order.__getitem__)
     for address in values:
@@ -51,104 +70,179 @@ def encode_image(file: ParameterFile) -> bytes:
             f"{shown}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
         )
     lines.append(f"end {len(values)}")
-    return ("\n".join(lines) + "\n").encode("utf-8")
+    try:
+        return ("\n".join(lines) + "\n").encode("utf-8")
+    except UnicodeEncodeError:
+        raise ImageFault("a text of the file holds half a character, which no image can carry") from None
+
+
+def head_of(file: ParameterFile) -> list[str]:
+    """Return the lines of a file's image before the first record."""
+    header = file.header
+    return [MAGIC, f"family {file.schema.family.family}", f"signature {file.schema.signature}",
+            f"machine {file.machine}", f"application {_escaped(header.application)}",
+            f"revision {_escaped(header.revision)}"]  # fmt: skip
 
 
 def decode_image(image: bytes) -> ParameterFile:
-    """Return the file an image holds; raises ImageFault when it is cut off or of another schema."""
+    """Return the file an image holds, whose image is exactly this one; raises ImageFault."""
     head, records = _split(image)
-    try:
-        schema = load_schema(head["family"])
-    except KeyError:
-        raise ImageFault(
-            f"the control image is for the family '{head['family']}', which is not known here"
-        ) from None
-    if head["signature"] != schema.signature:
-        raise ImageFault(
-            "the control's parameters are numbered by another schema than this program's; nothing was read"
-        )
-    file = ParameterFile(schema, Header(application=head["application"], revision=head["revision"],
+    schema = _schema(head)
+    file = ParameterFile(schema, Header(application=_unescaped(head["application"]),
+                                        revision=_unescaped(head["revision"]),
                                         machine="" if schema.family.machine_parameter else head["machine"],
                                         signature=schema.signature))  # fmt: skip
     for entry, field in records:
         address = read_address(entry)
         parameter = schema.parameters.get(address[0])
         if parameter is None:
-            raise ImageFault(f"the control image holds {entry}, which the schema does not have")
-        file.values[address] = _value(parameter, field)
+            raise ImageFault(f"the control image holds '{_short(entry)}', which the schema does not have")
+        if address in file.values:
+            raise ImageFault(f"the control image holds {_short(entry)} twice")
+        file.values[address] = _value(schema, parameter, entry, field)
     file.situation.forget()
+    _check_form(file, image)
     return file
 
 
 def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
+    """Return the head and the records, address and value; raises ImageFault."""
     try:
-        lines = image.decode("utf-8").split("\n")
+        text = image.decode("utf-8")
     except UnicodeDecodeError:
         raise ImageFault("the control image is not text") from None
-    if not lines or lines[0] != MAGIC:
+    lines = text.split("\n")
+    if lines[0] != MAGIC:
         raise ImageFault("this is not a control image")
     if len(lines) < 8 or lines[-1] != "" or not lines[-2].startswith("end "):
         raise ImageFault("the control image has been cut off")
+    if found := _CONTROL_SIGN.search(text):
+        raise ImageFault(
+            f"line {text.count(chr(10), 0, found.start()) + 1} of the control image holds a control sign"
+        )
     head = {}
-    for line in lines[1:6]:
-        key, _, text = line.partition(" ")
-        head[key] = text
-    missing = {"family", "signature", "machine", "application", "revision"} - set(head)
-    records = [line.split("\t") for line in lines[6:-2]]
-    if missing or any(len(r) != 3 for r in records) or lines[-2] != f"end {len(records)}":
-        raise ImageFault("the control image is damaged")
-    return head, [(entry, field) for _, entry, field in records]
+    for key, line in zip(_HEAD, lines[1:6], strict=True):
+        if not line.startswith(f"{key} "):
+            raise ImageFault(f"the control image has '{_short(line)}' where its {key} should stand")
+        head[key] = line[len(key) + 1 :]
+    records = []
+    for number, line in enumerate(lines[6:-2], 7):
+        parts = line.split("\t")
+        if len(parts) != 3:
+            raise ImageFault(f"line {number} of the control image, '{_short(line)}', is no record")
+        records.append((parts[1], parts[2]))
+    if lines[-2] != f"end {len(records)}":
+        raise ImageFault(
+            f"the control image holds {len(records)} records and ends with '{_short(lines[-2])}'"
+        )
+    return head, records
+
+
+def _schema(head: dict[str, str]) -> Schema:
+    family = head["family"]
+    if family not in family_ids():  # what a control says is never looked up as a path
+        raise ImageFault(f"the control image is for the family '{_short(family)}', which is not known here")
+    schema = load_schema(family)
+    if head["signature"] != schema.signature:
+        raise ImageFault("the control's parameters are numbered by another schema than this program's")
+    if head["machine"] not in schema.machines:
+        raise ImageFault(f"the control image is for the machine type '{_short(head['machine'])}', "
+                         f"which {schema.family.name} does not have")  # fmt: skip
+    return schema
+
+
+def _check_form(file: ParameterFile, image: bytes) -> None:
+    """Refuse an image that is not the one of the file it was read as: another order, number, unit sign, escape."""
+    known = set(file.addresses())
+    for address in file.values:
+        if address not in known:
+            raise ImageFault(f"the control image holds {_short(written(address))}, "
+                             f"which does not exist on the machine type {file.machine}")  # fmt: skip
+    right = encode_image(file)
+    if right == image:
+        return
+    pairs = zip(image.decode("utf-8").split("\n"), right.decode("utf-8").split("\n"), strict=True)
+    number, (held, wanted) = next((n, pair) for n, pair in enumerate(pairs, 1) if pair[0] != pair[1])
+    raise ImageFault(
+        f"line {number} of the control image is '{_short(held)}', which would be written '{_short(wanted)}'"
+    )
+
+
+def _short(text: str) -> str:
+    text = text.replace("\t", " ")
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 1] + "…"
+
+
+def _escaped(text: str) -> str:
+    return _PLAIN_SIGN.sub(lambda m: "\\" + _LETTERS.get(m[0], f"x{ord(m[0]):02x}"), text)
+
+
+def _unescaped(text: str) -> str:
+    """Return the text that was escaped; what is no escape becomes something that is not written so."""
+    return _ESCAPE.sub(lambda m: chr(int(m[1], 16)) if m[1] else _SIGNS.get(m[2], m[2]), text)
+
+
+def _code(choice: Choice) -> str:
+    return choice.key if choice.raw is None else f"raw:{choice.raw}"
 
 
 def _field(parameter: Parameter, value: Value) -> str:
     found = value.value
     if parameter.choices:
         key = ("yes" if found else "no") if isinstance(found, bool) else str(found)
-        raw = next((c.raw for c in parameter.choices if c.key == key), None)
-        return key if raw is None else f"raw:{raw}"
+        return next((_code(c) for c in parameter.choices if c.key == key), key)
     if isinstance(found, str):
-        return "text:" + found.replace("\\", "\\\\").replace("\n", "\\n").replace("\t", "\\t")
+        return "text:" + _escaped(found)
     return f"{write_number(found)} {value.unit}".rstrip()
 
 
-def _value(parameter: Parameter, field: str) -> Value:
-    if parameter.choices:
-        yes_no = parameter.type == "boolean"
-        for choice in parameter.choices:
-            if field in (choice.key, f"raw:{choice.raw}"):
-                return Value(choice.key == "yes" if yes_no else choice.key)
-        if re.fullmatch(r"raw:-?\d+", field):
-            return Value(field)
-        raise ImageFault(f"'{field}' is no choice of {parameter.name}")
-    if field.startswith("text:"):
-        plain = field[5:]
-        return Value(re.sub(r"\\(.)", lambda m: {"n": "\n", "t": "\t"}.get(m.group(1), m.group(1)), plain))
-    number, _, unit = field.partition(" ")
+def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Value:
+    """Return the value a field means, by the same reading as a file's; raises ImageFault, which names the entry."""
+    is_text = parameter.type in ("text", "format")
+    if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
+        raise ImageFault(
+            f"the control image holds {_short(entry)} with '{_short(field)}', which is no value of it"
+        )
     try:
-        value = float(number)
-    except ValueError:
-        raise ImageFault(f"'{field}' is no value of {parameter.name}") from None
-    if unit not in UNITS:
-        raise ImageFault(f"'{unit}' is no unit")
-    return Value(int(value) if parameter.type in ("integer", "bits") and value == int(value) else value, unit)
+        if is_text:
+            return read_stored(schema, parameter, _unescaped(field[5:]))
+        if not parameter.choices:
+            return read_stored(schema, parameter, field)
+        return _choice(parameter, field)
+    except ValueFault as error:
+        raise ImageFault(
+            f"the control image holds {_short(entry)} with a value it cannot have: {error}"
+        ) from None
+
+
+def _choice(parameter: Parameter, field: str) -> Value:
+    for choice in parameter.choices or ():
+        if field == _code(choice):
+            return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
+    if not field.startswith("raw:"):
+        raise ValueFault(f"'{field}' is not a choice of {parameter.name}")
+    return read_value(parameter, field, "")
 
 
 def patch_image(image: bytes, number: str, text: str) -> bytes:
-    """Key one value into an image as at the control: by number, in the control's own unit, unchecked.
+    """Key one value into an image as at the control: by number, in the control's own unit, its range unchecked.
 
-    Raises PatchFault for a number the control does not offer and for text that is no number.
+    Raises PatchFault for a number the control does not offer and for text that is no value of it, ImageFault
+    where the image cannot be read.
     """
     file = decode_image(image)
     address, parameter = _patchable(file, number)
     try:
         value, rest = read_number(text)
+        if rest.strip():
+            raise PatchFault("patch values are plain numbers")
+        file.values[address] = patched_value(file, address, parameter, value)
     except ValueFault as error:
         raise PatchFault(str(error)) from None
-    if rest.strip():
-        raise PatchFault("patch values are plain numbers")
-    file.values[address] = patched_value(file, address, parameter, value)
     file.situation.forget()
-    return encode_image(file)
+    changed = encode_image(file)
+    decode_image(changed)  # the control's memory holds nothing that cannot be read again
+    return changed
 
 
 def _patchable(file: ParameterFile, number: str) -> tuple[Address, Parameter]:
@@ -163,10 +257,16 @@ def _patchable(file: ParameterFile, number: str) -> tuple[Address, Parameter]:
 
 
 def patched_value(file: ParameterFile, address: Address, parameter: Parameter, value: float) -> Value:
-    """Return the value that a stored number means: a choice by its code, a number in the unit the control keeps."""
+    """Return the value that a stored number means: a choice by its code, a number in the unit the control keeps.
+
+    Raises ValueFault for a fraction where the control stores whole numbers.
+    """
+    is_whole = bool(parameter.choices) or parameter.type in ("integer", "bits")
+    if is_whole and value != int(value):
+        raise ValueFault(f"{parameter.name} takes whole numbers, not {write_number(value)}")
     if parameter.choices:
-        return _value(parameter, f"raw:{int(value)}")
+        return _choice(parameter, f"raw:{int(value)}")
     unit = (parameter.storage.unit if parameter.storage else None) or ""
     if file.situation.turns(address):
         unit = angular(unit)
-    return Value(int(value) if parameter.type == "integer" and value == int(value) else value, unit)
+    return Value(int(value) if is_whole else value, unit)

@@ -24,7 +24,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.stored import stored_number
 from amp_studio.schema.values import read_number
-from amp_studio.transfer.image import ImageFault, patched_value
+from amp_studio.transfer.image import patched_value
 
 from .text_format import FormatFault, TextFormat, TextRead
 
@@ -94,7 +94,7 @@ def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line
         if rest.strip():
             raise ValueFault(f"'{cells[0]}' is no plain number")
         value = patched_value(file, address, parameter, number)
-    except (ValueFault, ImageFault) as error:
+    except ValueFault as error:
         raise FormatFault(str(error), line, column) from None
     if parameter.choices or len(cells) < 2 or not cells[1].strip():
         return value
