@@ -19,6 +19,9 @@ from .lock import EditLock, InUse, beside, now, user
 from .parameter_file import Change, ParameterFile
 from .storage import open_file, read_stored, save_file
 
+_TYPED = ("name", "application", "revision", "notes")
+"""What a person types of the file itself."""
+
 
 @dataclass(frozen=True)
 class HistoryEntry:
@@ -39,6 +42,8 @@ class Unsaved:
     when: str
     who: str
     changes: tuple[Change, ...]
+    header: dict[str, str]
+    """What the file says of itself (name, notes, …), where that was changed."""
     fits: bool
     """Whether the file is still the one the work was done on."""
 
@@ -201,16 +206,24 @@ class Document:
 
     def keep_unsaved(self) -> None:
         """Write the unsaved work beside the file, so that a killed program loses none; no change removes it."""
-        changes = self.unsaved_changes()
-        if not changes:
+        changes, header = self.unsaved_changes(), self._unsaved_header()
+        if not changes and not header:
             self._drop_journal()
             return
         entries = [
             [written(c.address), None if c.new is None else self._text(c.address, c.new)] for c in changes
         ]
-        content = json.dumps({"when": now(), "who": user(), "digest": self.digest, "changes": entries})
+        left = {"when": now(), "who": user(), "digest": self.digest, "changes": entries, "header": header}
+        content = json.dumps(left)
         write_atomic(self.journal_path, content.encode(), keep_backup=False)
         self._journal_is_ours = True
+
+    def _unsaved_header(self) -> dict[str, str]:
+        """Return what the file says of itself now, where that differs from what is on disk."""
+        saved = self._saved_rest[0]
+        return {
+            key: text for key in _TYPED if (text := getattr(self.file.header, key)) != getattr(saved, key)
+        }
 
     def _drop_journal(self) -> None:
         """Remove the journal, if it is this document's: one that a killed program left waits for its offer."""
@@ -228,7 +241,10 @@ class Document:
             changes = tuple(
                 filter(None, (self._left_change(str(entry), text) for entry, text in left["changes"]))
             )
-            return Unsaved(str(left["when"]), str(left["who"]), changes, left["digest"] == self.digest)
+            header = {key: str(text) for key, text in left.get("header", {}).items() if key in _TYPED}
+            return Unsaved(
+                str(left["when"]), str(left["who"]), changes, header, left["digest"] == self.digest
+            )
         except (OSError, ValueError, TypeError, LookupError):
             return None
 

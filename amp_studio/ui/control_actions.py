@@ -99,14 +99,14 @@ class ControlActions:
         known = (
             self.emulated.address,
             project.info.control if project else "",
-            str(settings.value("control", "") or ""),
+            settings.control(),
         )
         offered = list(dict.fromkeys(a for a in known if a)) or ["tcp://127.0.0.1:9600"]
         label = "Address of the control (tcp://host:port or serial:/dev/ttyUSB0?baud=115200)"
         text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
         if not accepted or not text.strip():
             return None
-        settings.setValue("control", text.strip())
+        settings.keep_control(text.strip())
         return text.strip()
 
     def _workspace(self) -> Workspace:

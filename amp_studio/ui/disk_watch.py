@@ -8,6 +8,7 @@ from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
 from .questions import ask, tell
+from .settings import is_there
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class DiskWatch(QObject):
         if workspace.is_saving or QApplication.activeModalWidget() is not None:
             self._timer.start(4 * SETTLE_MS)
             return
-        if workspace.path.exists() and str(workspace.path) not in self._watcher.files():
+        if is_there(workspace.path) and str(workspace.path) not in self._watcher.files():
             self._watcher.addPath(str(workspace.path))
         state = workspace.disk_state()
         if state is None or state == self._refused:

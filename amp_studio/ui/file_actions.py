@@ -18,6 +18,7 @@ from amp_studio.validate import Validator, rules_beside
 
 from .format_actions import FormatActions
 from .questions import ask
+from .settings import is_there
 from .task import Progress, ProgressDialog, in_background
 from .workspace import Workspace
 
@@ -69,14 +70,12 @@ class FileActions:
 
     def recent(self) -> list[Path]:
         """Return the files that were open last and are still there."""
-        kept = self.window.settings.value("recent") or []
-        paths = [Path(str(p)) for p in (kept if isinstance(kept, list) else [kept])]
-        return [p for p in paths if p.is_file()]
+        return [path for path in self.window.settings.recent()[:_RECENT] if is_there(path)]
 
     def _remember(self, path: Path) -> None:
         path = path.absolute()
         paths = [path, *(p for p in self.recent() if p != path)][:_RECENT]
-        self.window.settings.setValue("recent", [str(p) for p in paths])
+        self.window.settings.keep_recent(paths)
         self._recent_menu.setEnabled(True)
 
     def _fill_recent(self) -> None:
@@ -186,10 +185,11 @@ class FileActions:
 
     def _offer_unsaved(self, document: Document) -> None:
         left = document.find_unsaved()
-        if left is None or not left.changes:
+        if left is None or not (left.changes or left.header):
             return
         note = "" if left.fits else "\n\nThe file has been changed since; check what you take."
-        count = "one change" if len(left.changes) == 1 else f"{len(left.changes)} changes"
+        changes = len(left.changes) + len(left.header)
+        count = "one change" if changes == 1 else f"{changes} changes"
         text = (f"The program ended before {count} of {left.when[:16].replace('T', ' ')} ({left.who}) could be saved."
                 f"{note}\n\nTake the work back? It can be undone.")  # fmt: skip
         answer = ask(
@@ -203,9 +203,14 @@ class FileActions:
             self.window.show_nothing()  # the first edit would write over it
 
     def _take(self, left: Unsaved) -> None:
-        assert self.window.workspace is not None
+        file = self._workspace().file
         wanted = {c.address: c.new for c in left.changes}
-        self.window.workspace.edit("Unsaved work", wanted, force="by the program that ended before it saved")
+
+        def take() -> None:
+            file.set_many(wanted, force="by the program that ended before it saved")
+            vars(file.header).update(left.header)
+
+        self._workspace().do("Unsaved work", take)
 
     # -- the open file ---------------------------------------------------------
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
-from PySide6.QtCore import QByteArray, QSettings, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMessageBox, QStyle, QVBoxLayout, QWidget
 
@@ -25,6 +25,7 @@ from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .project_actions import ProjectActions
 from .questions import ask, tell
+from .settings import Settings
 from .task import Task, in_background
 from .theme import program_icon, standard_icon
 from .value_table import ValueTable
@@ -59,7 +60,7 @@ class MainWindow(QMainWindow):
         self.detail: DetailPanel | None = None
         self.findings: FindingsPanel | None = None
         self._list_title = ""
-        self.settings = QSettings("AMP Studio", "AMP Studio")
+        self.settings = Settings()
         self.file_status, self.value_status = QLabel(), QLabel()
         self.statusBar().addWidget(self.value_status, 1)
         self.statusBar().addPermanentWidget(self.file_status)
@@ -81,9 +82,7 @@ class MainWindow(QMainWindow):
         self.projects = ProjectActions(self)
         self._help_menu()
         self._toolbar()
-        geometry = self.settings.value("geometry")
-        if isinstance(geometry, QByteArray):
-            self.restoreGeometry(geometry)
+        self.settings.place(self)
         self.show_nothing()
 
     # -- building --------------------------------------------------------------
@@ -206,16 +205,14 @@ class MainWindow(QMainWindow):
         self.watch.follow(workspace)
         self.view.follow(workspace)
         self.groups.choose()
-        layout_before = self.settings.value("layout")
-        if isinstance(layout_before, QByteArray):
-            self.restoreState(layout_before)
+        self.settings.arrange(self)
         self.enable()
         self.table_view.setFocus()
 
     def _clear(self) -> None:
         if self.workspace is None:
             return
-        self.settings.setValue("layout", self.saveState())
+        self.settings.keep_arrangement(self)
         self.watch.follow(None)
         self.workspace.close()
         for dock in self.findChildren(QDockWidget):
@@ -375,7 +372,7 @@ class MainWindow(QMainWindow):
         if (self.table_view is not None and not self.table_view.finish()) or not self.may_leave():
             event.ignore()
             return
-        self.settings.setValue("geometry", self.saveGeometry())
+        self.settings.keep_place(self)
         self.control.close()
         self._clear()
         self.workspace = None

@@ -16,7 +16,8 @@ from amp_studio.files import Change, Comparison, Document, ParameterFile, compar
 from amp_studio.schema import Address, Value, read_value
 from amp_studio.validate import Finding, Validator, rules_beside
 
-JOURNAL_MS = 1500
+JOURNAL_MS = 500
+"""Nothing that was entered more than a second before a kill is lost; writing the journal takes its time too."""
 _KEPT_APART = ("units", "signature", "extra")
 """Header entries that undo does not touch: how values are shown, and what the program writes itself."""
 

@@ -10,10 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.files import Document
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, Person, action, on_disk
+from .killed import kill_editor
 
 EXCESS = ("servo.excess_error", "1")
 EDITED = Value(3.0, "mm")
@@ -21,6 +23,7 @@ EDITED = Value(3.0, "mm")
 OTHER_PROGRAM = """
 import sys
 from pathlib import Path
+from amp_studio.files import Document
 from amp_studio.files import Document
 from amp_studio.schema import Value
 document = Document.open(Path(sys.argv[1]))
@@ -156,3 +159,25 @@ def test_unsaved_work_is_kept_beside_the_file_while_one_types(window: MainWindow
     qtbot.waitUntil(journal.exists, timeout=WAIT_MS)
     assert window.save_or_tell()
     assert not journal.exists()
+
+
+def test_nothing_entered_more_than_a_second_before_a_kill_is_lost(path: Path) -> None:
+    """Values, the name of the machine and the notes."""
+    assert kill_editor(path, seed=1) == []
+
+
+def test_notes_and_name_of_a_killed_program_are_offered_too(open_window, path: Path, person: Person) -> None:
+    document = Document.open(path)
+    document.file.header.notes, document.file.header.name = "new belt", "the other mill"
+    document.keep_unsaved()
+    document._lock.release()  # as the system does when the program is killed
+    person.answers("Take it back")
+
+    window = open_window(path)
+
+    assert "2 changes" in person.asked[0]
+    header = window.workspace.file.header
+    assert (header.notes, header.name) == ("new belt", "the other mill")
+    assert window.workspace.is_dirty
+    assert window.save_or_tell()
+    assert (on_disk(path).header.notes, on_disk(path).header.name) == ("new belt", "the other mill")

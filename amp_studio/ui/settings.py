@@ -1,0 +1,106 @@
+"""What the program remembers from one start to the next; whatever stands there, the program starts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, QRect, QSettings
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QDockWidget, QMainWindow
+
+_LEAST = 320, 200
+"""Width and height in pixels of a window that can be worked with."""
+
+
+class Settings:
+    """The settings of one user; an entry that cannot be used counts as none."""
+
+    def __init__(self) -> None:
+        self._stored = QSettings("AMP Studio", "AMP Studio")
+
+    # -- texts ---------------------------------------------------------------------
+
+    def recent(self) -> list[Path]:
+        """Return the files that were open last, whether they are still there or not."""
+        kept = self._value("recent")
+        return [
+            Path(path)
+            for path in (kept if isinstance(kept, list) else [kept])
+            if isinstance(path, str) and path
+        ]
+
+    def keep_recent(self, paths: Iterable[Path]) -> None:
+        """Remember the files that were open last, the newest first."""
+        self._stored.setValue("recent", [str(path) for path in paths])
+
+    def control(self) -> str:
+        """Return where the control was last reached, or nothing."""
+        kept = self._value("control")
+        return kept if isinstance(kept, str) else ""
+
+    def keep_control(self, place: str) -> None:
+        """Remember where the control was reached."""
+        self._stored.setValue("control", place)
+
+    # -- windows -------------------------------------------------------------------
+
+    def place(self, window: QMainWindow) -> None:
+        """Put the window where it was, as far as that is on a screen of today."""
+        before = window.geometry()
+        kept = self._value("geometry")
+        if isinstance(kept, QByteArray) and not window.restoreGeometry(kept):
+            window.setGeometry(before)
+        if not window.isMaximized() and not window.isFullScreen():
+            window.setGeometry(on_screen(window.geometry(), _screens()))
+
+    def keep_place(self, window: QMainWindow) -> None:
+        """Remember where the window is."""
+        self._stored.setValue("geometry", window.saveGeometry())
+
+    def arrange(self, window: QMainWindow) -> None:
+        """Arrange the panels as they were; one that floats where no screen is comes back into the window."""
+        kept = self._value("layout")
+        if not isinstance(kept, QByteArray) or not window.restoreState(kept):
+            return
+        for panel in window.findChildren(QDockWidget):
+            place = panel.geometry()
+            if panel.isFloating() and on_screen(place, _screens()) != place:
+                panel.setFloating(False)
+
+    def keep_arrangement(self, window: QMainWindow) -> None:
+        """Remember how the panels are arranged."""
+        self._stored.setValue("layout", window.saveState())
+
+    def _value(self, key: str) -> object:
+        try:
+            return self._stored.value(key)
+        except (TypeError, ValueError, RuntimeError):  # a stored kind that Python has no class for
+            return None
+
+
+def is_there(path: Path) -> bool:
+    """Return whether a path names a file; one that cannot be looked at counts as gone."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def on_screen(place: QRect, screens: list[QRect]) -> QRect:
+    """Return the nearest place on the screen that shows most of it, no larger than that screen."""
+
+    def shown(screen: QRect) -> int:
+        common = screen.intersected(place)
+        return common.width() * common.height() if common.isValid() else 0
+
+    screen = max(screens, key=shown)
+    width = min(max(place.width(), _LEAST[0]), screen.width())
+    height = min(max(place.height(), _LEAST[1]), screen.height())
+    left = min(max(place.left(), screen.left()), screen.right() + 1 - width)
+    top = min(max(place.top(), screen.top()), screen.bottom() + 1 - height)
+    return QRect(left, top, width, height)
+
+
+def _screens() -> list[QRect]:
+    return [screen.availableGeometry() for screen in QGuiApplication.screens()]
