@@ -144,6 +144,7 @@ def report_verb(options: argparse.Namespace) -> int:
         changed_only=options.changed_only,
         source=options.path,
         own=own,
+        secrets=options.secrets,
     )
     print(options.output)
     return 0

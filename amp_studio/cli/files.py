@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import (
+    Difference,
     Document,
     ParameterFile,
     RangeFault,
@@ -18,7 +19,16 @@ from amp_studio.files import (
     open_file,
 )
 from amp_studio.files.lock import now
-from amp_studio.schema import Address, Value, field_at, field_value, show_value, with_field, write_value
+from amp_studio.schema import (
+    MASKED,
+    Address,
+    Value,
+    field_at,
+    field_value,
+    show_value,
+    with_field,
+    write_value,
+)
 from amp_studio.schema.stored import stored_number
 
 from .console import assignments, family, note, print_json, progress
@@ -91,6 +101,24 @@ def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
             "forced": address in file.forced}  # fmt: skip
 
 
+def _row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
+    """Return a value as ``get --json`` gives it; a secret that is set has neither value nor raw unless asked for."""
+    parameter, value = file.schema.parameters[address[0]], file.get(address)
+    masked = parameter.secret and not secrets
+    plain = None if value is None or masked else value.value
+    if isinstance(plain, (str, bool)):
+        plain = write_value(parameter, value)
+    raw = None
+    if value is not None and not masked:
+        raw = stored_number(parameter, value, file.situation.turns(address))
+    return {
+        "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
+        "value": plain, "unit": value.unit if value else file.situation.unit(address, file.header.units), "raw": raw,
+        "default": file.is_default(address), "state": file.situation.state(address).state,
+        "forced": address in file.forced,
+    } | ({"secret": True, "set": value is not None} if parameter.secret else {})  # fmt: skip
+
+
 def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
     file = open_file(options.path).file
@@ -107,23 +135,13 @@ def get_verb(options: argparse.Namespace) -> int:
                 held = "—" if rows[-1]["value"] is None else rows[-1]["value"]
                 print(f"{rows[-1]['param']} {rows[-1]['label']:40} {held}")
             continue
-        parameter, value = file.schema.parameters[address[0]], file.get(address)
-        plain = None if value is None else value.value
-        if isinstance(plain, (str, bool)):
-            plain = write_value(parameter, value)
-        raw = None if value is None else stored_number(parameter, value, file.situation.turns(address))
-        rows.append({
-            "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
-            "value": plain, "unit": value.unit if value else file.situation.unit(address, file.header.units), "raw": raw,
-            "default": file.is_default(address), "state": file.situation.state(address).state,
-            "forced": address in file.forced,
-        })  # fmt: skip
+        rows.append(_row(file, address, options.secrets))
         if not options.json:
             mark = "" if rows[-1]["default"] else " *"
             state = "" if rows[-1]["state"] == "in-force" else f"  ({rows[-1]['state']})"
-            print(
-                f"{file.schema.label(address, file.machine):52} {show_value(parameter, value)}{mark}{state}"
-            )
+            parameter = file.schema.parameters[address[0]]
+            shown = show_value(parameter, file.get(address), secrets=options.secrets)
+            print(f"{file.schema.label(address, file.machine):52} {shown}{mark}{state}")
     if options.json:
         print_json({"values": rows})
     return 0
@@ -136,22 +154,30 @@ def diff_verb(options: argparse.Namespace) -> int:
         raise UsageFault(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
     found = compare(a.schema, a.values, b.values)
     if options.json:
-
-        def text(d: Any, v: Any) -> str | None:
-            return None if v is None else write_value(a.schema.parameters[d.address[0]], v)
-
-        print_json({"differences": [{"param": a.schema.short(d.address, a.machine), "id": d.address[0],
-                                      "instance": d.address[1], "a": text(d, d.a), "b": text(d, d.b)}
-                                     for d in found.differences], "same": found.same})  # fmt: skip
+        differences = [_difference(a, d, options.secrets) for d in found.differences]
+        print_json({"differences": differences, "same": found.same})
     else:
         for d in found.differences:
             parameter = a.schema.parameters[d.address[0]]
-            print(
-                f"{a.schema.label(d.address, a.machine):52} {show_value(parameter, d.a)}  |  {show_value(parameter, d.b)}"
-            )
+            sides = (show_value(parameter, v, secrets=options.secrets) for v in (d.a, d.b))
+            print(f"{a.schema.label(d.address, a.machine):52} {'  |  '.join(sides)}")
         print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in A, "
               f"{found.absent_in_b} absent in B")  # fmt: skip
     return 1 if found.differences else 0
+
+
+def _difference(file: ParameterFile, difference: Difference, secrets: bool) -> dict[str, Any]:
+    """Return a difference as ``diff --json`` gives it; null is not set, a mask is a secret that is."""
+    address = difference.address
+    parameter = file.schema.parameters[address[0]]
+    masked = parameter.secret and not secrets
+    a, b = (
+        None if v is None else MASKED if masked else write_value(parameter, v)
+        for v in (difference.a, difference.b)
+    )
+    found = {"param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
+             "a": a, "b": b}  # fmt: skip
+    return found | ({"secret": True} if parameter.secret else {})
 
 
 def _side(text: str) -> ParameterFile:
@@ -173,7 +199,8 @@ def merge_verb(options: argparse.Namespace) -> int:
         if p is None:  # an entry that the schema does not know
             print(f"conflict at {'@'.join(filter(None, c.address))}: ours stands")
             continue
-        print(f"conflict at {base.schema.label(c.address, ours.machine)}: base {show_value(p, c.base)}, "
-              f"ours {show_value(p, c.ours)}, theirs {show_value(p, c.theirs)}; ours stands")  # fmt: skip
+        was, mine, wanted = (show_value(p, v, secrets=options.secrets) for v in (c.base, c.ours, c.theirs))
+        print(f"conflict at {base.schema.label(c.address, ours.machine)}: base {was}, "
+              f"ours {mine}, theirs {wanted}; ours stands")  # fmt: skip
     print(f"{options.output}: {len(conflicts)} conflicts")
     return 1 if conflicts else 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import Document, open_file
+from amp_studio.files import Document, open_file, secret_values
 from amp_studio.schema import written
 from amp_studio.transfer.formats import FamilyUntold, export_file, import_file
 from amp_studio.transfer.parameters import out_of_range
@@ -50,6 +50,11 @@ def export_verb(options: argparse.Namespace) -> int:
     hidden = [a for a in file.values if file.situation.state(a).state == "hidden"]
     if hidden:
         note(f"{len(hidden)} values do not exist for this configuration, {written(hidden[0])} among them")
-    chosen = export_file(file, options.output, options.format)
-    print(f"{options.output}: {chosen.title}, {len(file.values)} values")
+    chosen = export_file(file, options.output, options.format, secrets=options.secrets)
+    left_out = [] if options.secrets else secret_values(file)
+    if left_out:
+        note(
+            f"{len(left_out)} secret values are left out, {written(left_out[0])} among them (--secrets writes them)"
+        )
+    print(f"{options.output}: {chosen.title}, {len(file.values) - len(left_out)} values")
     return 0

@@ -35,6 +35,11 @@ def parser() -> argparse.ArgumentParser:
     def json_option(sub: argparse.ArgumentParser) -> None:
         sub.add_argument("--json", action="store_true", help="print one JSON document")
 
+    def secrets_option(sub: argparse.ArgumentParser) -> None:
+        sub.add_argument(
+            "--secrets", action="store_true", help="passwords in clear; they are masked otherwise"
+        )
+
     def on_fault(sub: argparse.ArgumentParser) -> None:
         sub.add_argument("--on-fault", choices=("ask", "keep", "quit"), default="ask",
                          help="what to do with out-of-range values (default: ask at a terminal, else quit)")  # fmt: skip
@@ -75,6 +80,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("params", nargs="*", metavar="PARAM")
     sub.add_argument("--all", action="store_true", help="also what is hidden or not set")
     json_option(sub)
+    secrets_option(sub)
     sub = verb("validate", "checks", "range, choice, state and cross-parameter findings")
     sub.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="files, or folders of files")
     sub.add_argument(
@@ -91,15 +97,18 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("a")
     sub.add_argument("b")
     json_option(sub)
+    secrets_option(sub)
     sub = verb("merge", "files", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
         sub.add_argument(name, type=Path)
     sub.add_argument("-o", "--output", type=Path, required=True)
+    secrets_option(sub)
     sub = verb("report", "checks", "documentation as .pdf, .html, .csv or .txt", writes="output")
     sub.add_argument("path", type=Path)
     sub.add_argument("-o", "--output", type=Path, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
     sub.add_argument("--changed-only", action="store_true")
+    secrets_option(sub)
     sub = verb("import", "formats", "a new parameter file from a control's own text format", writes="output")
     sub.add_argument("text", type=Path, metavar="FILE")
     sub.add_argument("-o", "--output", type=Path, required=True)
@@ -115,6 +124,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("path", type=Path)
     sub.add_argument("-o", "--output", type=Path, required=True)
     sub.add_argument("--format", help="where the ending does not tell it")
+    secrets_option(sub)
     sub = verb("emulate", "control", "an emulated control that takes downloads and gives uploads")
     sub.add_argument("family")
     sub.add_argument("--listen", required=True, metavar="ADDRESS")
@@ -144,6 +154,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("path", type=Path)
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
     json_option(sub)
+    secrets_option(sub)
     sub = verb("simulate", "motion", "check settings in motion", writes="output")
     sub.add_argument("path", type=Path)
     sub.add_argument("scenario")

@@ -20,7 +20,16 @@ from .axes import (
 from .diff import Comparison, Conflict, Difference, compare, merge
 from .document import Document, HistoryEntry, Unsaved, recover_backup
 from .lock import InUse
-from .parameter_file import Change, Header, ParameterFile, RangeFault, describe, fill_defaults, new_file
+from .parameter_file import (
+    Change,
+    Header,
+    ParameterFile,
+    RangeFault,
+    describe,
+    fill_defaults,
+    new_file,
+    secret_values,
+)
 from .project import ENDING, NameFault, Project, ProjectInfo
 from .storage import FORMAT, FileFault, Opened, content_of, open_file, read_content, save_file
 
@@ -66,5 +75,6 @@ __all__ = [
     "recover_backup",
     "retype_axis",
     "save_file",
+    "secret_values",
     "write_atomic",
 ]

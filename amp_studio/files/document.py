@@ -12,7 +12,7 @@ import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from amp_studio.schema import Address, ValueFault, read_address, write_value, written
+from amp_studio.schema import MASKED, Address, Value, ValueFault, read_address, write_value, written
 
 from .atomic import backup_path, digest_of, write_atomic
 from .lock import EditLock, InUse, beside, now, user
@@ -171,8 +171,8 @@ class Document:
         if not changes:
             return
         lines = "".join(
-            json.dumps([now(), user(), how, written(c.address), self._text(c.address, c.old),
-                        self._text(c.address, c.new)]) + "\n"
+            json.dumps([now(), user(), how, written(c.address), self._told(c.address, c.old),
+                        self._told(c.address, c.new)]) + "\n"
             for c in changes
         )  # fmt: skip
         with contextlib.suppress(OSError), self.history_path.open("a+b") as stream:
@@ -191,11 +191,23 @@ class Document:
             with contextlib.suppress(ValueError, TypeError):
                 entry = HistoryEntry(*json.loads(line))
                 if address is None or entry.param == written(address):
-                    found.append(entry)
+                    found.append(self._masked(entry))
         return found[::-1]
 
-    def _text(self, address: Address, value: object) -> str:
-        return write_value(self.file.schema.parameters[address[0]], value) if value is not None else ""  # type: ignore[arg-type]
+    def _masked(self, entry: HistoryEntry) -> HistoryEntry:
+        """Return an entry without its secret, which was written in clear before secrets were marked."""
+        parameter = self.file.schema.parameters.get(read_address(entry.param)[0])
+        if parameter is None or not parameter.secret:
+            return entry
+        return replace(entry, old=MASKED if entry.old else "", new=MASKED if entry.new else "")
+
+    def _told(self, address: Address, value: Value | None) -> str:
+        """Return a value as the history keeps it: the history goes where the file does not, so no secret stands in it."""
+        is_secret = self.file.schema.parameters[address[0]].secret
+        return MASKED if is_secret and value is not None else self._text(address, value)
+
+    def _text(self, address: Address, value: Value | None) -> str:
+        return write_value(self.file.schema.parameters[address[0]], value)
 
     # -- unsaved work ----------------------------------------------------------
 

@@ -16,10 +16,10 @@ _LAST_NUMBER = re.compile(r"([0-9]+)(?!.*[0-9])")
 def held_text(file: ParameterFile, address: Address) -> str:
     """Return ``10485760: R19 = 160 (0x00A0), R20 = 0 (0x0000)``, or the stored code or number alone.
 
-    Empty where it is what is shown anyway, or where the manual prints no form.
+    Empty where it is what is shown anyway, for a secret, and where the manual prints no form.
     """
     parameter, value = file.schema.parameters[address[0]], file.get(address)
-    if value is None:
+    if value is None or parameter.secret:
         return ""
     stored = stored_number(parameter, value, file.situation.turns(address))
     if stored is None:

@@ -101,8 +101,19 @@ class ParameterFile:
         return default_value(self.schema, self.situation, address)
 
     def is_default(self, address: Address) -> bool:
-        """Tell whether a value equals the printed default, whatever the unit."""
-        return same_value(self.get(address), self.default(address))
+        """Tell whether a value equals the printed default, whatever the unit.
+
+        A secret of several instances does as a whole or not at all: which sign of a password is the printed one
+        would give the rest of it away.
+        """
+        parameter, own = self.schema.parameters[address[0]], [address]
+        if parameter.secret:
+            own += [
+                a
+                for i in self.schema.instances(parameter, self.machine)
+                if (a := (address[0], i)) in self.values
+            ]
+        return all(same_value(self.get(a), self.default(a)) for a in own)
 
     def read(self, address: Address, text: str) -> Value:
         """Read a value a person wrote for an instance; raises ValueFault."""
@@ -252,10 +263,15 @@ def fill_defaults(file: ParameterFile, instances: Iterable[str] | None = None) -
     return changes
 
 
+def secret_values(file: ParameterFile) -> list[Address]:
+    """Return where a file holds passwords and the like, which are shown only where that is asked for."""
+    return [a for a in file.values if file.schema.parameters[a[0]].secret]
+
+
 def describe(file: ParameterFile, address: Address) -> str:
     """Return ``1300 Home Calibration`` for messages."""
     return file.schema.label(address, file.machine)
 
 
 __all__ = ["Change", "Header", "ParameterFile", "RangeFault", "default_value", "describe", "fill_defaults", "new_file",
-           "written"]  # fmt: skip
+           "secret_values", "written"]  # fmt: skip

@@ -23,6 +23,7 @@ from amp_studio.schema import (
     ValueFault,
     dimension,
     load_schema,
+    not_readable,
     read_address,
     read_number,
     read_value,
@@ -189,7 +190,7 @@ def _value(schema: Schema, file: ParameterFile, address: Address, said: str) -> 
     try:
         return _stored(schema, parameter.id, said)
     except ValueFault as error:
-        return str(error)
+        return not_readable(parameter, error)
 
 
 @lru_cache(maxsize=16_384)

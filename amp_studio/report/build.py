@@ -30,15 +30,16 @@ def build_report(
     source: Path | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
+    secrets: bool = False,
 ) -> Report:
-    """Return the report of a file as it is in memory.
+    """Return the report of a file as it is in memory; secrets are masked unless ``secrets`` asks for them.
 
     ``source`` is where it lies on disk; ``date`` is printed, now when left
     out. Raises ValueError for an order that is none of the three.
     """
     if sort not in SORTS:
         raise ValueError(f"'{sort}' is no order of a report: {', '.join(SORTS)}")
-    found = rows_of(file)
+    found = rows_of(file, secrets=secrets)
     printed = tuple(r for r in found.rows if r.is_changed) if changed_only else found.rows
     validator = Validator(file, own)
     findings = validator.run()
@@ -60,7 +61,7 @@ def build_report(
         axes=axes,
         notes=notes_of(file, findings, {r.anchor for r in printed})
         + suppressed_notes(file, validator.suppressed, {r.anchor for r in printed}),
-        forced=_forced(file, found.rows),
+        forced=_forced(file, found.rows, secrets),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, sort),
     )
@@ -134,10 +135,11 @@ def _severity(findings: Sequence[Finding], severity: str) -> int:
     return sum(f.severity == severity for f in findings)
 
 
-def _forced(file: ParameterFile, rows: Sequence[Row]) -> tuple[Row, ...]:
+def _forced(file: ParameterFile, rows: Sequence[Row], secrets: bool) -> tuple[Row, ...]:
     """Return every value set out of range on purpose, also those that are not printed otherwise."""
     printed = {(r.id, r.instance): r for r in rows}
-    return tuple(printed.get(a) or row_of(file, a) for a in file.addresses() if a in file.forced)
+    forced = (a for a in file.addresses() if a in file.forced)
+    return tuple(printed.get(a) or row_of(file, a, secrets=secrets) for a in forced)
 
 
 def _is_missing(row: Row) -> bool:

@@ -7,14 +7,16 @@ from typing import Any
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
+    MASKED,
     Address,
     Parameter,
     Schema,
+    Value,
     label_of,
     write_value,
 )
 from amp_studio.schema.model import BoundRef, Choice, StateRule
-from amp_studio.validate import Finding, Suppressed
+from amp_studio.validate import Finding, Setting, Suppressed
 
 from .manual_page import erratum_text
 
@@ -61,6 +63,8 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         found["numbers_disputed"] = True
     if parameter.optional:
         found["optional"] = True
+    if parameter.secret:
+        found["secret"] = True
     if parameter.formulas:
         found["formulas"] = list(parameter.formulas)
     if parameter.needs:
@@ -111,12 +115,18 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         "rule": finding.rule, "severity": finding.severity,
         "params": [schema.short(a, machine) for a in finding.addresses],
         "message": finding.message,
-        "fix": [{"param": schema.short(r.address, machine), "value": write_value(schema.parameters[r.address[0]], r.value)}
-                for r in finding.repairs],
-        "effective": [{"param": schema.short(s.address, machine), "value": write_value(schema.parameters[s.address[0]], s.value)}
-                      for s in finding.effective],
+        "fix": [_setting_json(file, setting) for setting in finding.repairs],
+        "effective": [_setting_json(file, setting) for setting in finding.effective],
         "source": finding.page,
     }  # fmt: skip
+
+
+def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
+    parameter = file.schema.parameters[setting.address[0]]
+    param = file.schema.short(setting.address, file.machine)
+    if parameter.secret:
+        return {"param": param, "value": None, "secret": True}
+    return {"param": param, "value": write_value(parameter, setting.value)}
 
 
 def finding_text(file: ParameterFile, finding: Finding) -> str:
@@ -127,7 +137,7 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
     for what, settings in (("the control uses", finding.effective), ("repair", finding.repairs)):
         if settings:
             told = ", ".join(
-                f"{_named(file, s.address)} = {write_value(file.schema.parameters[s.address[0]], s.value)}"
+                f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"
                 for s in settings
             )
             lines.append(f"         {what}: {told}")
@@ -138,6 +148,10 @@ def suppressed_text(file: ParameterFile, left: Suppressed) -> str:
     """Return a finding that a builder leaves as it is, in two lines for the terminal."""
     said = finding_text(file, replace(left.finding, repairs=(), effective=()))
     return f"suppressed {said}\n         by {left.suppression.by}: {left.suppression.reason}"
+
+
+def _written(parameter: Parameter, value: Value) -> str:
+    return MASKED if parameter.secret else write_value(parameter, value)
 
 
 def _named(file: ParameterFile, address: Address) -> str:

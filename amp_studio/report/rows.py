@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import (
+    MASKED,
     Address,
     Parameter,
     StateInfo,
@@ -32,10 +33,10 @@ class Rows:
     """Values of unfitted axes."""
 
 
-def rows_of(file: ParameterFile) -> Rows:
+def rows_of(file: ParameterFile, *, secrets: bool = False) -> Rows:
     """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted.
 
-    Of what a file is complete without (the entries of a tool table) only the values that are set are printed.
+    Secrets are masked unless ``secrets`` asks for them. Of what a file is complete without (the entries of a tool table) only the values that are set are printed.
     """
     axes = printed_axes(file)
     rows, hidden, unfitted = [], 0, 0
@@ -46,7 +47,7 @@ def rows_of(file: ParameterFile) -> Rows:
         elif (state := file.situation.state(address)).state == "hidden":
             hidden += 1
         elif address in file.values or not file.schema.parameters[address[0]].optional:
-            rows.append(row_of(file, address, _state_mark(state, marks)))
+            rows.append(row_of(file, address, _state_mark(state, marks), secrets=secrets))
     return Rows(tuple(rows), hidden, unfitted)
 
 
@@ -87,11 +88,15 @@ def axis_label(file: ParameterFile, axis: str) -> str:
     return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {axis_name(file, axis)}".rstrip()
 
 
-def row_of(file: ParameterFile, address: Address, state_mark: str = "") -> Row:
-    """Return the row of one value; ``state_mark`` says in short why it is out of force."""
+def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secrets: bool = False) -> Row:
+    """Return the row of one value; ``state_mark`` says in short why it is out of force.
+
+    A secret has no default in its row: with the mark of a change it would tell the value.
+    """
     schema, machine = file.schema, file.machine
     parameter = schema.parameters[address[0]]
     value, default, state = file.get(address), file.default(address), file.situation.state(address)
+    masked = parameter.secret and not secrets
     known = value or default
     unit = (
         known.unit if known else "" if parameter.choices else file.situation.unit(address, file.header.units)
@@ -105,12 +110,12 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "") -> Row:
         group=schema.group_of[address[0]].name,
         place=axis_label(file, address[1]) if on_axis else schema.instance_label(address, machine),
         is_set=value is not None,
-        value=_bare(parameter, value),
+        value=MASKED if masked and value is not None else _bare(parameter, value),
         unit=unit,
         shown_unit=shown(unit),
         detail=_bits(parameter, value),
-        default=_default(parameter, default, unit),
-        plain_default=_bare(parameter, _converted(default, unit)),
+        default="" if masked else _default(parameter, default, unit),
+        plain_default="" if masked else _bare(parameter, _converted(default, unit)),
         is_changed=value is not None and not file.is_default(address),
         state=state.state,
         why=state.why,

@@ -33,16 +33,20 @@ def write_report(
     source: Path | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
+    secrets: bool = False,
 ) -> None:
     """Write the documentation of a file, whole or not at all; the format follows the ending of ``path``.
 
     ``sort`` is one of the documenter's three orders, ``changed_only`` keeps
     what differs from the printed default, ``source`` is where the file lies
-    on disk, ``date`` is printed (now when left out), and ``own`` are the builder's rules. Raises ValueError
-    for an ending or an order that is not known, SaveFault when it cannot be written.
+    on disk, ``date`` is printed (now when left out), ``own`` are the builder's rules, and ``secrets`` prints
+    passwords in clear. Raises ValueError for an ending or an order that is not known, SaveFault when it cannot be
+    written.
     """
     render = FORMATS.get(path.suffix.lower())
     if render is None:
         raise ValueError(f"{path.name}: a report is written as {', '.join(FORMATS)}, as its ending says")
-    report = build_report(file, sort=sort, changed_only=changed_only, source=source, date=date, own=own)
+    report = build_report(
+        file, sort=sort, changed_only=changed_only, source=source, date=date, own=own, secrets=secrets
+    )
     write_atomic(path, render(report), keep_backup=False)

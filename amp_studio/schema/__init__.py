@@ -23,11 +23,14 @@ from .model import (
 from .situation import Situation, canonical_value, same_value
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
 from .values import (
+    MASKED,
     Value,
     ValueFault,
     field_at,
     field_value,
+    is_mask,
     label_of,
+    not_readable,
     read_number,
     read_value,
     show_value,
@@ -38,6 +41,7 @@ from .values import (
 
 __all__ = [
     "IN_FORCE",
+    "MASKED",
     "Address",
     "AxisProfile",
     "BuilderRule",
@@ -71,10 +75,12 @@ __all__ = [
     "fault",
     "field_at",
     "field_value",
+    "is_mask",
     "label_of",
     "labelled",
     "limits",
     "load_schema",
+    "not_readable",
     "part_of",
     "program",
     "read_address",

@@ -25,6 +25,7 @@ class Inconsistency:
 def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Inconsistency]:
     """Yield every name that is used and does not exist, and every parameter that stands twice."""
     ids = {p.id for group in groups for p in group.parameters}
+    secrets = {p.id for group in groups for p in group.parameters if p.secret}
     yield from _in_family(family, ids)
     seen: set[str] = set()
     for group in groups:
@@ -33,7 +34,7 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
             if parameter.id in seen:
                 yield Inconsistency(group.key, (*here, "id"), f"{parameter.id} stands twice")
             seen.add(parameter.id)
-            for place, what in _in_parameter(family, parameter, ids):
+            for place, what in (*_in_parameter(family, parameter, ids), *_secret_bounds(parameter, secrets)):
                 yield Inconsistency(group.key, (*here, *place), f"{parameter.id}: {what}")
 
 
@@ -84,6 +85,15 @@ def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterat
     for place, scope in _all_scopes(parameter):
         if scope not in family.scopes:
             yield place, f"the family has no scope '{scope}'"
+
+
+def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[Place, str]]:
+    """Yield every bound that is a secret: what is told of a range would tell it."""
+    for place, ranges in _all_ranges(parameter):
+        for unit, pair in ranges:
+            for end, bound in enumerate(pair):
+                if isinstance(bound, BoundRef) and bound.param in secrets:
+                    yield (*place, unit, end, "param"), f"the secret '{bound.param}' cannot bound it"
 
 
 def _all_ranges(parameter: Parameter) -> Iterator[tuple[Place, list[tuple[str, tuple[object, object]]]]]:

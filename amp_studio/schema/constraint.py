@@ -14,7 +14,7 @@ from .catalog import Address
 from .model import Bound, BoundRef, Parameter, Range
 from .situation import Situation
 from .units import angular, canonical_unit, convert, dimension, shown
-from .values import Value, digits_of, field_value, write_number
+from .values import MASKED, Value, digits_of, field_value, write_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +139,8 @@ def fault(situation: Situation, address: Address, value: Value) -> str | None:
     if allowed is None:
         return None
     if _below(found, allowed.low, allowed.low_from) or _below(allowed.high, found, allowed.high_from):
-        return f"{parameter.name} {_shown(value)} is outside {_named(situation, allowed)}"
+        said = MASKED if parameter.secret else _shown(value)
+        return f"{parameter.name} {said} is outside {_named(situation, allowed)}"
     return None
 
 

@@ -281,6 +281,8 @@ class Parameter(Model):
     """Stands in the table of values that can be keyed in at the control."""
     optional: bool = False
     """A file is complete without it: a table an operator fills as he goes (tool offsets), a filter that is not used."""
+    secret: bool = False
+    """A password or the like: shown, printed, compared and exported in clear only where a person asks for it."""
     needs: tuple[Need, ...] = ()
     formulas: tuple[str, ...] = ()
     """Names of the family's published formulas that give its value or use it."""
@@ -292,6 +294,8 @@ class Parameter(Model):
 
     @model_validator(mode="after")
     def _whole(self) -> Parameter:
+        if self.secret and self.type not in ("integer", "real", "text"):
+            raise ValueError("a secret is a number or a text")  # what shows choices and bits masks nothing
         if self.type == "choice" and not self.choices:
             raise ValueError("a choice parameter needs choices")
         if self.type == "boolean" and (not self.choices or len(self.choices) != 2):

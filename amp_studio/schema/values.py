@@ -28,6 +28,23 @@ class ValueFault(ValueError):
     """A value that cannot be read; the text is one clear sentence."""
 
 
+MASKED = "•••• (secret)"
+"""What stands in place of a secret value wherever nobody asked for it in clear; never read as a value."""
+
+
+def is_mask(parameter: Parameter, text: str) -> bool:
+    """Tell whether a text is what stands in place of a secret, so that an export that comes back changes nothing."""
+    return parameter.secret and text.strip().startswith("••••")
+
+
+def not_readable(parameter: Parameter, error: ValueError) -> str:
+    """Return why a text is no value of a parameter; what was written for a secret is not repeated."""
+    if not parameter.secret:
+        return str(error)
+    kind = {"integer": "a whole number", "real": "a number"}.get(parameter.type, "a text")
+    return f"{parameter.name} takes {kind}; what stands there is secret and not shown"
+
+
 _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?[0-9]+)?)\s*(.*)$")
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
 _EXACT = 2**53
@@ -90,6 +107,15 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
     label, letter, key or ``raw:<code>``; a yes/no also by yes, no, true, false.
     Raises ValueFault with one sentence that tells what is allowed.
     """
+    if is_mask(parameter, text):
+        raise ValueFault(f"{parameter.name}: '{MASKED}' stands in place of a secret and is no value")
+    try:
+        return _read(parameter, text, unit)
+    except ValueFault as error:
+        raise ValueFault(not_readable(parameter, error)) from None
+
+
+def _read(parameter: Parameter, text: str, unit: str) -> Value:
     text = text.strip()
     if parameter.type == "text":
         return Value(text)
@@ -212,10 +238,15 @@ def _number_text(parameter: Parameter, value: Value) -> str:
     return write_number(float(number) if not isinstance(number, int) else number)
 
 
-def show_value(parameter: Parameter, value: Value | None) -> str:
-    """Write a value for a person: as ``write_value`` with the unit's proper signs; a dash when unset."""
+def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
+    """Write a value for a person: as ``write_value`` with the unit's proper signs; a dash when unset.
+
+    A secret is masked unless ``secrets`` asks for it in clear.
+    """
     if value is None:
         return "—"
+    if parameter.secret and not secrets:
+        return MASKED
     if isinstance(value.value, (str, bool)):
         return visible(write_value(parameter, value))
     number = _number_text(parameter, value)

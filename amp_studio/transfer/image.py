@@ -16,6 +16,7 @@ import re
 from amp_studio.files import Header, ParameterFile
 from amp_studio.files.storage import read_stored
 from amp_studio.schema import (
+    MASKED,
     Address,
     Choice,
     Parameter,
@@ -26,6 +27,7 @@ from amp_studio.schema import (
     angular,
     family_ids,
     load_schema,
+    not_readable,
     read_address,
     read_value,
     write_number,
@@ -200,9 +202,8 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
     """Return the value a field means, by the same reading as a file's; raises ImageFault, which names the entry."""
     is_text = parameter.type in ("text", "format")
     if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
-        raise ImageFault(
-            f"the control image holds {_short(entry)} with '{_short(field)}', which is no value of it"
-        )
+        said = MASKED if parameter.secret else f"'{_short(field)}'"
+        raise ImageFault(f"the control image holds {_short(entry)} with {said}, which is no value of it")
     try:
         if is_text:
             return read_stored(schema, parameter, _unescaped(field[5:]))
@@ -211,7 +212,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
         return _choice(parameter, field)
     except ValueFault as error:
         raise ImageFault(
-            f"the control image holds {_short(entry)} with a value it cannot have: {error}"
+            f"the control image holds {_short(entry)} with a value it cannot have: {not_readable(parameter, error)}"
         ) from None
 
 

@@ -42,7 +42,8 @@ class DifferenceList(QTreeWidget):
                 schema.label(difference.address, machine),
                 schema.instance_label(difference.address, machine),
                 "absent here" if difference.a is None else "absent there" if difference.b is None else "different",
-                *(show_value(schema.parameters[difference.address[0]], v) for v in (difference.a, difference.b)),
+                *(show_value(schema.parameters[difference.address[0]], v, secrets=workspace.secrets)
+                  for v in (difference.a, difference.b)),
             ])  # fmt: skip
             item.setData(0, _DIFFERENCE, difference)
             if tick:

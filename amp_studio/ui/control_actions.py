@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QInputDialog, QMessageBox, QStyle
+from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QStyle
 
 from amp_studio.files import Document, ParameterFile, RangeFault
 from amp_studio.files.lock import now
@@ -253,8 +253,10 @@ class ControlActions:
             if answer == go_on:
                 file.forced[place] = f"on {now()} by an upload"
                 return True
-            old = write_value(file.schema.parameters[place[0]], file.get(place))
-            text, accepted = QInputDialog.getText(self.window, "Edit parameter", said, text=old)
+            parameter = file.schema.parameters[place[0]]
+            old = "" if parameter.secret else write_value(parameter, file.get(place))
+            echo = QLineEdit.EchoMode.Password if parameter.secret else QLineEdit.EchoMode.Normal
+            text, accepted = QInputDialog.getText(self.window, "Edit parameter", said, echo, old)
             try:
                 if accepted:
                     file.set_many({place: file.read(place, text)})

@@ -87,24 +87,17 @@ class DetailPanel(QWidget):
 
     def _head(self, address: Address) -> str:
         file = self._workspace.file
-        parameter = file.schema.parameters[address[0]]
         title = html.escape(file.schema.label(address, file.machine))
         place = html.escape(file.schema.instance_label(address, file.machine))
-        value = html.escape(show_value(parameter, file.get(address)))
+        value = self._shown(address, file.get(address))
         default = file.default(address)
-        told = (
-            f"default {html.escape(show_value(parameter, default))}"
-            if default is not None
-            else "no default printed"
-        )
+        told = f"default {self._shown(address, default)}" if default is not None else "no default printed"
         lines = [
             f"<h3>{title}</h3>",
             f"<p><b>{value}</b> &nbsp; <small>{', '.join(t for t in (place, told) if t)}</small>",
         ]
         if (used := self._workspace.effective().get(address)) is not None:
-            lines.append(
-                f"<br><b>{html.escape(show_value(parameter, used))}</b> <small>is what the control uses</small>"
-            )
+            lines.append(f"<br><b>{self._shown(address, used)}</b> <small>is what the control uses</small>")
         if held := held_text(file, address):
             lines.append(f"<br>{html.escape(held)} <small>as the control holds it</small>")
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
@@ -129,9 +122,12 @@ class DetailPanel(QWidget):
         if workspace.control is not None:
             values, when = workspace.control
             found.append((f"in the control at {when}", values.get(address)))
-        parameter = workspace.file.schema.parameters[address[0]]
-        return [f"<b>{html.escape(show_value(parameter, v))}</b> <small>{where}</small>" for where, v in found
+        return [f"<b>{self._shown(address, v)}</b> <small>{where}</small>" for where, v in found
                 if not same_value(v, value)]  # fmt: skip
+
+    def _shown(self, address: Address, value: Value | None) -> str:
+        parameter = self._workspace.file.schema.parameters[address[0]]
+        return html.escape(show_value(parameter, value, secrets=self._workspace.secrets))
 
     def _allowed(self, address: Address) -> str:
         file = self._workspace.file

@@ -115,8 +115,12 @@ class EditActions:
             view.edit(view.currentIndex())
 
     def _copy(self) -> None:
+        workspace, address = self._workspace(), self._here()
+        if workspace.is_masked(address):
+            name = describe(workspace.file, address)
+            raise ValueError(f"{name} is secret: it can be copied while Options, Show Secrets is on.")
         if self.window.table is not None:
-            QGuiApplication.clipboard().setText(self.window.table.typed_value(self._here()))
+            QGuiApplication.clipboard().setText(self.window.table.typed_value(address))
 
     def _paste(self) -> None:
         text = QGuiApplication.clipboard().text().strip()

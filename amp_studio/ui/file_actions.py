@@ -11,7 +11,7 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QAction, QDesktopServices, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
 
-from amp_studio.files import Document, InUse, Unsaved, backup_path, open_file, recover_backup
+from amp_studio.files import Document, InUse, Unsaved, backup_path, open_file, recover_backup, secret_values
 from amp_studio.files.lock import EditLock
 from amp_studio.schema import Address
 from amp_studio.validate import Validator, rules_beside
@@ -273,10 +273,16 @@ class FileActions:
         from .file_dialogs import ReportDialog
 
         workspace = self._workspace()
-        dialog = ReportDialog(workspace.path, self.window)
+        dialog = ReportDialog(
+            workspace.path,
+            self.window,
+            has_secrets=bool(secret_values(workspace.file)),
+            shows_secrets=workspace.secrets,
+        )
         if not dialog.exec():
             return
         path, sort, changed_only, show = dialog.chosen()
+        secrets = dialog.secrets.isChecked()
         file = workspace.file.copy()
 
         def work(_: Progress, __: threading.Event) -> None:
@@ -289,6 +295,7 @@ class FileActions:
                 changed_only=changed_only,
                 source=workspace.path,
                 own=workspace.validator.own,
+                secrets=secrets,
             )
 
         ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()

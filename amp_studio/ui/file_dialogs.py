@@ -133,7 +133,13 @@ class FactsDialog(_Form):
 class ReportDialog(_Form):
     """Where to, in which order, and how much."""
 
-    def __init__(self, path: Path, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        path: Path,
+        parent: QWidget | None = None,
+        has_secrets: bool = False,
+        shows_secrets: bool = False,
+    ) -> None:
         super().__init__("Report", parent)
         self.setMinimumWidth(560)
         self.sort = QComboBox()
@@ -145,6 +151,9 @@ class ReportDialog(_Form):
             self.sort.addItem(name, key)
         self.sort.setCurrentIndex(2)
         self.changed = QCheckBox("Only values that &differ from the default")
+        self.secrets = QCheckBox("Passwords in &clear")
+        self.secrets.setToolTip("They are masked otherwise")
+        self.secrets.setChecked(shows_secrets)
         self.show_it = QCheckBox("O&pen it when it is written")
         self.path = QLineEdit(str(path.with_suffix(".pdf").absolute()))
         self.path.setToolTip("The ending says the format: .pdf, .html, .csv or .txt")
@@ -158,6 +167,8 @@ class ReportDialog(_Form):
         label.setBuddy(self.path)
         self.form.addRow("&Order", self.sort)
         self.form.addRow("", self.changed)
+        if has_secrets:
+            self.form.addRow("", self.secrets)
         self.form.addRow(label, row)
         self.form.addRow("", self.show_it)
         self.add_buttons()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import Document, ParameterFile
+from amp_studio.files import Document, ParameterFile, secret_values
 from amp_studio.files.lock import now
 from amp_studio.schema import family_ids, load_schema
 
@@ -136,5 +136,8 @@ class FormatActions:
         path = Path(text)
         path = path if path.suffix or found is None else path.with_suffix(found.ending)
         file, key = workspace.file.copy(), found.key if found else None
-        in_background(self.window, "Exporting", lambda: export_file(file, path, key))
-        self.window.say(f"{path} written")
+        secrets = workspace.secrets
+        in_background(self.window, "Exporting", lambda: export_file(file, path, key, secrets=secrets))
+        left_out = 0 if secrets else len(secret_values(file))
+        told = f"; {left_out} secret values left out (Options, Show Secrets writes them)" if left_out else ""
+        self.window.say(f"{path} written{told}")

@@ -183,10 +183,12 @@ class ParameterTable(QAbstractTableModel):
 
     def _shown(self, address: Address, value: Value | None) -> str:
         parameter = self.workspace.file.schema.parameters[address[0]]
-        return show_value(parameter, self._in_units(address, value))
+        return show_value(parameter, self._in_units(address, value), secrets=self.workspace.secrets)
 
     def typed_value(self, address: Address) -> str:
-        """Return a value as it is offered for editing."""
+        """Return a value as it is offered for editing; a masked one is typed anew."""
+        if self.workspace.is_masked(address):
+            return ""
         parameter = self.workspace.file.schema.parameters[address[0]]
         return write_value(parameter, self._in_units(address, self.workspace.file.get(address)))
 
@@ -316,7 +318,8 @@ class ParameterTable(QAbstractTableModel):
             lines.append(f"Forced {file.forced[address]}")
         value = file.get(address)
         if value is not None and self._in_units(address, value) != value:
-            lines.append(f"Entered as {show_value(file.schema.parameters[address[0]], value)}")
+            entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
+            lines.append(f"Entered as {entered}")
         return "\n".join(lines)
 
     def flags(self, index: Index) -> Qt.ItemFlag:

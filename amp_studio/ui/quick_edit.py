@@ -74,6 +74,8 @@ class QuickEdit(QDialog):
         else:
             line = QLineEdit(self._table.typed_value(address))
             line.setPlaceholderText(allowed)
+            if self._workspace.is_masked(address):
+                line.setEchoMode(QLineEdit.EchoMode.Password)
             line.selectAll()
             self.editor = line
         self._form.addRow("&Value", self.editor)

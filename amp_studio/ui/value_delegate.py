@@ -58,6 +58,8 @@ class ValueDelegate(QStyledItemDelegate):
             return box
         field = QLineEdit(parent)
         field.setFrame(False)
+        if self._workspace.is_masked(address):
+            field.setEchoMode(QLineEdit.EchoMode.Password)
         allowed = allowed_text(self._workspace, address)
         field.setPlaceholderText(allowed)
         if allowed:

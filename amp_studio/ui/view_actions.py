@@ -32,12 +32,14 @@ class ViewActions:
         self.as_entered = self._option("Show Values &As Entered", self._show_as_entered, "Ctrl+E")
         self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")
         self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
+        self.secrets = self._option("Show Se&crets", self._show_secrets)
+        self.secrets.setToolTip("Show passwords in clear, and write them so in exports")
         self.step_action = act(
             "&Step Response…", self._step, "F9", "file", icons.SP_MediaPlay, "Step Response"
         )
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
-        menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too])
+        menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too, self.secrets])
         menu.addSeparator()
         panels = menu.addMenu("&Go To")
         for n, (title, panel) in enumerate(
@@ -49,7 +51,7 @@ class ViewActions:
         menu.addAction(self.step_action)
         self.toolbar: list[QAction] = [self.switch, self.step_action]
 
-    def _option(self, text: str, act: Callable[[], None], shortcut: str) -> QAction:
+    def _option(self, text: str, act: Callable[[], None], shortcut: str | None = None) -> QAction:
         action = self.window.action(text, act, shortcut)
         action.setCheckable(True)
         return action
@@ -68,6 +70,8 @@ class ViewActions:
         self.machine_menu.setEnabled(workspace.may_edit)
         self._groups[1].setEnabled(workspace.may_edit)
         workspace.changed.connect(self._check)
+        self.secrets.setVisible(any(p.secret for p in file.schema.parameters.values()))
+        self.secrets.setChecked(workspace.secrets)  # asked for anew with each file
         if self.as_entered.isChecked():
             workspace.show_in(None)
         self._show_columns()
@@ -135,6 +139,9 @@ class ViewActions:
         if table is not None:
             table.all_axes, table.hidden_too = self.all_axes.isChecked(), self.hidden_too.isChecked()
             table.show_again()
+
+    def _show_secrets(self) -> None:
+        self._workspace().show_secrets(self.secrets.isChecked())
 
     def _to_table(self) -> None:
         if self.window.table_view is not None:

@@ -92,6 +92,8 @@ class Workspace(QObject):
         self.findings: tuple[Finding, ...] = validator.findings() if validator else self.validator.run()
         self.as_entered = False
         """Show every value in its unit of entry instead of the file's unit system."""
+        self.secrets = False
+        """Show passwords and the like in clear."""
         self.control: tuple[dict[Address, Value], str] | None = None
         """What the control held when it was last read, and when that was."""
         self.is_saving = False
@@ -116,6 +118,15 @@ class Workspace(QObject):
         return self.document.is_locked
 
     # -- editing ---------------------------------------------------------------
+
+    def is_masked(self, address: Address) -> bool:
+        """Tell whether the value of an address is a secret that nobody asked to see."""
+        return self.file.schema.parameters[address[0]].secret and not self.secrets
+
+    def show_secrets(self, secrets: bool) -> None:
+        """Show secrets in clear, or mask them again."""
+        self.secrets = secrets
+        self.changed.emit([])
 
     def edit(self, text: str, wanted: Mapping[Address, Value | None], force: str = "") -> bool:
         """Change values as one undoable step; raises RangeFault, and then nothing is changed."""

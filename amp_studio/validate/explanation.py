@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from amp_studio.schema import Address, Rule, program, show_value, shown, write_number
+from amp_studio.schema import MASKED, Address, Rule, program, show_value, shown, write_number
 from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.model import BoundRef
 from amp_studio.schema.units import canonical_unit
@@ -66,7 +66,7 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
         _plain(rule.check),
         "" if rule.when == "true" else _plain(rule.when),
         _with_values(validator, check, rule),
-        tuple(_sides(rule, context)),
+        () if any(_is_secret(validator, address) for _, address in named) else tuple(_sides(rule, context)),
         seen,
         _errata(validator, {address[0] for _, address in named}),
     )
@@ -113,6 +113,10 @@ def _is_hidden(validator: Validator, address: Address) -> bool:
     return validator.file.situation.state(address).state == "hidden"
 
 
+def _is_secret(validator: Validator, address: Address) -> bool:
+    return validator.file.schema.parameters[address[0]].secret
+
+
 def _seen(validator: Validator, address: Address, name: str) -> Seen:
     file = validator.file
     state = file.situation.state(address)
@@ -137,6 +141,8 @@ def _value(validator: Validator, address: Address) -> str:
     found = situation.canonical(address)
     if found is None or situation.state(address).state == "hidden":
         return "null"
+    if _is_secret(validator, address):
+        return MASKED
     if isinstance(found, bool):
         return str(found).lower()
     if isinstance(found, str):

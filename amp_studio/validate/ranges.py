@@ -9,6 +9,7 @@ from functools import lru_cache
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
+    MASKED,
     Address,
     Parameter,
     Schema,
@@ -87,6 +88,8 @@ class ValueChecks:
             return None
         said = _wrong_kind(facts, value)
         if said is not None:
+            if facts.parameter.secret:
+                said = f"{facts.parameter.name} {MASKED} is not the kind of value it takes"
             return self._finding(address, value, said, self._file.default(address))
         if not _measures_right(facts, value, turns):
             unit = self._file.situation.unit(address, self._file.header.units)
@@ -128,6 +131,7 @@ class ValueChecks:
     def _finding(self, address: Address, value: Value, said: str, mended: Value | None) -> Finding:
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value and not fault(self._file.situation, address, mended)
+        allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
         repairs = (Setting(address, mended),) if mended is not None and allowed else ()
         forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
         kind = "schema.choice" if parameter.choices else "schema.range"

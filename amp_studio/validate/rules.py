@@ -10,6 +10,7 @@ from typing import Any
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
+    MASKED,
     Address,
     Value,
     canonical_unit,
@@ -177,9 +178,11 @@ class RuleChecks:
         own = tuple(single.address for single in check.singles)
         turns = any(situation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
+        is_secret = self._reads_secret(check)
         for name, expression in check.expressions.values:
-            unit = rule.units.get(name, "")
-            texts[name] = self._text(expression, given.context, angular(unit) if turns else unit, entered)
+            unit = angular(rule.units.get(name, "")) if turns else rule.units.get(name, "")
+            # What is worked out of a secret can give it away.
+            texts[name] = MASKED if is_secret else self._text(expression, given.context, unit, entered)
         about = own or tuple(
             a for _, listed in check.lists for a in listed.addresses if situation.state(a).state == "in-force"
         )
@@ -195,6 +198,10 @@ class RuleChecks:
             safe,
             tuple(self._set(check, given, check.expressions.effective)),
         )
+
+    def _reads_secret(self, check: RuleCheck) -> bool:
+        parameters = self._file.schema.parameters
+        return any(parameters[address[0]].secret for address in check.addresses)
 
     def _shown(self, address: Address) -> str:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
@@ -226,9 +233,12 @@ class RuleChecks:
     def _set(
         self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Program], ...]
     ) -> Iterator[Setting]:
-        """Yield what the rule sets, where that is another value than the present one."""
+        """Yield what the rule sets, where that is another value than the present one; no secret goes elsewhere."""
+        is_secret = bool(assignments) and self._reads_secret(check)
         for name, expression in assignments:
             address = check.address_of(name)
+            if is_secret and not self._file.schema.parameters[address[0]].secret:
+                continue
             value = self._worked_out(address, expression, given.context)
             if value is not None and value != self._file.values.get(address):
                 yield Setting(address, value)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from amp_studio.files import Header, ParameterFile, SaveFault, write_atomic
+from amp_studio.files import Header, ParameterFile, SaveFault, secret_values, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 
 from . import acr_script, automax, ballscrew, num_table, patch_sheet, values_csv
@@ -77,13 +77,15 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     return file
 
 
-def export_file(file: ParameterFile, path: Path, format_key: str | None = None) -> TextFormat:
+def export_file(
+    file: ParameterFile, path: Path, format_key: str | None = None, *, secrets: bool = False
+) -> TextFormat:
     """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
 
-    Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
+    Secret values are left out unless ``secrets`` asks for them. Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
     """
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
-    text = chosen.write(file).replace("\n", chosen.newline)
+    text = chosen.write(file if secrets else without_secrets(file)).replace("\n", chosen.newline)
     try:
         content = text.encode(chosen.encoding)
     except UnicodeEncodeError as error:
@@ -93,6 +95,17 @@ def export_file(file: ParameterFile, path: Path, format_key: str | None = None) 
         ) from None
     write_atomic(path, content)
     return chosen
+
+
+def without_secrets(file: ParameterFile) -> ParameterFile:
+    """Return a file without its secret values, itself where it has none."""
+    secret = secret_values(file)
+    if not secret:
+        return file
+    copy = file.copy()
+    for address in secret:
+        copy.set(address, None)
+    return copy
 
 
 def _format_for_reading(content: bytes, family: str | None, format_key: str | None) -> TextFormat:
@@ -143,4 +156,5 @@ __all__ = [
     "file_of",
     "formats_of",
     "import_file",
+    "without_secrets",
 ]

@@ -11,7 +11,16 @@ import io
 
 from amp_studio.files import ParameterFile
 from amp_studio.files.spreadsheet import cell_text, text_cell
-from amp_studio.schema import Address, Schema, Value, ValueFault, read_value, write_value, written
+from amp_studio.schema import (
+    Address,
+    Schema,
+    Value,
+    ValueFault,
+    is_mask,
+    read_value,
+    write_value,
+    written,
+)
 
 from .text_format import FormatFault, TextFormat, TextRead
 
@@ -75,6 +84,9 @@ def _take(
     if address in found.values:
         raise FormatFault(f"{written(address)} stands twice", line, heads.index("id") + 1)
     if not row["value"].strip():
+        return
+    if is_mask(parameter, row["value"]):
+        found.notes.append(f"{written(address)} is a secret that this table does not tell; it is not set")
         return
     try:
         found.values[address] = read_value(parameter, said, row["unit"].strip())

@@ -71,7 +71,7 @@ from .motion import (
     vector_feedrate_limit,
 )
 from .oci import watchlist_bytes
-from .password import password_codes
+from .password import is_factory_password, password_codes
 from .probing import (
     approach_end,
     deceleration_room,
@@ -216,6 +216,7 @@ __all__ = [
     "inside_zone",
     "integral_gain_limit",
     "is_block_generated",
+    "is_factory_password",
     "is_velocity_step",
     "jerk_limits",
     "largest_scale_pitch",

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 LENGTH = 6
+_FACTORY = "AB-D4 "
 
 
 def password_codes(password: str) -> tuple[int, ...]:
@@ -12,3 +15,8 @@ def password_codes(password: str) -> tuple[int, ...]:
             "The master password is up to six characters of ASCII 32 to 95, without small letters."
         )
     return tuple(ord(character) for character in password.ljust(LENGTH))
+
+
+def is_factory_password(codes: Sequence[float]) -> bool:
+    """Tell whether the six codes are those of the password that the manual prints (page 33-12)."""
+    return list(codes) == [float(code) for code in password_codes(_FACTORY)]

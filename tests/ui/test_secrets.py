@@ -1,0 +1,170 @@
+"""Secrets in the desktop program: masked wherever they would be seen, until a person asks for them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QLineEdit
+
+from amp_studio.files import open_file
+from amp_studio.schema import MASKED, Value
+from amp_studio.ui.compare_dialog import CompareDialog
+from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.quick_edit import QuickEdit
+
+from .conftest import Person, action
+
+PASSWORD = ("password.character", "1")
+SECRET = "7654321"
+
+
+@pytest.fixture
+def window(window: MainWindow) -> MainWindow:
+    """Return the window with a figure in the password that is found nowhere else, and shown."""
+    window.workspace.edit("Password", {PASSWORD: Value(int(SECRET))}, force="for a test")
+    window.go_to(PASSWORD)
+    return window
+
+
+def texts_of_table(window: MainWindow) -> str:
+    """Return everything that a view or a screen reader can ask the table about the password."""
+    index = window.table.index_of(PASSWORD)
+    roles = Qt.ItemDataRole
+    asked = (roles.DisplayRole, roles.EditRole, roles.ToolTipRole, roles.StatusTipRole, roles.WhatsThisRole,
+             roles.AccessibleTextRole, roles.AccessibleDescriptionRole)  # fmt: skip
+    return " ".join(str(index.data(role)) for role in asked)
+
+
+def texts_of_detail(window: MainWindow) -> str:
+    pages = []
+    for n, page in enumerate(window.detail.pages.values()):
+        window.detail.tabs.setCurrentIndex(n)
+        pages.append(page.toHtml())
+    return " ".join(pages)
+
+
+def test_table_panel_findings_and_undo_mask_a_secret(window: MainWindow) -> None:
+    window.workspace.edit("Password", {PASSWORD: Value(int(SECRET) + 1)}, force="for a test")
+    window.workspace.remember_control({PASSWORD: Value(int(SECRET))}, "12:00")
+    findings = window.findings.view.model()
+    told = [texts_of_table(window), texts_of_detail(window), window.edits.undo.text(), window.windowTitle()]
+    told += [str(findings.index(r, c).data(role)) for r in range(findings.rowCount()) for c in range(findings.columnCount())
+             for role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole)]  # fmt: skip
+    assert not any("765432" in text for text in told)
+    assert MASKED in told[0]
+    assert MASKED in told[1]
+
+
+def test_a_secret_is_shown_while_that_is_wanted_and_masked_in_the_next_file(
+    window: MainWindow, bare: bytes, tmp_path: Path
+) -> None:
+    action(window, "Show Secrets").trigger()
+    assert SECRET in texts_of_table(window)
+    assert SECRET in texts_of_detail(window)
+    action(window, "Show Secrets").trigger()
+    assert SECRET not in texts_of_table(window)
+
+    action(window, "Show Secrets").trigger()
+    window.workspace.save()
+    (tmp_path / "next.amp").write_bytes(bare)
+    window.files.open_path(tmp_path / "next.amp")
+    assert not window.view.secrets.isChecked()
+    assert window.table.shown_value(PASSWORD) == MASKED
+
+
+def test_a_file_without_secrets_offers_nothing_to_show(window: MainWindow, tmp_path: Path) -> None:
+    from amp_studio.files import content_of, new_file
+
+    window.workspace.save()
+    (tmp_path / "num.amp").write_bytes(content_of(new_file("num")))
+    window.files.open_path(tmp_path / "num.amp")
+    assert not window.view.secrets.isVisible()
+
+
+def test_a_masked_secret_is_not_copied(window: MainWindow, person: Person) -> None:
+    QGuiApplication.clipboard().setText("before")
+    action(window, "Copy Value").trigger()
+    assert "is secret" in person.reads()
+    assert QGuiApplication.clipboard().text() == "before"
+    action(window, "Show Secrets").trigger()
+    action(window, "Copy Value").trigger()
+    assert QGuiApplication.clipboard().text() == SECRET
+
+
+def test_a_masked_secret_is_typed_anew_and_not_seen(window: MainWindow) -> None:
+    view = window.table_view
+    index = window.table.index_of(PASSWORD)
+    view.setCurrentIndex(index)
+    view.edit(index)
+    editor = view.indexWidget(index)
+    assert isinstance(editor, QLineEdit)
+    assert (editor.text(), editor.echoMode()) == ("", QLineEdit.EchoMode.Password)
+    assert view.finish()
+    assert window.workspace.file.get(PASSWORD) == Value(int(SECRET)), "who types nothing changes nothing"
+    view.edit(index)
+    view.indexWidget(index).setText("66")
+    assert view.finish()
+    assert window.workspace.file.get(PASSWORD) == Value(66)
+
+
+def test_quick_edit_does_not_show_a_secret(window: MainWindow) -> None:
+    quick = QuickEdit(window.table, window.edits.commit, window.go_to, window)
+    quick.number.setText("101")
+    quick.look_up()
+    assert isinstance(quick.editor, QLineEdit)
+    assert (quick.editor.text(), quick.editor.echoMode()) == ("", QLineEdit.EchoMode.Password)
+    quick.enter()
+    assert window.workspace.file.get(PASSWORD) == Value(int(SECRET))
+
+
+def test_a_comparison_says_that_secrets_differ_and_not_how(window: MainWindow) -> None:
+    other = dict(window.workspace.file.values) | {PASSWORD: Value(int(SECRET) + 1)}
+    dialog = CompareDialog(window.workspace, other, "other.amp", window.go_to, window)
+    (row,) = dialog.list.items
+    assert [row.text(column) for column in (2, 3, 4)] == ["different", MASKED, MASKED]
+    action(window, "Show Secrets").trigger()
+    (row,) = dialog.list.items
+    assert row.text(3) == SECRET
+    dialog.close()
+
+
+def test_history_keeps_no_secret_and_unsaved_work_keeps_its_own(window: MainWindow) -> None:
+    document = window.workspace.document
+    document.keep_unsaved()
+    assert SECRET in document.journal_path.read_text("utf-8"), "work that was not saved is all there"
+    window.workspace.save()
+    assert SECRET not in document.history_path.read_text("utf-8")
+    assert [(e.old, e.new) for e in document.history(PASSWORD)] == [(MASKED, MASKED)]
+    with document.history_path.open("a", encoding="utf-8") as stream:  # as an older version wrote it
+        stream.write(f'["2026-01-01", "me", "edit", "password.character@1", "", "{SECRET}"]\n')
+    assert (document.history(PASSWORD)[0].old, document.history(PASSWORD)[0].new) == ("", MASKED)
+
+
+def test_a_report_and_an_export_have_a_secret_only_where_it_is_asked_for(
+    window: MainWindow, person: Person, accept, tmp_path: Path
+) -> None:
+    for clear in (False, True):
+        accept(
+            ReportDialog,
+            lambda d, clear=clear: (d.path.setText(str(tmp_path / "r.csv")), d.secrets.setChecked(clear)),
+        )
+        action(window, "Report").trigger()
+        assert (SECRET in (tmp_path / "r.csv").read_text("utf-8")) is clear
+        if clear:
+            action(window, "Show Secrets").trigger()
+        person.chooses(tmp_path / "e.csv")
+        action(window, "Export").trigger()
+        assert (SECRET in (tmp_path / "e.csv").read_text("utf-8")) is clear
+
+
+def test_what_is_refused_is_not_repeated(window: MainWindow, person: Person) -> None:
+    assert not window.edits.commit(PASSWORD, f"x{SECRET}")
+    assert SECRET not in person.reads()
+    person.answers("Cancel")
+    assert not window.edits.commit(PASSWORD, "9990001")
+    assert "9990001" not in person.asked[-1]
+    assert open_file(window.workspace.path).file.get(PASSWORD) != Value(int(SECRET))
