@@ -4,15 +4,28 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import asdict
+from pathlib import Path
 
 from amp_studio.files import Document, ParameterFile, RangeFault, open_file
 from amp_studio.files.lock import now
 from amp_studio.schema import Address, ValueFault
-from amp_studio.transfer.parameters import download_file, emulate, fetch_file, out_of_range
+from amp_studio.transfer import Outcome
+from amp_studio.transfer.image import ImageFault, decode_image, encode_image
+from amp_studio.transfer.kept import IMAGE, digest_path, open_copy, save_image
+from amp_studio.transfer.parameters import (
+    download_file,
+    emulate,
+    fetch_image,
+    out_of_range,
+    restore_copy,
+    sha256,
+)
+from amp_studio.transfer.verification import verify_images
 
-from .console import ask, family, note, progress
+from .console import ask, family, note, print_json, progress
 from .errors import UsageFault
-from .files import diff_verb
+from .files import difference_json, print_comparison, print_difference
 
 
 def emulate_verb(options: argparse.Namespace) -> int:
@@ -24,25 +37,87 @@ def emulate_verb(options: argparse.Namespace) -> int:
 
 def download_verb(options: argparse.Namespace) -> int:
     """Send a file to a control; 1 where it does not hold it afterwards."""
-    file = open_file(options.path).file
-    outcome = download_file(
-        file, options.to, options.keep or options.path.parent, options.path.stem, progress()
+    file, path = open_file(options.path).file, options.path
+    errors = _note_errors(file, path)
+    if errors and not options.accept_errors:
+        raise UsageFault(f"{path} has {errors}: nothing was sent (--accept-errors sends it all the same)")
+    return _told(
+        download_file(
+            file, options.to, options.keep or path.parent, path.stem, progress(), expected=options.expect
+        )
     )
+
+
+def restore_verb(options: argparse.Namespace) -> int:
+    """Put back what a control has held; 1 where it does not hold it afterwards."""
+    path = options.copy
+    copy = open_copy(path)
+    if not copy.is_checked:
+        note(f"{digest_path(path)} is not there: {path.name} goes back unchecked")
+    if copy.file is None:
+        note(f"{path} goes back byte for byte, but this program cannot read it: {copy.fault}")
+    elif errors := _note_errors(copy.file, path):
+        if not copy.is_kept:
+            raise UsageFault(
+                f"{path} has {errors}, and no image beside it says that a control held it: nothing was sent "
+                "(download --accept-errors sends it all the same)"
+            )
+        note(f"{path} goes back with {errors}, as the control held it")
+    return _told(
+        restore_copy(
+            copy, options.to, options.keep or path.parent, path.stem, progress(), expected=options.expect
+        )
+    )
+
+
+def _note_errors(file: ParameterFile, path: Path) -> str:
+    """List the errors of a file, by the rules beside it too; returns how many there are, "" for none."""
+    from amp_studio.report import finding_text
+    from amp_studio.validate import Validator, rules_beside
+
+    findings = Validator(file, rules_beside(path, file.schema)).run()
+    errors = [finding for finding in findings if finding.severity == "error"]
+    for finding in errors:
+        note(finding_text(file, finding))
+    return "" if not errors else "1 error" if len(errors) == 1 else f"{len(errors)} errors"
+
+
+def _told(outcome: Outcome) -> int:
     print(outcome.text)
+    if outcome.verified:
+        print(f"sha256 {outcome.sha256}")
     return 0 if outcome.verified else 1
 
 
 def upload_verb(options: argparse.Namespace) -> int:
-    """Fetch a control's file under a new name."""
-    if options.output.exists():
-        raise UsageFault(f"{options.output} exists already: an upload gets a new name")
-    file = fetch_file(options.source, progress())
-    for address, said in out_of_range(file):
-        walk(file, address, said, options.on_fault, "an upload")
-    file.header.name = options.output.stem
-    Document.create(file, options.output).close()
-    print(f"{options.output}: {len(file.values)} values")
+    """Fetch what a control holds under a new name: its file, or byte for byte as an image."""
+    output = options.output
+    if output.exists():
+        raise UsageFault(f"{output} exists already: an upload gets a new name")
+    image = fetch_image(options.source, progress())
+    if not image:
+        raise UsageFault("the control holds nothing: there is nothing to upload")
+    if output.suffix == IMAGE:
+        save_image(image, output)
+        print(f"{output}: {len(image)} bytes, digest in {digest_path(output).name}")
+    else:
+        file = _readable(image, output)
+        for address, said in out_of_range(file):
+            walk(file, address, said, options.on_fault, "an upload")
+        file.header.name = output.stem
+        Document.create(file, output).close()
+        print(f"{output}: {len(file.values)} values")
+    print(f"sha256 {sha256(image)}")
     return 0
+
+
+def _readable(image: bytes, output: Path) -> ParameterFile:
+    try:
+        return decode_image(image)
+    except ImageFault as error:
+        raise UsageFault(
+            f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"
+        ) from None
 
 
 def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: str) -> None:
@@ -67,6 +142,24 @@ def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: st
 
 
 def verify_verb(options: argparse.Namespace) -> int:
-    """Compare a file with what a control holds; 1 where they differ."""
-    options.a, options.b = str(options.path), options.control
-    return diff_verb(options)
+    """Compare a file with what a control holds, its values and every byte; 1 where they differ."""
+    file = open_file(options.path).file
+    image = encode_image(file)
+    held = fetch_image(options.control, progress(), family=file.schema.family.family)
+    found = verify_images(image, held)
+    if options.json:
+        print_json({
+            "differences": [difference_json(file, d, options.secrets) for d in found.values.differences], "same": found.values.same,
+            "same_bytes": found.is_same, "sha256": sha256(held), "unreadable": found.unreadable or None,
+            "header": [asdict(d) for d in found.head],
+            "other_units": [difference_json(file, d, options.secrets) for d in found.other_units]})  # fmt: skip
+        return int(not found.is_same)
+    if not found.unreadable:
+        print_comparison(file, found.values, options.secrets)
+    for difference in found.other_units:
+        print_difference(file, difference, options.secrets)
+    for head in found.head:
+        print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
+    print(found.summary())
+    print(f"sha256 {sha256(held)}")
+    return int(not found.is_same)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import (
+    Comparison,
     Difference,
     Document,
     ParameterFile,
@@ -149,24 +150,22 @@ def get_verb(options: argparse.Namespace) -> int:
 
 def diff_verb(options: argparse.Namespace) -> int:
     """Compare two files, or a file and a control; 1 where they differ."""
-    a, b = _side(options.a), _side(options.b)
+    (a, a_digest), (b, b_digest) = _side(options.a), _side(options.b)
     if a.schema is not b.schema:
         raise UsageFault(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
     found = compare(a.schema, a.values, b.values)
     if options.json:
-        differences = [_difference(a, d, options.secrets) for d in found.differences]
-        print_json({"differences": differences, "same": found.same})
-    else:
-        for d in found.differences:
-            parameter = a.schema.parameters[d.address[0]]
-            sides = (show_value(parameter, v, secrets=options.secrets) for v in (d.a, d.b))
-            print(f"{a.schema.label(d.address, a.machine):52} {'  |  '.join(sides)}")
-        print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in A, "
-              f"{found.absent_in_b} absent in B")  # fmt: skip
+        rows = [difference_json(a, d, options.secrets) for d in found.differences]
+        digests = {"sha256": {"a": a_digest, "b": b_digest}} if a_digest or b_digest else {}
+        print_json({"differences": rows, "same": found.same} | digests)
+        return 1 if rows else 0
+    print_comparison(a, found, options.secrets)
+    for digest in filter(None, (a_digest, b_digest)):
+        print(f"sha256 {digest}")
     return 1 if found.differences else 0
 
 
-def _difference(file: ParameterFile, difference: Difference, secrets: bool) -> dict[str, Any]:
+def difference_json(file: ParameterFile, difference: Difference, secrets: bool) -> dict[str, Any]:
     """Return a difference as ``diff --json`` gives it; null is not set, a mask is a secret that is."""
     address = difference.address
     parameter = file.schema.parameters[address[0]]
@@ -180,12 +179,32 @@ def _difference(file: ParameterFile, difference: Difference, secrets: bool) -> d
     return found | ({"secret": True} if parameter.secret else {})
 
 
-def _side(text: str) -> ParameterFile:
-    if "://" in text or text.startswith(("serial:", "pty:")):
-        from amp_studio.transfer.parameters import fetch_file
+def print_comparison(file: ParameterFile, found: Comparison, secrets: bool) -> None:
+    """Print each difference and how many there are; ``file`` is one of the two sides."""
+    for difference in found.differences:
+        print_difference(file, difference, secrets)
+    print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in A, "
+          f"{found.absent_in_b} absent in B")  # fmt: skip
 
-        return fetch_file(text, progress())
-    return open_file(Path(text)).file
+
+def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:
+    """Print one difference."""
+    parameter = file.schema.parameters[difference.address[0]]
+    sides = (show_value(parameter, v, secrets=secrets) for v in (difference.a, difference.b))
+    print(f"{file.schema.label(difference.address, file.machine):52} {'  |  '.join(sides)}")
+
+
+def _side(text: str) -> tuple[ParameterFile, str | None]:
+    """Return a side of a comparison, with the digest of its image where it is a control's."""
+    from amp_studio.transfer.address import is_address
+
+    if not is_address(text):
+        return open_file(Path(text)).file, None
+    from amp_studio.transfer.image import decode_image
+    from amp_studio.transfer.parameters import fetch_image, sha256
+
+    image = fetch_image(text, progress())
+    return decode_image(image), sha256(image)
 
 
 def merge_verb(options: argparse.Namespace) -> int:

@@ -44,6 +44,14 @@ def parser() -> argparse.ArgumentParser:
         sub.add_argument("--on-fault", choices=("ask", "keep", "quit"), default="ask",
                          help="what to do with out-of-range values (default: ask at a terminal, else quit)")  # fmt: skip
 
+    def to_control(sub: argparse.ArgumentParser, kept: str) -> None:
+        sub.add_argument("--to", required=True, metavar="ADDRESS")
+        sub.add_argument("--expect", metavar="SHA256",
+                         help="only where the control holds the image with this digest, as verify and upload print it")  # fmt: skip
+        sub.add_argument(
+            "--keep", type=Path, metavar="DIR", help=f"where to keep what the control held ({kept})"
+        )
+
     sub = verb("families", "facts", "list the control families")
     json_option(sub)
     sub = verb("schema", "facts", "every parameter definition of a family")
@@ -142,15 +150,35 @@ def parser() -> argparse.ArgumentParser:
     )
     sub = verb("download", "control", "send a file to a control, read it back and compare")
     sub.add_argument("path", type=Path)
-    sub.add_argument("--to", required=True, metavar="ADDRESS")
+    to_control(sub, "beside the file")
     sub.add_argument(
-        "--keep", type=Path, metavar="DIR", help="where to keep what the control held (beside the file)"
+        "--accept-errors",
+        action="store_true",
+        help="send a file that has errors; they are listed all the same",
     )
-    sub = verb("upload", "control", "fetch the control's file under a new name", writes="output")
+    sub = verb(
+        "restore", "control", "put back what a control held before a download or a restore, byte for byte"
+    )
+    sub.add_argument(
+        "copy",
+        type=Path,
+        metavar="COPY",
+        help="NAME.before-STAMP.img, which is compared with the digest beside it, or the .amp of that name",
+    )
+    to_control(sub, "beside the copy")
+    sub = verb(
+        "upload",
+        "control",
+        "fetch under a new name what a control holds, and print its digest",
+        writes="output",
+    )
     sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
-    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("-o", "--output", type=Path, required=True,
+                     help="a parameter file; or NAME.img for the image byte for byte, whatever it is")  # fmt: skip
     on_fault(sub)
-    sub = verb("verify", "control", "compare a file with what the control holds")
+    sub = verb(
+        "verify", "control", "compare values and every byte with what a control holds; print its digest"
+    )
     sub.add_argument("path", type=Path)
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
     json_option(sub)

@@ -43,9 +43,16 @@ def parse_address(text: str) -> Address:
         return _serial(text, text.removeprefix("serial:"))
     if re.fullmatch(r"com\d+", text, re.IGNORECASE):
         return Address("serial", device=text.upper())
+    if text.startswith("/dev/"):
+        return _serial(text, text)
     if text == "pty:":
         return Address("pty")
     raise ValueError(f"'{text}' is no address of a control: write {FORMS}")
+
+
+def is_address(text: str) -> bool:
+    """Whether a person means a control and not a file."""
+    return "://" in text or re.match(r"serial:|pty:|/dev/|com\d+$", text, re.IGNORECASE) is not None
 
 
 def _tcp(text: str) -> Address:

@@ -125,6 +125,7 @@ class Control:
         changed = change(self._active)
         self.memory.replace(ACTIVE, changed)
         self._take(changed)
+        self._record.hold(self._digest)
         self._remember(restart_needed=True, changed_at_control=True)
 
     # -- requests ----------------------------------------------------------------------------------
@@ -133,8 +134,11 @@ class Control:
         """Begin a download or take it up again; return the offset to go on from."""
         if self._record.answer_to(wish.transfer, wish.sha256) is not None:
             return wish.size
-        if wish.signature != self.identity.signature:
-            raise Refusal(Code.SIGNATURE, "the control numbers its parameters by another schema")
+        if wish.signature != self.identity.signature and not self._record.has_held(wish.sha256):
+            raise Refusal(
+                Code.SIGNATURE,
+                "the control numbers its parameters by another schema and has not held this image",
+            )
         self._need_estop("download")
         self._need_expected(wish.expected)
         if wish.size > self._capacity:
@@ -194,12 +198,14 @@ class Control:
         if content is None:
             self._staging.drop()
             raise Refusal(Code.DIGEST, "what has come does not have the digest that was stated")
-        if self._accept is not None:
+        if self._accept is not None and not self._record.has_held(sha256):
             try:
                 self._accept(content)
             except ValueError as error:
                 self._staging.drop()
-                raise Refusal(Code.REJECTED, f"the control does not take the image: {error}") from None
+                raise Refusal(
+                    Code.REJECTED, f"the control has not held this image and does not take it: {error}"
+                ) from None
 
     def _replace_active(self, plan: Plan, intent: dict[str, Any]) -> None:
         """Rename the staged file to active.img, with everything that must be on the disk before."""
@@ -224,6 +230,7 @@ class Control:
         record = self._record
         record.running, record.restart_needed, record.changed_at_control = False, True, False
         record.committed = intent["answer"]
+        record.hold(self._digest)
         with contextlib.suppress(OSError):
             record.save(self.memory)
             if OUTGOING in self.memory.names():
@@ -245,6 +252,7 @@ class Control:
             active = initial
         self._take(active)
         self._record = load_record(self.memory, self.identity)
+        self._record.hold(self._digest)
         intent = load_json(self.memory, INTENT)
         if intent is not None and intent["to"] == self._digest.hex():
             self._finish(intent)

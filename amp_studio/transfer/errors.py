@@ -6,10 +6,11 @@ from typing import Literal
 
 from .message import Code, Refusal
 
-# "old": what it held before this exchange; "new": the image that was sent.
-Held = Literal["old", "new", "unknown"]
+# "old": what it held before this exchange; "new": the image that was sent; "": nothing was to be sent.
+Held = Literal["", "old", "new", "unknown"]
 
 HELD_TEXT: dict[Held, str] = {
+    "": "",
     "old": "nothing was replaced in the control",
     "new": "the control holds the new image",
     "unknown": "whether the control holds the old or the new image is not known: verify before you go on",
@@ -31,7 +32,7 @@ class TransferError(OSError):
 
     def __str__(self) -> str:
         where = f" (what it held before is kept in {self.kept})" if self.kept and self.held != "old" else ""
-        return f"{self.what}; {HELD_TEXT[self.held]}{where}"
+        return f"{self.what}; {HELD_TEXT[self.held]}{where}" if self.held else self.what
 
 
 class NoConnection(TransferError):

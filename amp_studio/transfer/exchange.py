@@ -1,18 +1,28 @@
-"""The three verbs between a file and a control: download, upload, verify.
+"""The verbs between a file and a control: download, upload, verify, restore.
 
 Words as the manuals use them: a download goes from here to the control, an
-upload from the control to here.
+upload from the control to here. A restore is the download of what a control
+has held.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from .errors import HELD_TEXT, Held, KeepFailed, NotInEmergencyStop, SignatureMismatch, TransferError
+from .errors import (
+    HELD_TEXT,
+    Held,
+    ImageChanged,
+    KeepFailed,
+    NotInEmergencyStop,
+    SignatureMismatch,
+    TransferError,
+)
 from .message import Committed, Flags, Welcome
 from .progress import Progress, quiet
 from .session import Session
@@ -29,7 +39,7 @@ class Outcome:
     ``held``      what the control holds now: the "old" image, the "new" one, or "unknown"
     ``verified``  whether every byte of the new image was read back and is equal
     ``written``   whether the control had to take anything
-    ``kept``      where the image it held before is kept; None when nothing was replaced or it held none
+    ``kept``      where the image it held before is kept, byte for byte; None when nothing was replaced or it held none
     ``restart``   "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
     ``sha256``    of the image, in hexadecimal
     ``text``      all of it in one sentence or two
@@ -58,18 +68,30 @@ class Verification:
 
 def upload(session: Session, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
     """Return the image the control holds; raises TransferError."""
-    session.hello(cancel)
-    return session.fetch(progress, cancel)
+    with _only_looking():
+        session.hello(cancel)
+        return session.fetch(progress, cancel)
 
 
 def verify(
     session: Session, image: bytes, progress: Progress = quiet, cancel: threading.Event | None = None
 ) -> Verification:
     """Read everything the control holds and compare it with an image byte for byte; raises TransferError."""
-    session.hello(cancel)
-    held = session.fetch(progress, cancel, "verify")
+    with _only_looking():
+        session.hello(cancel)
+        held = session.fetch(progress, cancel, "verify")
     at = first_difference(image, held)
     return Verification(at is None, at, held)
+
+
+@contextlib.contextmanager
+def _only_looking() -> Iterator[None]:
+    """Leave out of an error what the control holds: who only looks replaces nothing, and an earlier download may have."""
+    try:
+        yield
+    except TransferError as error:
+        error.held = ""
+        raise
 
 
 def download(
@@ -78,6 +100,8 @@ def download(
     keep: Keep,
     *,
     signature: str,
+    expected: bytes | None = None,
+    is_return: bool = False,
     progress: Progress = quiet,
     cancel: threading.Event | None = None,
     restart_wait: float = RESTART_WAIT,
@@ -87,13 +111,19 @@ def download(
     Fetches what the control holds and hands it to ``keep``, which returns where it has kept it, before
     anything is replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to
     ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
-    schema's under which the image was made. Raises TransferError, whose ``held`` and ``kept`` say what the
-    control holds and where its old image is.
+    schema's under which the image was made. ``expected`` is the SHA-256 of the image that may be replaced; None
+    for whatever is there. ``is_return`` says that the control has held this image before: then it decides by
+    itself whether it takes it. Raises TransferError, whose ``held`` and ``kept`` say what the control holds and
+    where its old image is.
     """
     digest = hashlib.sha256(image)
     welcome = session.hello(cancel)
-    _check(welcome, signature, digest.digest())
+    if not is_return:
+        _check_signature(welcome, signature)
+    _check_expected(expected, welcome.sha256)
+    _check_stop(welcome, digest.digest())
     old = session.fetch(progress, cancel, "keep")
+    _check_expected(expected, hashlib.sha256(old).digest())
     if old == image:
         return _nothing_to_do(welcome, digest.hexdigest())
     kept = _keep(keep, old) if old else None
@@ -126,13 +156,29 @@ def first_difference(a: bytes, b: bytes) -> int | None:
     return next((at for at, (x, y) in pairs if x != y), min(len(a), len(b)))
 
 
-def _check(welcome: Welcome, signature: str, digest: bytes) -> None:
-    """Refuse what can be seen before anything is moved; an image that is there already needs no E-stop."""
+def short(digest: bytes) -> str:
+    """Return the beginning of a digest, enough for a person to tell two apart."""
+    return digest.hex()[:12]
+
+
+def _check_signature(welcome: Welcome, signature: str) -> None:
     if welcome.signature != signature:
         raise SignatureMismatch(
             f"the control '{welcome.name}' (revision {welcome.revision}) numbers its parameters "
             "by another schema"
         )
+
+
+def _check_expected(expected: bytes | None, found: bytes) -> None:
+    if expected is not None and expected != found:
+        raise ImageChanged(
+            f"the control holds something else than what was approved to be replaced "
+            f"(sha256 {short(found)}…, approved {short(expected)}…)"
+        )
+
+
+def _check_stop(welcome: Welcome, digest: bytes) -> None:
+    """Ask for E-stop before anything is moved; an image that is there already needs none."""
     if welcome.sha256 != digest and not welcome.flags & Flags.ESTOP:
         raise NotInEmergencyStop("please place the control in E-stop to download")
 
@@ -163,7 +209,7 @@ def _prove(
 ) -> Outcome:
     """Wait for the restart, read back, compare."""
     digest = hashlib.sha256(image).hexdigest()
-    before = f" What it held before is kept in {kept}." if kept else ""
+    before = f" What it held before is kept in {kept}." if kept else " It held nothing before."
     restart: Literal["done", "needed"] = "needed"
     if committed.restarting:
         if session.wait_restarted(committed.incarnation, restart_wait, progress, cancel) is None:

@@ -3,73 +3,93 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
+import re
 import tempfile
 import threading
-from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import ENDING, ParameterFile, content_of, new_file, write_atomic
+from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Address, fault, written
 
 from .control import Control
 from .emulator import serve
-from .exchange import Outcome, download, upload
+from .exchange import Keep, Outcome, download, upload
 from .faults import read_faults
-from .image import ImageFault, decode_image, encode_image, patch_image
+from .image import decode_image, encode_image, patch_image
+from .kept import BEFORE, Copy, keep_image, open_copy
 from .record import Identity
 from .session import Progress, Session, quiet
 
-__all__ = ["Outcome", "download_file", "emulate", "fetch_file", "keep_image", "out_of_range"]
+__all__ = ["Copy", "Outcome", "download_file", "emulate", "fetch_file", "fetch_image", "open_copy", "out_of_range",
+           "read_digest", "restore_copy", "sha256"]  # fmt: skip
 
 
 def download_file(
     file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,
-    cancel: threading.Event | None = None,
+    cancel: threading.Event | None = None, *, expected: str | None = None,
 ) -> Outcome:  # fmt: skip
     """Put a file into the control at ``address``; what it held is kept in ``folder`` before anything is replaced.
 
-    Raises TransferError, whose text says what the control holds, and ValueError for an address that is none.
+    ``expected`` is the digest of what may be replaced, None for whatever is there. Raises TransferError, whose
+    text says what the control holds, ImageFault for a file no image can carry, and ValueError for an address or
+    a digest that is none.
     """
-
-    def keep(image: bytes) -> str:
-        return str(keep_image(image, folder, stem))
-
+    image, approved = encode_image(file), read_digest(expected)
+    decode_image(image)  # what cannot be read again is not sent
     with Session.at(address, family=file.schema.family.family) as session:
-        return download(
-            session,
-            encode_image(file),
-            keep,
-            signature=file.schema.signature,
-            progress=progress,
-            cancel=cancel,
+        return download(session, image, _keep_in(folder, stem), signature=file.schema.signature, expected=approved,
+                        progress=progress, cancel=cancel)  # fmt: skip
+
+
+def restore_copy(
+    copy: Copy, address: str, folder: Path, stem: str, progress: Progress = quiet,
+    cancel: threading.Event | None = None, *, expected: str | None = None,
+) -> Outcome:  # fmt: skip
+    """Put back what a control has held, byte for byte; what it holds instead is kept in ``folder`` first.
+
+    What is kept goes back whatever it is, for the control to say whether it has held it. Raises as ``download_file``.
+    """
+    family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
+    approved = read_digest(expected)
+    with Session.at(address, family=family) as session:
+        return download(session, copy.image, _keep_in(folder, stem), signature=copy.signature, expected=approved,
+                        is_return=copy.is_kept, progress=progress, cancel=cancel)  # fmt: skip
+
+
+def _keep_in(folder: Path, stem: str) -> Keep:
+    return lambda image: str(keep_image(image, folder, stem.partition(BEFORE)[0]))
+
+
+def sha256(image: bytes) -> str:
+    """Return the digest of an image in hexadecimal, by which a person names it."""
+    return hashlib.sha256(image).hexdigest()
+
+
+def read_digest(text: str | None) -> bytes | None:
+    """Return the SHA-256 a person passes on; raises ValueError."""
+    if text is None:
+        return None
+    if not re.fullmatch("[0-9a-fA-F]{64}", text.strip()):
+        raise ValueError(
+            f"'{text}' is no SHA-256: write its 64 hexadecimal digits, as verify and upload print them"
         )
+    return bytes.fromhex(text.strip())
+
+
+def fetch_image(
+    address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
+) -> bytes:
+    """Return what the control at ``address`` holds, byte for byte; raises TransferError."""
+    with Session.at(address, family=family) as session:
+        return upload(session, progress, cancel)
 
 
 def fetch_file(
     address: str, progress: Progress = quiet, cancel: threading.Event | None = None
 ) -> ParameterFile:
     """Return what the control at ``address`` holds as a parameter file; raises TransferError, ImageFault."""
-    with Session.at(address) as session:
-        return decode_image(upload(session, progress, cancel))
-
-
-def keep_image(image: bytes, folder: Path, stem: str) -> Path:
-    """Keep an image as a parameter file that can be downloaded again; one that cannot be read is kept as it is."""
-    stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
-    name = f"{stem}.before-{stamp}"
-    number = 1
-    while any((folder / f"{name}{ending}").exists() for ending in (ENDING, ".img")):
-        number += 1
-        name = f"{stem}.before-{stamp}-{number}"
-    try:
-        file = decode_image(image)
-    except ImageFault:
-        path, content = folder / f"{name}.img", image
-    else:
-        file.header.name, path = name, folder / f"{name}{ENDING}"
-        content = content_of(file)
-    write_atomic(path, content, expected=None)
-    return path
+    return decode_image(fetch_image(address, progress, cancel))
 
 
 def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from .memory import Memory
 from .message import Committed, Flags
 
 RECORD = "control.json"
+REMEMBERED = 100  # digests of images a control has held
 
 
 class StateFault(ValueError):
@@ -28,7 +29,11 @@ class Identity:
 
 @dataclass
 class Record:
-    """The state of a control; ``committed`` is its answer to the last commit, in words JSON has."""
+    """The state of a control.
+
+    ``committed`` is its answer to the last commit, in words JSON has; ``images`` are the digests of what it has
+    held, the newest last.
+    """
 
     family: str
     signature: str
@@ -39,6 +44,16 @@ class Record:
     restart_needed: bool = False
     changed_at_control: bool = False
     committed: dict[str, Any] | None = None
+    images: list[str] = field(default_factory=list)
+
+    def hold(self, sha256: bytes) -> None:
+        """Remember that the control holds an image with this digest."""
+        digest = sha256.hex()
+        self.images = [*(d for d in self.images if d != digest), digest][-REMEMBERED:]
+
+    def has_held(self, sha256: bytes) -> bool:
+        """Whether the control has held this image, so that it may be given back whatever it is."""
+        return sha256.hex() in self.images
 
     def save(self, memory: Memory) -> None:
         """Write the record; raises OSError, and then the old one stands."""
@@ -75,6 +90,8 @@ def load_record(memory: Memory, identity: Identity) -> Record:
         record = Record(**found)
     except TypeError:
         raise StateFault(f"{memory.folder / RECORD} is not what an emulated control writes") from None
+    if not isinstance(record.images, list):
+        raise StateFault(f"{memory.folder / RECORD} is not what an emulated control writes")
     if record.family != identity.family:
         raise StateFault(f"{memory.folder} is the memory of a {record.family}, not of a {identity.family}")
     if record.signature != identity.signature:

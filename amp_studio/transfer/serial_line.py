@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import os
+import stat
 import time
+from pathlib import Path
 from typing import Any
 
 from .address import Address
@@ -13,6 +17,7 @@ SLICE = (
     0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
 )
 WRITE_LIMIT = 10.0  # seconds
+NO_PORT = "this is no serial port"
 
 
 class SerialLink:
@@ -56,6 +61,7 @@ def open_port(address: Address) -> SerialLink:
     """Open a serial port for this program alone; raises LinkError when it is missing or taken."""
     import serial
 
+    _need_port(address)
     try:
         port = serial.Serial(
             address.device,
@@ -68,6 +74,18 @@ def open_port(address: Address) -> SerialLink:
     except (OSError, ValueError) as error:
         raise LinkError(address, _said(error)) from None
     return SerialLink(address, port)
+
+
+def _need_port(address: Address) -> None:
+    """Refuse what is there and is no serial port, without opening it: a file, a folder, a pipe, a disk."""
+    if os.name != "posix":
+        return
+    try:
+        kind = Path(address.device).stat()
+    except (OSError, ValueError):
+        return  # what is not there is told when it is opened
+    if not stat.S_ISCHR(kind.st_mode):
+        raise LinkError(address, NO_PORT)
 
 
 class PortListener:
@@ -100,6 +118,10 @@ class PortListener:
 def _said(error: Exception) -> str:
     number = getattr(error, "errno", None)
     text = str(error)
+    if number == errno.ENOTTY or f"({errno.ENOTTY}," in text:
+        return NO_PORT
+    if "Could not configure port" in text:
+        return f"{NO_PORT}, or one that cannot be set to this rate"
     if number == 2 or "FileNotFoundError" in text:
         return "there is no such port"
     if number == 13 or "PermissionError" in text:

@@ -120,14 +120,17 @@ class ControlActions:
         if not self._is_ready(workspace):
             return
         address = self._address("Download")
-        if address is None or not self._preview(workspace, address):
+        if address is None:
             return
         file, path = workspace.file.copy(), workspace.path
+        approved = self._preview(workspace, address)
+        if approved is None:
+            return
 
         def work(progress: Progress, cancel: threading.Event) -> Outcome:
             from amp_studio.transfer.parameters import download_file
 
-            return download_file(file, address, path.parent, path.stem, progress, cancel)
+            return download_file(file, address, path.parent, path.stem, progress, cancel, expected=approved)
 
         hint = "Waiting for the control …"
         outcome: Outcome = ProgressDialog("Download", work, self.window, hint, STAGES).run()
@@ -154,22 +157,30 @@ class ControlActions:
         )
         return answer == "&Download"
 
-    def _preview(self, workspace: Workspace, address: str) -> bool:
-        """Show what the download would change in the control; tells whether to go on."""
-        from amp_studio.transfer.image import ImageFault
+    def _preview(self, workspace: Workspace, address: str) -> str | None:
+        """Show what the download would change in the control; returns the digest of what may be replaced, or None."""
+        from amp_studio.transfer.image import ImageFault, decode_image
+        from amp_studio.transfer.parameters import sha256
 
         from .compare_dialog import DownloadPreview
 
+        image = self._fetch(address, "Download", workspace)
+        approved = sha256(image)
+        if not image:
+            return approved
         try:
-            held = self._fetch(address, "Download")
+            held = decode_image(image)
+            if held.schema is not workspace.file.schema:
+                raise ImageFault(f"the control holds a file for {held.schema.family.name}")
         except ImageFault as error:
             question = f"{error}.\n\nWhat the control holds is kept as it is. Download all the same?"
-            return ask(self.window, "Download", question, "&Download", "Cancel", default=1) == "&Download"
-        if held.schema is not workspace.file.schema:
-            return True  # the download itself refuses it
+            answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
+            return approved if answer == "&Download" else None
         self._remember(workspace, held)
         found = workspace.differences_to(held.values)
-        return not found.differences or bool(DownloadPreview(workspace, found, self.window).exec())
+        if not found.differences or DownloadPreview(workspace, found, self.window).exec():
+            return approved
+        return None
 
     def _remember(self, workspace: Workspace, held: ParameterFile) -> None:
         if held.schema is workspace.file.schema:
@@ -181,35 +192,33 @@ class ControlActions:
         address = self._address("Verify")
         if address is None:
             return
-        held = self._fetch(address, "Verify")
-        if held.schema is not workspace.file.schema:
-            raise ValueError(
-                f"The control holds a file for {held.schema.family.name}, this one is for {workspace.file.schema.family.name}."
-            )
-        self._remember(workspace, held)
-        found = workspace.differences_to(held.values)
-        if not found.differences:
-            tell(
-                self.window,
-                "Verify",
-                f"Nothing differs: {found.same} values are the same.",
-                QMessageBox.Icon.Information,
-            )
+        from amp_studio.transfer.image import decode_image, encode_image
+        from amp_studio.transfer.verification import verify_images
+
+        image = self._fetch(address, "Verify", workspace)
+        found = verify_images(encode_image(workspace.file), image)
+        if not found.unreadable:
+            held = decode_image(image)
+            self._remember(workspace, held)
+        if not found.values.differences:
+            icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
+            tell(self.window, "Verify", found.summary(), icon)
             return
         from .compare_dialog import CompareDialog
 
         CompareDialog(workspace, held.values, "the control", self.window.go_to, self.window).show()
 
-    def _fetch(self, address: str, title: str) -> ParameterFile:
-        def work(progress: Progress, cancel: threading.Event) -> ParameterFile:
-            from amp_studio.transfer.parameters import fetch_file
+    def _fetch(self, address: str, title: str, workspace: Workspace | None = None) -> bytes:
+        """Return what the control holds, byte for byte; with a workspace the control must be of its family."""
+        family = workspace.file.schema.family.family if workspace else ""
 
-            return fetch_file(address, progress, cancel)
+        def work(progress: Progress, cancel: threading.Event) -> bytes:
+            from amp_studio.transfer.parameters import fetch_image
 
-        file: ParameterFile = ProgressDialog(
-            title, work, self.window, "Waiting for the control …", STAGES
-        ).run()
-        return file
+            return fetch_image(address, progress, cancel, family=family)
+
+        image: bytes = ProgressDialog(title, work, self.window, "Waiting for the control …", STAGES).run()
+        return image
 
     def upload(self) -> None:
         """Fetch the control's file, walk through what is out of range in it, and save it under a new name."""
@@ -220,12 +229,26 @@ class ControlActions:
         address = self._address("Upload")
         if address is None:
             return
-        file = self._fetch(address, "Upload")
+        file = self._uploaded(address)
         for place, said in out_of_range(file):
             if not self._walk(file, place, said):
                 self.window.say("Upload given up; nothing was written")
                 return
         self._save_upload(file)
+
+    def _uploaded(self, address: str) -> ParameterFile:
+        """Return the control's file; raises ValueError where it has none that can be read."""
+        from amp_studio.transfer.image import ImageFault, decode_image
+
+        image = self._fetch(address, "Upload")
+        if not image:
+            raise ValueError("The control holds nothing: there is nothing to upload.")
+        try:
+            return decode_image(image)
+        except ImageFault as error:
+            raise ValueError(
+                f"{error}.\n\n'amp-studio upload --from {address} -o NAME.img' keeps it byte for byte."
+            ) from None
 
     def _save_upload(self, file: ParameterFile) -> None:
         """Save an upload under a name that is free; asks again when it cannot be written there."""

@@ -13,7 +13,8 @@ from typing import Any
 
 import pytest
 
-from amp_studio.schema import Schema
+from amp_studio.files import Document, open_file
+from amp_studio.schema import Schema, Value
 from amp_studio.transfer import Control, Faults, Identity, LinkError, Session
 from amp_studio.transfer.faults import FaultyLine
 from amp_studio.transfer.link import Link
@@ -26,6 +27,8 @@ from .small_num import small_num
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(12))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(14))
 SIGNATURE = "s1"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+StartControl = Callable[..., tuple[subprocess.Popen[str], str]]
 
 
 @pytest.fixture(autouse=True)
@@ -182,3 +185,34 @@ def module(tmp_path_factory: pytest.TempPathFactory) -> Schema:
 def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
     """Return what makes a control that holds the old image."""
     return lambda **options: new_control(initial=images.OLD, **options)
+
+
+@pytest.fixture
+def start_control(tmp_path: Path) -> Iterator[StartControl]:
+    """Give a function that starts ``amp-studio emulate`` and returns the process and the address to connect to."""
+    started: list[subprocess.Popen[str]] = []
+
+    def start(listen: str = "tcp://127.0.0.1:0", *options: str) -> tuple[subprocess.Popen[str], str]:
+        command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", listen,
+                   "--state", str(tmp_path / "control"), "--machine", "mill", *options]  # fmt: skip
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        started.append(process)
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        return process, line.removeprefix("listening on ").strip()
+
+    yield start
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def mill(tmp_path: Path) -> Path:
+    """The example's mill, which has no errors, with one speed in inches."""
+    path = tmp_path / "mill.amp"
+    file = open_file(EXAMPLE).file
+    file.set(file.find("1350"), Value(10.0, "in/min"))
+    Document.create(file, path).close()
+    return path

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import hashlib
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -166,6 +167,80 @@ def test_a_control_may_look_into_the_image(make: Callable[..., Control]) -> None
         download(control)
     assert caught.value.code == Code.REJECTED
     assert control.image == OLD
+
+
+def refuse(image: bytes) -> None:
+    raise ValueError("nobody can read it")
+
+
+def test_a_control_takes_back_whatever_it_has_held(make: Callable[..., Control]) -> None:
+    """Under any signature and unread, also after a restart; what it has not held it looks into."""
+    control = make()
+    download(control)
+    folder = control.memory.folder
+    control.close()
+    control = make(folder, accept=refuse)
+
+    control.open_download(opening(OLD, NEW, b"b" * 16, signature=""))
+    control.stage(b"b" * 16, OLD)
+    control.commit(Commit(b"b" * 16, sha(OLD)))
+
+    assert control.image == OLD
+    with pytest.raises(Refusal, match="has not held this image") as caught:
+        control.open_download(opening(b"other", OLD, b"c" * 16, signature=""))
+    assert caught.value.code == Code.SIGNATURE
+    control.open_download(opening(b"other", OLD, b"c" * 16))
+    control.stage(b"c" * 16, b"other")
+    with pytest.raises(Refusal, match="has not held this image and does not take it: nobody can read it"):
+        control.commit(Commit(b"c" * 16, sha(b"other")))
+
+
+def test_a_control_remembers_what_was_keyed_in_and_what_lay_in_its_memory(
+    make: Callable[..., Control],
+) -> None:
+    """Every image that was active at some time counts as held."""
+    control = make()
+    control.patch(lambda image: b"patched")
+    folder = control.memory.folder
+    control.close()
+    (folder / "active.img").write_bytes(b"laid there")
+    control = make(folder, accept=refuse)
+
+    for image in (OLD, b"patched"):
+        assert control.open_download(opening(image, b"laid there", sha(image)[:16], signature="")) == 0
+    download_back = opening(b"laid there", b"laid there", b"d" * 16, signature="")
+    assert control.open_download(download_back) == 0
+
+
+def test_the_memory_of_images_does_not_grow_for_ever(make: Callable[..., Control]) -> None:
+    control = make()
+    for number in range(150):
+        control.patch(lambda image, n=number: b"%d" % n)
+    record = json.loads((control.memory.folder / "control.json").read_bytes())
+    assert len(record["images"]) == 100
+    assert record["images"][-1] == sha(b"149").hex()
+
+
+def test_a_memory_of_an_earlier_program_is_taken_over(make: Callable[..., Control]) -> None:
+    """It knows only the image it holds."""
+    control = make()
+    folder = control.memory.folder
+    control.close()
+    record = json.loads((folder / "control.json").read_bytes())
+    del record["images"]
+    (folder / "control.json").write_text(json.dumps(record))
+    assert make(folder).open_download(opening(OLD, OLD, signature="")) == 0
+
+
+@pytest.mark.parametrize("images", [5, "x", None, {}])
+def test_a_damaged_memory_of_images_is_told(images: object, make: Callable[..., Control]) -> None:
+    control = make()
+    folder = control.memory.folder
+    control.close()
+    record = json.loads((folder / "control.json").read_bytes())
+    (folder / "control.json").write_text(json.dumps(record | {"images": images}))
+    with pytest.raises(StateFault, match="is not what an emulated control writes"):
+        make(folder)
 
 
 def test_only_one_download_is_kept_and_an_abort_ends_it(make: Callable[..., Control]) -> None:

@@ -98,6 +98,7 @@ def test_a_control_without_an_image_has_nothing_to_keep(bench: Callable[..., Any
     made, session, shelf = bench(initial=b"")
     outcome = download(session, NEW, shelf, signature="s1")
     assert (outcome.held, outcome.kept, shelf.kept) == ("new", None, [])
+    assert outcome.text.endswith("It held nothing before.")
     assert made.control.image == NEW
 
 
@@ -139,6 +140,62 @@ def test_a_change_at_the_control_after_it_was_kept_is_not_overwritten(bench: Cal
         download(session, NEW, keep_and_patch, signature="s1")
     assert (caught.value.held, caught.value.kept) == ("old", "kept.amp")
     assert made.control.image == OLD + b"11 = 5\n"
+
+
+def sha(image: bytes) -> bytes:
+    return hashlib.sha256(image).digest()
+
+
+def test_only_the_image_that_was_approved_is_replaced(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+    with pytest.raises(ImageChanged, match="approved to be replaced") as caught:
+        download(session, NEW, shelf, signature="s1", expected=sha(b"seen"))
+    assert f"(sha256 {sha(OLD).hex()[:12]}…, approved {sha(b'seen').hex()[:12]}…)" in str(caught.value)
+    assert str(caught.value).endswith("nothing was replaced in the control")
+    assert (made.control.image, shelf.kept) == (OLD, [])
+    assert download(session, NEW, shelf, signature="s1", expected=sha(OLD)).verified
+
+
+def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callable[..., Any]) -> None:
+    """What is kept is what was approved, or nothing is kept."""
+    made, session, shelf = bench()
+    greet = session.hello
+
+    def greet_and_patch(*arguments: Any) -> Any:
+        welcome = greet(*arguments)
+        made.control.patch(lambda held: held + b"11 = 5\n")
+        return welcome
+
+    session.hello = greet_and_patch
+    with pytest.raises(ImageChanged, match="approved to be replaced"):
+        download(session, NEW, shelf, signature="s1", expected=sha(OLD))
+    assert (made.control.image, shelf.kept) == (OLD + b"11 = 5\n", [])
+
+
+def test_what_is_there_already_must_still_be_what_was_approved(bench: Callable[..., Any]) -> None:
+    _, session, shelf = bench(initial=NEW)
+    with pytest.raises(ImageChanged):
+        download(session, NEW, shelf, signature="s1", expected=sha(OLD))
+    assert not download(session, NEW, shelf, signature="s1", expected=sha(NEW)).written
+
+
+def test_what_a_control_has_held_goes_back_under_no_signature(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+    download(session, NEW, shelf, signature="s1")
+    outcome = download(session, OLD, shelf, signature="", is_return=True)
+    assert (outcome.held, outcome.verified, made.control.image) == ("new", True, OLD)
+    with pytest.raises(SignatureMismatch, match="has not held this image; nothing was replaced"):
+        download(session, b"other", shelf, signature="", is_return=True)
+
+
+def test_an_error_while_only_looking_does_not_say_what_was_replaced(bench: Callable[..., Any]) -> None:
+    """A download before may have replaced something."""
+    for look in (upload, lambda session: verify(session, OLD)):
+        _, session, _ = bench(lines=0)
+        with pytest.raises(NoConnection) as caught:
+            look(session)
+        assert caught.value.held == ""
+        assert "replaced" not in str(caught.value)
 
 
 def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[..., Any]) -> None:

@@ -3,50 +3,17 @@
 from __future__ import annotations
 
 import subprocess
-import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from amp_studio.cli import run
-from amp_studio.files import Document, new_file, open_file
+from amp_studio.files import new_file, open_file
 from amp_studio.schema import Value
-from amp_studio.transfer.image import encode_image
-from amp_studio.transfer.parameters import keep_image, out_of_range
+from amp_studio.transfer.image import decode_image
+from amp_studio.transfer.parameters import out_of_range
 
-StartControl = Callable[..., tuple[subprocess.Popen[str], str]]
-
-
-@pytest.fixture
-def start_control(tmp_path: Path) -> Iterator[StartControl]:
-    """Give a function that starts ``amp-studio emulate`` and returns the process and the address to connect to."""
-    started: list[subprocess.Popen[str]] = []
-
-    def start(listen: str = "tcp://127.0.0.1:0", *options: str) -> tuple[subprocess.Popen[str], str]:
-        command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", listen,
-                   "--state", str(tmp_path / "control"), "--machine", "mill", *options]  # fmt: skip
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        started.append(process)
-        assert process.stdout is not None
-        line = process.stdout.readline()
-        return process, line.removeprefix("listening on ").strip()
-
-    yield start
-    for process in started:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
-
-
-@pytest.fixture
-def mill(tmp_path: Path) -> Path:
-    """A small file of a mill."""
-    path = tmp_path / "mill.amp"
-    file = new_file("9pc", "mill", ["X", "Y"], "mill")
-    file.set(file.find("1350"), Value(10.0, "in/min"))
-    Document.create(file, path).close()
-    return path
+from .conftest import StartControl
 
 
 def panel(process: subprocess.Popen[str], command: str) -> str:
@@ -75,6 +42,7 @@ def test_download_verify_upload_and_nothing_differs(
     assert open_file(upload).file.values == open_file(mill).file.values
     kept = list(tmp_path.glob("mill.before-*.amp"))
     assert len(kept) == 1
+    assert decode_image(kept[0].with_suffix(".img").read_bytes()).values == new_file("9pc", "mill").values
     assert open_file(kept[0]).file.values == new_file("9pc", "mill").values
     assert '"differences": []' in capsys.readouterr().out
 
@@ -131,16 +99,6 @@ def test_an_upload_gets_a_new_name(mill: Path, capsys: pytest.CaptureFixture[str
     """A file that is there is never overwritten by an upload (page 2-23); the control is not even asked."""
     assert run(["upload", "--from", "tcp://127.0.0.1:1", "-o", str(mill)]) == 2
     assert "new name" in capsys.readouterr().err
-
-
-def test_what_the_control_held_is_kept_under_names_that_never_clash(tmp_path: Path) -> None:
-    """Two downloads in one second keep two files; an image that cannot be read is kept as it is."""
-    image = encode_image(new_file("9pc", "mill", ["X"]))
-
-    paths = {keep_image(image, tmp_path, "mill") for _ in range(3)} | {keep_image(b"junk", tmp_path, "mill")}
-
-    assert len(paths) == 4
-    assert sorted(p.suffix for p in paths) == [".amp", ".amp", ".amp", ".img"]
 
 
 def test_only_values_that_exist_for_the_machine_are_walked_through() -> None:

@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtWidgets import QDialogButtonBox
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import content_of, open_file
+from amp_studio.files import content_of, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer import parameters
 from amp_studio.ui.compare_dialog import CompareDialog, DownloadPreview
@@ -42,13 +42,15 @@ def test_download_verify_upload(
 
     assert said.startswith("Download complete and read back equal")
     assert previews[0] > 100
-    kept = list(window.workspace.path.parent.glob("mill.before-*.amp"))
+    kept = list(window.workspace.path.parent.glob("mill.before-*.img"))
     assert len(kept) == 1
     assert str(kept[0]) in said
 
     person.types(control.address)
     action(window, "Verify With Control").trigger()
-    assert person.reads() == f"Nothing differs: {len(window.workspace.file.values)} values are the same."
+    assert person.reads() == (
+        f"Nothing differs: {len(window.workspace.file.values)} values and every byte are the same."
+    )
 
     person.types(control.address)
     person.chooses(tmp_path / "from-control.amp")
@@ -71,6 +73,58 @@ def test_what_a_download_would_change_is_shown_first_and_can_be_left(
 
     assert parameters.fetch_file(control.address).values == held
     assert list(window.workspace.path.parent.glob("*.before-*")) == []
+
+
+def test_a_change_at_the_control_after_the_preview_is_not_overwritten(
+    window: MainWindow, start_control: Start, person: Person, accept
+) -> None:
+    """Only what was shown and approved is replaced; what came in between stays."""
+    control = start_control()
+    other = new_file("9pc", "mill", ["X"])
+
+    def somebody_else(dialog: DownloadPreview) -> None:
+        parameters.download_file(other, control.address, window.workspace.path.parent, "other")
+
+    accept(DownloadPreview, somebody_else)
+
+    said = download(window, person, control)
+
+    assert said.startswith("the control holds something else than what was approved to be replaced (sha256 ")
+    assert said.endswith("; nothing was replaced in the control")
+    assert parameters.fetch_file(control.address).values == other.values
+
+
+def test_garbage_in_the_control_is_asked_about_kept_and_replaced(
+    window: MainWindow, start_control: Start, person: Person, path: Path, tmp_path: Path
+) -> None:
+    garbage = b"\x00 no image"
+    memory = tmp_path / "control-0"
+    memory.mkdir()
+    (memory / "active.img").write_bytes(garbage)
+    control = start_control()
+    person.answers("Download")
+
+    said = download(window, person, control)
+
+    assert "this is not a control image" in person.asked[0]
+    assert said.startswith("Download complete and read back equal")
+    kept = list(path.parent.glob("mill.before-*"))
+    assert sorted(p.suffix for p in kept) == [".img", ".sha256"]
+    assert min(kept).read_bytes() == garbage
+
+
+def test_a_header_that_differs_is_told_by_verify(
+    window: MainWindow, start_control: Start, person: Person, accept
+) -> None:
+    control = start_control()
+    accept(DownloadPreview)
+    download(window, person, control)
+    window.workspace.file.header.revision = "9.99"
+    person.types(control.address)
+
+    action(window, "Verify With Control").trigger()
+
+    assert person.reads() == "All values are the same; only the header (revision) differs."
 
 
 def test_differences_to_the_control_are_listed_and_shown_beside_the_value(
@@ -114,7 +168,7 @@ def test_cancel_in_the_middle_leaves_the_control_as_it_was(
     sending = threading.Event()
     real = parameters.download_file
 
-    def slow(*arguments: object) -> object:
+    def slow(*arguments: object, **approved: object) -> object:
         *first, progress, cancel = arguments
 
         def tell(stage: str, done: int, total: int) -> None:
@@ -123,7 +177,7 @@ def test_cancel_in_the_middle_leaves_the_control_as_it_was(
                 sending.set()
                 cancel.wait(WAIT_MS / 1000)  # type: ignore[attr-defined]
 
-        return real(*first, tell, cancel)
+        return real(*first, tell, cancel, **approved)
 
     monkeypatch.setattr(parameters, "download_file", slow)
 
