@@ -47,6 +47,7 @@ _CONTROL_SIGN = re.compile(
 )  # none but TAB and the line feed stand in an image
 _PLAIN_SIGN = re.compile(r"[\x00-\x1f\x7f-\x9f\\]")
 _ESCAPE = re.compile(r"\\(?:x([0-9a-f]{2})|(.))", re.DOTALL)
+_ADDRESS = re.compile(r"[a-z][a-z0-9_]*\.[a-z][a-z0-9_.]*(?:@[A-Za-z0-9.]+)?")
 _LETTERS = {"\\": "\\", "\n": "n", "\t": "t"}
 _SIGNS = {letter: sign for sign, letter in _LETTERS.items()}
 
@@ -123,15 +124,17 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
             f"line {text.count(chr(10), 0, found.start()) + 1} of the control image holds a control sign"
         )
     head = {}
-    for key, line in zip(_HEAD, lines[1:6], strict=True):
+    for number, (key, line) in enumerate(zip(_HEAD, lines[1:6], strict=True), 2):
         if not line.startswith(f"{key} "):
-            raise ImageFault(f"the control image has '{_short(line)}' where its {key} should stand")
+            raise ImageFault(f"line {number} of the control image is not its {key}")
         head[key] = line[len(key) + 1 :]
     records = []
     for number, line in enumerate(lines[6:-2], 7):
         parts = line.split("\t")
         if len(parts) != 3:
-            raise ImageFault(f"line {number} of the control image, '{_short(line)}', is no record")
+            found = _ADDRESS.search(line)
+            entry = f" ({_short(found[0])})" if found else ""
+            raise ImageFault(f"line {number} of the control image{entry} is not number, address and value")
         records.append((parts[1], parts[2]))
     if lines[-2] != f"end {len(records)}":
         raise ImageFault(
@@ -165,9 +168,15 @@ def _check_form(file: ParameterFile, image: bytes) -> None:
         return
     pairs = zip(image.decode("utf-8").split("\n"), right.decode("utf-8").split("\n"), strict=True)
     number, (held, wanted) = next((n, pair) for n, pair in enumerate(pairs, 1) if pair[0] != pair[1])
-    raise ImageFault(
-        f"line {number} of the control image is '{_short(held)}', which would be written '{_short(wanted)}'"
-    )
+    held, wanted = _masked(file.schema, held), _masked(file.schema, wanted)
+    raise ImageFault(f"line {number} of the control image is '{held}', which would be written '{wanted}'")
+
+
+def _masked(schema: Schema, line: str) -> str:
+    """Return a line as a message shows it, without the value of a secret."""
+    parts = line.split("\t")
+    parameter = schema.parameters.get(read_address(parts[1])[0]) if len(parts) == 3 else None
+    return _short("\t".join([*parts[:2], MASKED]) if parameter and parameter.secret else line)
 
 
 def _short(text: str) -> str:

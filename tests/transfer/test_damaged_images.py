@@ -67,8 +67,8 @@ def mill(entry: str = "", line: str = "") -> bytes:
         ("1300\thome.calibration@1@1\t5 mm", "home.calibration@1@1, which does not exist"),
         ("1300\tno.such@1\t5 mm", "'no.such@1', which the schema does not have"),
         ("1301\thome.calibration@1\t5 mm", "which would be written '1300 home.calibration@1 5 mm'"),
-        ("home.calibration@1\t5 mm", "line .*, is no record"),
-        ("1300\thome.calibration@1\t5 mm\t", "line .*, is no record"),
+        ("home.calibration@1\t5 mm", "line .* .home.calibration@1. is not number, address and value"),
+        ("1300\thome.calibration@1\t5 mm\t", "line .* .home.calibration@1. is not number, address and value"),
         ("1300\thome.calibration@1\t5\x1b[2J mm", "line .*control sign"),
         ("1300\thome.calibration@1\t5 mm\r", "line .*control sign"),
     ],
@@ -139,14 +139,14 @@ def test_a_code_of_thousands_of_digits_is_no_code(digits: int) -> None:
         ("machine", "machine submarine", "machine type 'submarine'"),
         ("machine", "machine lathe", "'machine lathe', which would be written 'machine mill'"),
         ("machine", "machine ", "machine type ''"),
-        ("machine", "maschine mill", "'maschine mill' where its machine should stand"),
+        ("machine", "maschine mill", "line 4 of the control image is not its machine"),
         ("family", "family ../../../tmp/mine", "family '../../../tmp/mine', which is not known"),
         ("family", "family /etc", "family '/etc', which is not known"),
         ("family", "family ", "family '', which is not known"),
         ("family", "family 9PC", "family '9PC', which is not known"),
         ("revision", "revision a\\", "'revision a\\\\', which would be written"),
         ("revision", "revision \x00", "line 6 .*control sign"),
-        ("application", "application\tMill", "where its application should stand"),
+        ("application", "application\tMill", "line 5 of the control image is not its application"),
         ("signature", "signature ", "another schema"),
     ],
 )
@@ -190,6 +190,16 @@ def test_half_a_character_is_no_text_of_an_image() -> None:
     file.values["axis.name", "1"] = Value("\ud800")
     with pytest.raises(ImageFault, match="half a character"):
         encode_image(file)
+
+
+@pytest.mark.parametrize("damaged", ["101\tpassword.character@1\t4711.0", "101\tpassword.character@1\t4711 mm", "101\tpassword.character@1\ttext:4711",
+                                     "password.character@1\t4711", "101 password.character@1 4711", "102\tpassword.character@1\t4711",
+                                     "101\tpassword.character@1\t4711\t"])  # fmt: skip
+def test_a_damaged_password_is_not_repeated(damaged: str) -> None:
+    """The entry is named, what stands there is not."""
+    with pytest.raises(ImageFault, match=r"password\.character@1") as caught:
+        decode_image(mill("password.character@1", damaged))
+    assert "4711" not in str(caught.value)
 
 
 def test_records_stand_in_the_manuals_order() -> None:
