@@ -5,7 +5,7 @@ two programs on one file notice each other, and a file that is not fully
 understood is refused or kept whole.
 """
 
-from .atomic import ChangedOnDisk, SaveFault, backup_path, digest_of, write_atomic
+from .atomic import ChangedOnDisk, SaveFault, Tell, check_output, digest_of, write_atomic
 from .axes import (
     AxisFault,
     axis_instances,
@@ -30,6 +30,7 @@ from .parameter_file import (
     new_file,
     secret_values,
 )
+from .paths import backup_path, is_there, real_path, same_file, text_of_name
 from .project import ENDING, NameFault, Project, ProjectInfo
 from .storage import FORMAT, FileFault, Opened, content_of, open_file, read_content, save_file
 
@@ -54,11 +55,13 @@ __all__ = [
     "ProjectInfo",
     "RangeFault",
     "SaveFault",
+    "Tell",
     "Unsaved",
     "axis_instances",
     "axis_title",
     "axis_type",
     "backup_path",
+    "check_output",
     "compare",
     "content_of",
     "copy_axis",
@@ -67,14 +70,18 @@ __all__ = [
     "digest_of",
     "fill_defaults",
     "fitted_axes",
+    "is_there",
     "merge",
     "name_axes",
     "new_file",
     "open_file",
     "read_content",
+    "real_path",
     "recover_backup",
     "retype_axis",
+    "same_file",
     "save_file",
     "secret_values",
+    "text_of_name",
     "write_atomic",
 ]

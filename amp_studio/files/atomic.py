@@ -8,11 +8,20 @@ more, so that nobody's changes are overwritten unseen.
 from __future__ import annotations
 
 import contextlib
+import errno
 import hashlib
 import os
-import shutil
-import tempfile
+import secrets
+from collections.abc import Callable, Iterator
 from pathlib import Path
+
+from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
+
+from .attributes import keep_attributes
+from .paths import backup_path, companions, destination, real_path, same_file
+
+Tell = Callable[[str], None]
+"""Takes one sentence about what a save could not keep."""
 
 
 class ChangedOnDisk(OSError):
@@ -30,84 +39,135 @@ def digest(content: bytes) -> str:
 
 def digest_of(path: Path) -> str | None:
     """Return the digest of a file, or None when there is none."""
+    content = _content_of(path)
+    return None if content is None else digest(content)
+
+
+def _content_of(path: Path) -> bytes | None:
     try:
-        return digest(path.read_bytes())
+        return read_file(path)
     except FileNotFoundError:
         return None
 
 
-def backup_path(path: Path) -> Path:
-    """Return where the previous file is kept: ``NAME.amp.bak``."""
-    return path.with_name(path.name + ".bak")
+def check_output(path: Path, *inputs: Path) -> None:
+    """Refuse an output that cannot be written, or with which one of the inputs would be lost; raises SaveFault."""
+    with _told(path):
+        real = destination(path)
+    for source in inputs:
+        said = ""
+        if same_file(real, source):
+            said = f"is the input {source} itself"
+        elif any(same_file(real, kept) for kept in companions(source)):
+            said = f"belongs to the input {source}"
+        elif any(same_file(source, kept) for kept in companions(real)):
+            said = f"would put its backup or its lock in the place of the input {source}"
+        if said:
+            raise SaveFault(f"{path} {said}: choose another name for the output")
 
 
-def write_atomic(path: Path, content: bytes, expected: str | None = "", keep_backup: bool = True) -> str:
+def write_atomic(
+    path: Path, content: bytes | Callable[[bytes | None], bytes], expected: str | None = "", keep_backup: bool = True,
+    *, companion_of: Path | None = None, tell: Tell = lambda _said: None,
+) -> str:  # fmt: skip
     """Replace a file by new content, all or nothing.
 
-    ``expected`` is the digest the file on disk must still have (None: there
-    must be no file; "": do not look). The previous file becomes the backup.
-    Returns the digest of the new content; raises ChangedOnDisk, SaveFault.
+    ``content`` may be worked out from the previous content, None where there is no file. ``expected`` is the digest the
+    file on disk must still have (None: there must be no file; "": do not look). The previous file becomes the backup.
+    A companion is readable by those who may read its file, and takes the place of a link instead of following it.
+    ``tell`` is called after the save with each thing of the old file that could not be kept.
+    Returns the digest of the new content; raises ChangedOnDisk, SaveFault, and what ``content`` raises.
     """
-    path = path.resolve()
-    try:
-        if expected != "" and digest_of(path) != expected:
-            raise ChangedOnDisk(f"{path.name} has been changed by another program since it was opened")
-        temporary = _write_beside(path, content, like=path)
-    except ChangedOnDisk:
-        raise
-    except OSError as error:
-        raise SaveFault(f"{path} cannot be written: {error.strerror or error}") from error
-    try:
-        if expected != "" and digest_of(path) != expected:
+    notes: list[str] = []
+    with _told(path):
+        real = real_path(path.parent) / path.name if companion_of else destination(path)
+        looks = expected != "" or callable(content)
+        previous = _content_of(real) if looks or keep_backup else None
+        if expected != "" and _digest(previous) != expected:
+            raise ChangedOnDisk(f"{path.name} {_CHANGED if expected else 'exists already'}")
+    made = content(previous) if callable(content) else content
+    with _told(path), contextlib.ExitStack() as stack:
+        like = real if os.path.lexists(real) and not companion_of else companion_of
+        temporary = stack.enter_context(_staged(real, made, like, notes))
+        kept = None
+        if keep_backup and previous is not None:
+            kept = backup_path(real)
+            kept_temporary = stack.enter_context(_staged(kept, previous, real, []))
+        if looks and _digest(_content_of(real)) != _digest(previous):
             raise ChangedOnDisk(f"{path.name} has been changed by another program while it was saved")
-        if keep_backup and path.exists():
-            _replace_copy(path, backup_path(path))
-        os.replace(temporary, path)
-    except ChangedOnDisk:
+        if kept is not None:
+            os.replace(kept_temporary, kept)
+        os.replace(temporary, real)
+    with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
+        sync_folder(real.parent)
+    for said in notes:
+        tell(f"{path.name}: {said}")
+    return digest(made)
+
+
+_CHANGED = "has been changed by another program since it was opened"
+
+
+def _digest(content: bytes | None) -> str | None:
+    return None if content is None else digest(content)
+
+
+@contextlib.contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn errors of the system into one clear sentence."""
+    try:
+        yield
+    except (ChangedOnDisk, SaveFault):
         raise
     except OSError as error:
         raise SaveFault(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+@contextlib.contextmanager
+def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> Iterator[Path]:
+    """Write and sync a temporary file beside ``path``, with owner and mode of ``like``; it is gone afterwards."""
+    # Shortened, because a name may be as long as the system lets it be; the name is known before there is a file, so that
+    # whatever stops the program finds it.
+    temporary = path.with_name(f".{path.name[:24]}.{secrets.token_hex(8)}.tmp")
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_LINK | HARMLESS
+    try:
+        handle = os.open(temporary, flags, 0o666 if like is None else 0o600)
+        try:
+            write_all(handle, content)
+            if like is not None:
+                notes += keep_attributes(like, handle)
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+        yield temporary
     finally:
         with contextlib.suppress(OSError):
             os.unlink(temporary)
-    with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
-        sync_folder(path.parent)
-    return digest(content)
 
 
-def _write_beside(path: Path, content: bytes, like: Path) -> str:
-    """Write and sync a temporary file in the same folder, as readable as ``like``; leaves nothing behind when it fails."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
+def write_all(handle: int, content: bytes) -> None:
+    """Write all of a content, however little the system takes at once; raises OSError."""
+    rest = memoryview(content)
+    while rest:
+        taken = os.write(handle, rest)
+        if taken <= 0:
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
+        rest = rest[taken:]
+
+
+def append_line(path: Path, content: bytes, like: Path) -> None:
+    """Add lines to the end of a file that is made with the mode of ``like``; a last line that was cut off is closed. Raises OSError."""
+    handle = os.open(
+        path, os.O_RDWR | os.O_APPEND | os.O_CREAT | NO_LINK | HARMLESS, like.stat().st_mode & 0o666
+    )
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-            stream.flush()
-            os.fsync(stream.fileno())
-        if like.exists():
-            shutil.copymode(like, temporary)
-        else:
-            os.chmod(temporary, 0o666 & ~_umask())
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(temporary)
-        raise
-    return temporary
-
-
-def _replace_copy(source: Path, target: Path) -> None:
-    temporary = _write_beside(target, source.read_bytes(), like=source)
-    try:
-        os.replace(temporary, target)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(temporary)
-        raise
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+        found = os.fstat(handle)
+        demand_file(found)
+        if found.st_size and os.lseek(handle, -1, os.SEEK_END) >= 0 and os.read(handle, 1) != b"\n":
+            content = b"\n" + content
+        write_all(handle, content)
+    finally:
+        os.close(handle)
 
 
 def sync_folder(folder: Path) -> None:

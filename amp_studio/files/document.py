@@ -13,11 +13,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from amp_studio.schema import MASKED, Address, Value, ValueFault, read_address, write_value, written
+from amp_studio.schema.regular_file import read_file
 
-from .atomic import backup_path, digest_of, write_atomic
-from .lock import EditLock, InUse, beside, now, user
+from .atomic import append_line, digest_of, write_atomic
+from .lock import EditLock, InUse, now, user
 from .parameter_file import Change, ParameterFile
-from .storage import open_file, read_stored, save_file
+from .paths import backup_path, hidden_path, history_path, is_there, real_path
+from .storage import open_file, read_content, read_stored, save_file
 
 _TYPED = ("name", "application", "revision", "notes")
 """What a person types of the file itself."""
@@ -59,6 +61,8 @@ class Document:
         self._only_viewed = False
         self._lock = EditLock(path)
         self._journal_is_ours = False
+        self.notes: list[str] = []
+        """What the last save could not keep or do, each in one sentence for the person at work."""
 
     # -- opening ---------------------------------------------------------------
 
@@ -93,8 +97,9 @@ class Document:
     @classmethod
     def create(cls, file: ParameterFile, path: Path) -> Document:
         """Save a new file and open it; refuses to overwrite with FileExistsError."""
-        if path.exists():
-            raise FileExistsError(f"{path} exists already")
+        if is_there(path):
+            known = "exists already" if path.exists() else "is a link to a file that does not exist"
+            raise FileExistsError(f"{path} {known}")
         if not path.parent.is_dir():
             raise FileNotFoundError(f"there is no folder {path.parent}")
         document = cls(file, path, None)
@@ -138,12 +143,16 @@ class Document:
         return [Change(a, old, new) for a, old, new in pairs if old != new]
 
     def save(self, how: str = "edit") -> None:
-        """Save in place; the previous file becomes the backup. Raises ChangedOnDisk, SaveFault, InUse."""
+        """Save in place; the previous file becomes the backup; ``notes`` say what could not be kept.
+
+        Raises ChangedOnDisk, SaveFault, InUse.
+        """
         if self._only_viewed:
             raise InUse(f"{self.path.name} was opened only to look at it: save it under a new name")
         self._lock.take()
         changes = self.unsaved_changes() if self.digest is not None else []
-        self.digest = save_file(self.file, self.path, self.digest)
+        self.notes = [self._lock.note] if self._lock.note else []
+        self.digest = save_file(self.file, self.path, self.digest, self.notes.append)
         self.saved = dict(self.file.values)
         self._saved_rest = (replace(self.file.header), dict(self.file.forced))
         self._remember(changes, how)
@@ -164,10 +173,10 @@ class Document:
     @property
     def history_path(self) -> Path:
         """Where the history is kept: one JSON line for each value replaced by a save."""
-        return self.path.with_name(self.path.name + ".history")
+        return history_path(self.path)
 
     def _remember(self, changes: list[Change], how: str) -> None:
-        """Append to the history; a history that cannot be written does not undo the save."""
+        """Append to the history; a history that cannot be written does not undo the save, and is noted."""
         if not changes:
             return
         lines = "".join(
@@ -175,19 +184,21 @@ class Document:
                         self._told(c.address, c.new)]) + "\n"
             for c in changes
         )  # fmt: skip
-        with contextlib.suppress(OSError), self.history_path.open("a+b") as stream:
-            if stream.tell() and stream.seek(-1, 2) >= 0 and stream.read(1) != b"\n":
-                lines = "\n" + lines  # a program was killed in the middle of its last line
-            stream.write(lines.encode("utf-8"))
+        try:
+            append_line(self.history_path, lines.encode(), like=self.path)
+        except OSError as error:
+            self.notes.append(
+                f"{self.path.name}: its history could not be written: {error.strerror or error}"
+            )
 
     def history(self, address: Address | None = None) -> list[HistoryEntry]:
         """Return what was saved before, newest first; of one address, or of all."""
         try:
-            lines = self.history_path.read_text(encoding="utf-8", errors="replace").splitlines()
+            content = read_file(self.history_path, follow=False, tail=True)
         except OSError:
             return []
         found = []
-        for line in lines:
+        for line in content.decode("utf-8", "replace").splitlines():
             with contextlib.suppress(ValueError, TypeError):
                 entry = HistoryEntry(*json.loads(line))
                 if address is None or entry.param == written(address):
@@ -214,7 +225,7 @@ class Document:
     @property
     def journal_path(self) -> Path:
         """Where unsaved work is kept while the file is open."""
-        return beside(self.path, ".unsaved")
+        return hidden_path(self.path, ".unsaved")
 
     def keep_unsaved(self) -> None:
         """Write the unsaved work beside the file, so that a killed program loses none; no change removes it."""
@@ -227,7 +238,7 @@ class Document:
         ]
         left = {"when": now(), "who": user(), "digest": self.digest, "changes": entries, "header": header}
         content = json.dumps(left)
-        write_atomic(self.journal_path, content.encode(), keep_backup=False)
+        write_atomic(self.journal_path, content.encode(), keep_backup=False, companion_of=self.path)
         self._journal_is_ours = True
 
     def _unsaved_header(self) -> dict[str, str]:
@@ -249,7 +260,7 @@ class Document:
         if self._journal_is_ours:
             return None
         try:
-            left = json.loads(self.journal_path.read_text(encoding="utf-8"))
+            left = json.loads(read_file(self.journal_path, follow=False))
             changes = tuple(
                 filter(None, (self._left_change(str(entry), text) for entry, text in left["changes"]))
             )
@@ -278,9 +289,11 @@ class Document:
 
 
 def recover_backup(path: Path, expected: str | None = "") -> str:
-    """Make the backup the file again; what stood there becomes the backup. Raises FileNotFoundError, SaveFault."""
+    """Make the backup the file again; what stood there becomes the backup. Raises FileNotFoundError, FileFault, SaveFault."""
     backup = backup_path(path)
-    if not backup.is_file():
-        raise FileNotFoundError(f"{path.name} has no backup")
-    open_file(backup)  # a backup that cannot be read is not put in place
-    return write_atomic(path, backup.read_bytes(), expected)
+    try:
+        content = read_file(backup)
+    except FileNotFoundError:
+        raise FileNotFoundError(f"{path.name} has no backup") from None
+    read_content(backup, content)  # a backup that cannot be read is not put in place
+    return write_atomic(real_path(path), content, expected)  # a link may lead to a file that was deleted

@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import getpass
 import os
 import socket
+import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
-import filelock
+from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
+
+from .paths import hidden_path
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _lock(handle: int) -> None:
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+else:
+    import fcntl
+
+    def _lock(handle: int) -> None:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+_TRIES = 100
+"""How often a lock file may vanish while it is locked."""
 
 
 class InUse(OSError):
@@ -21,44 +40,48 @@ class EditLock:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._lock = filelock.FileLock(beside(path, ".lock"), timeout=0, thread_local=False)
-
-    @property
-    def is_taken(self) -> bool:
-        """Whether this object holds the lock."""
-        return self._lock.is_locked
+        self.note = ""
+        """Why nobody is kept out, where the file system has no locks: a sentence for the person at work."""
+        self.is_taken = False
+        """Whether this object holds the right."""
+        self._handle: int | None = None
+        self._place = path
 
     def take(self) -> None:
-        """Lock the file; raises InUse."""
+        """Lock the file; raises InUse. Where the file system has no locks there is a note instead."""
         if self.is_taken:
             return
-        holder = beside(self.path, ".holder")
+        self.note = ""
         try:
-            self._lock.acquire()
-        except filelock.Timeout:
-            try:
-                who = holder.read_text(encoding="utf-8")
-            except OSError:
-                who = "it left no details"
-            raise InUse(f"{self.path.name} is open in another program ({who})") from None
+            self._place = hidden_path(self.path, ".lock")
+            self._handle = _locked(self._place)
+        except BlockingIOError:
+            raise InUse(f"{self.path.name} is open in another program ({self._holder()})") from None
         except OSError as error:
-            raise InUse(f"{self.path.name} cannot be locked: {error.strerror or error}") from None
-        with contextlib.suppress(OSError):
-            holder.write_text(
-                f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}", encoding="utf-8"
-            )
+            said = error.strerror or str(error)
+            if not _may_go_without(error, self._place):
+                raise InUse(f"{self.path.name} cannot be locked ({self._place.name}): {said}") from None
+            self.note = f"{self.path.name} could not be locked ({said}): see that no other program changes it"
+        self.is_taken = True
+        if self._handle is not None:
+            self._tell_who()
 
     def release(self) -> None:
-        """Give the file free."""
-        if self.is_taken:
+        """Give the file free. It never fails: what the lock was taken for has been done."""
+        if not self.is_taken:
+            return
+        self.is_taken = False
+        handle, self._handle = self._handle, None
+        if handle is None:
+            return
+        with contextlib.suppress(OSError):
+            self._holder_path().unlink(missing_ok=True)
+        if os.name == "posix":  # while it is locked: whoever waits for it looks whether it still has its name
             with contextlib.suppress(OSError):
-                beside(self.path, ".holder").unlink(missing_ok=True)
-            if (
-                os.name == "posix"
-            ):  # while it is held: filelock asks whether the file it locked still has its name
-                with contextlib.suppress(OSError):
-                    beside(self.path, ".lock").unlink(missing_ok=True)
-            self._lock.release()
+                if _still_named(handle, self._place):
+                    self._place.unlink()
+        with contextlib.suppress(OSError):
+            os.close(handle)
 
     def __enter__(self) -> EditLock:
         self.take()
@@ -67,11 +90,72 @@ class EditLock:
     def __exit__(self, *_: object) -> None:
         self.release()
 
+    def _holder_path(self) -> Path:
+        return self._place.with_name(self._place.name.removesuffix(".lock") + ".holder")
 
-def beside(path: Path, ending: str) -> Path:
-    """Return the hidden companion of a file, ``.NAME.amp.lock``; one file has one, by whatever link it is reached."""
-    path = path.resolve()
-    return path.with_name(f".{path.name}{ending}")
+    def _holder(self) -> str:
+        try:
+            return read_file(self._holder_path(), 4096, follow=False).decode("utf-8", "replace").strip()
+        except OSError:
+            return "it left no details"
+
+    def _tell_who(self) -> None:
+        """Write who holds the lock into a file of his own: a link that somebody put there is removed, not followed."""
+        who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"
+        with contextlib.suppress(OSError):
+            self._holder_path().unlink(missing_ok=True)
+            handle = os.open(self._holder_path(), os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_LINK, 0o666)
+            try:
+                os.write(handle, who.encode("utf-8", "replace"))
+            finally:
+                os.close(handle)
+
+
+def _locked(place: Path) -> int:
+    """Return the handle of the locked file, which is made where there is none; raises BlockingIOError, OSError."""
+    for _ in range(_TRIES):
+        handle = _opened(place)
+        try:
+            demand_file(os.fstat(handle))
+            try:
+                _lock(handle)
+            except PermissionError:  # so Windows, and some servers of files, say that it is taken
+                raise BlockingIOError from None
+            if _still_named(handle, place):
+                return handle
+        except BaseException:
+            os.close(handle)
+            raise
+        os.close(handle)  # its holder removed it with the lock
+    raise BlockingIOError
+
+
+def _opened(place: Path) -> int:
+    flags = NO_LINK | HARMLESS
+    try:
+        return os.open(place, flags | os.O_RDWR | os.O_CREAT, 0o666)
+    except PermissionError:
+        return os.open(place, flags | os.O_RDONLY)  # another user's: it can be locked all the same
+
+
+def _still_named(handle: int, place: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(handle), os.lstat(place))
+    except FileNotFoundError:
+        return False
+
+
+def _may_go_without(error: OSError, place: Path) -> bool:
+    """Tell whether the system has no lock to give: the place is sound, and a file in it can be saved."""
+    if error.errno in (errno.ENAMETOOLONG, errno.EROFS) or not os.access(place.parent, os.W_OK):
+        return False
+    try:
+        demand_file(os.lstat(place))
+    except FileNotFoundError:
+        return True
+    except OSError:
+        return False
+    return True
 
 
 def user() -> str:

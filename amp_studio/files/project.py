@@ -11,11 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema.regular_file import read_file
 
-from .atomic import backup_path, digest_of, write_atomic
+from .atomic import digest_of, write_atomic
 from .document import recover_backup
-from .lock import EditLock, beside
-from .storage import FileFault, open_file
+from .lock import EditLock
+from .paths import backup_path, hidden_path, history_path, is_link, is_there
+from .storage import FileFault, file_content, read_content
 
 PROJECT_FORMAT = 1
 ENDING = ".amp"
@@ -55,7 +57,7 @@ class Project:
     def create(cls, folder: Path, info: ProjectInfo) -> Project:
         """Make a new project folder; raises NameFault when there is a project already, KeyError for the family."""
         _check(info)
-        if (folder / "project.yaml").exists():
+        if is_there(folder / "project.yaml"):
             raise NameFault(f"{folder} is a project already")
         folder.mkdir(parents=True, exist_ok=True)
         project = cls(folder, info)
@@ -70,7 +72,7 @@ class Project:
 
         path = folder / "project.yaml"
         try:
-            data = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+            data = YAML(typ="safe").load(read_file(path).decode("utf-8"))
         except (OSError, UnicodeDecodeError) as error:
             raise FileFault(
                 path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}"
@@ -104,17 +106,24 @@ class Project:
         """Write ``project.yaml``; comments in it survive."""
         from ruamel.yaml import YAML
 
-        path, yaml = self.folder / "project.yaml", YAML(typ="rt")
+        yaml = YAML(typ="rt")
         yaml.width = 4096
-        tree: Any = yaml.load(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+        def made(previous: bytes | None) -> bytes:
+            tree: Any = yaml.load(previous.decode("utf-8")) if previous else {}
+            self._fill(tree)
+            stream = io.StringIO()
+            yaml.dump(tree, stream)
+            return stream.getvalue().encode("utf-8")
+
+        write_atomic(self.folder / "project.yaml", made)
+
+    def _fill(self, tree: Any) -> None:
         tree["amp_studio_project"] = PROJECT_FORMAT
         for item in fields(ProjectInfo):
             value = getattr(self.info, item.name)
             if item.name != "extra" and (value or item.name in tree):
                 tree[item.name] = value
-        stream = io.StringIO()
-        yaml.dump(tree, stream)
-        write_atomic(path, stream.getvalue().encode("utf-8"))
 
     # -- its files -------------------------------------------------------------
 
@@ -124,7 +133,8 @@ class Project:
 
     def backups(self) -> list[Path]:
         """Return the files that have a backup."""
-        return sorted(p.with_name(p.name.removesuffix(".bak")) for p in self.folder.glob(f"*{ENDING}.bak"))
+        deleted = (p.with_name(p.name.removesuffix(".bak")) for p in self.folder.glob(f"*{ENDING}.bak"))
+        return sorted(p for p in {*self.files(), *deleted} if _has_backup(p))
 
     def path(self, name: str) -> Path:
         """Return the path of a file by name; raises NameFault for a name that no system can keep."""
@@ -140,12 +150,13 @@ class Project:
     def copy(self, source: Path, name: str) -> Path:
         """Copy a file, also one of another project, under a new name; raises NameFault, FileFault."""
         target = self._free(name)
-        opened = open_file(source)
-        if opened.file.schema.family.family != self.info.family:
+        content = file_content(source)
+        family = read_content(source, content).schema.family
+        if family.family != self.info.family:
             raise NameFault(
-                f"{source.name} is for {opened.file.schema.family.name}, this project for {load_schema(self.info.family).family.name}"
+                f"{source.name} is for {family.name}, this project for {load_schema(self.info.family).family.name}"
             )
-        write_atomic(target, source.read_bytes(), None)
+        write_atomic(target, content, None)
         return target
 
     def rename(self, source: Path, name: str) -> Path:
@@ -156,9 +167,15 @@ class Project:
         return target
 
     def delete(self, source: Path) -> None:
-        """Delete a file; its last content stays as its backup, so that it can be recovered. Raises InUse."""
+        """Delete a file; its last content stays as its backup, so that it can be recovered. Raises InUse.
+
+        Of a link only the link is removed: the file it leads to may be in other projects too.
+        """
         with EditLock(source):
-            source.replace(backup_path(source))
+            if is_link(source):
+                source.unlink()
+            else:
+                source.replace(backup_path(source))
 
     def recover(self, path: Path) -> None:
         """Make a backup the file again; raises FileNotFoundError, FileFault, InUse."""
@@ -168,7 +185,7 @@ class Project:
     def _free(self, name: str) -> Path:
         target = self.path(name)
         taken = {p.name.casefold() for p in self.files()}
-        if target.exists() or target.name.casefold() in taken:
+        if is_there(target) or target.name.casefold() in taken:
             raise NameFault(f"there is a file '{target.stem}' already")
         return target
 
@@ -186,14 +203,31 @@ def _check(info: ProjectInfo) -> None:
         raise NameFault(f"'{info.machine}' is no machine type: {', '.join(machines)}")
 
 
+def _has_backup(path: Path) -> bool:
+    try:
+        return backup_path(path).is_file()
+    except OSError:
+        return False
+
+
 def _move(source: Path, target: Path) -> None:
-    for ending in (".history", ".bak"):
-        side = source.with_name(source.name + ending)
-        if side.exists():
-            shutil.copy2(side, target.with_name(target.name + ending))
-    journal, moved = beside(source, ".unsaved"), beside(target, ".unsaved")
-    source.rename(target)
-    with contextlib.suppress(FileNotFoundError):
-        journal.rename(moved)
-    for ending in (".history", ".bak"):
-        source.with_name(source.name + ending).unlink(missing_ok=True)
+    if is_link(source):  # what belongs to the file lies beside it, not beside the link
+        source.rename(target)
+        return
+    sides = [(place(source), place(target)) for place in (history_path, backup_path)]
+    copied = []
+    try:
+        for side, copy in sides:
+            if side.exists():
+                copied.append(copy)
+                shutil.copy2(side, copy)
+        source.rename(target)
+    except BaseException:
+        for copy in copied:
+            copy.unlink(missing_ok=True)
+        raise
+    with contextlib.suppress(OSError):
+        hidden_path(source, ".unsaved").rename(hidden_path(target, ".unsaved"))
+    for side, _ in sides:
+        with contextlib.suppress(OSError):
+            side.unlink(missing_ok=True)

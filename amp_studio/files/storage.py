@@ -32,8 +32,10 @@ from amp_studio.schema import (
     write_value,
     written,
 )
+from amp_studio.schema.regular_file import read_file
 
-from .atomic import digest, write_atomic
+from .atomic import Tell, digest, write_atomic
+from .line_ends import as_before, plain
 from .parameter_file import Header, ParameterFile
 
 FORMAT = 1
@@ -65,11 +67,16 @@ class Opened:
 
 def open_file(path: Path) -> Opened:
     """Read a parameter file; raises FileFault and changes nothing when it cannot be used."""
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise FileFault(path, None, f"cannot be read: {error.strerror or error}") from None
+    content = file_content(path)
     return Opened(read_content(path, content), path, digest(content))
+
+
+def file_content(path: Path) -> bytes:
+    """Return the bytes of a file; raises FileFault."""
+    try:
+        return read_file(path)
+    except OSError as error:
+        raise FileFault(path, None, f"cannot be read: {error.strerror}") from None
 
 
 def read_content(path: Path, content: bytes) -> ParameterFile:
@@ -355,12 +362,21 @@ def _comments_after(part: Any, key: Any) -> tuple[list[Any], int]:
     return part.ca.items.setdefault(key, [None, None]), 0
 
 
-def save_file(file: ParameterFile, path: Path, expected: str | None = None) -> str:
+def save_file(
+    file: ParameterFile, path: Path, expected: str | None = None, tell: Tell = lambda _said: None
+) -> str:
     """Save a file, all or nothing; the previous file becomes the backup.
 
     ``expected`` is the digest the file had when it was opened, None for a new
-    one. Returns the new digest; raises ChangedOnDisk or SaveFault.
+    one; ``tell`` is called with what could not be kept. Returns the new digest; raises ChangedOnDisk or SaveFault.
     """
     file.header.signature = file.schema.signature
-    previous = path.read_bytes() if path.exists() else None
-    return write_atomic(path, content_of(file, previous), expected)
+    notes: list[str] = []
+
+    def made(previous: bytes | None) -> bytes:
+        return as_before(content_of(file, plain(previous)), previous, notes.append)
+
+    saved = write_atomic(path, made, expected, tell=tell)
+    for said in notes:
+        tell(f"{path.name}: {said}")
+    return saved

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from amp_studio.files import write_atomic
+from amp_studio.files import is_there, real_path, write_atomic
 from amp_studio.files.atomic import digest_of
 from amp_studio.schema import (
     BuilderRule,
@@ -52,8 +52,8 @@ NO_RULES = BuilderRules()
 
 def rules_beside(path: Path, schema: Schema) -> BuilderRules:
     """Return the rules that lie beside a parameter file; none where there is no such file."""
-    beside = path.resolve().parent / RULES_FILE
-    return read_builder_rules(beside, schema) if beside.is_file() else NO_RULES
+    beside = real_path(path).parent / RULES_FILE
+    return read_builder_rules(beside, schema) if is_there(beside) else NO_RULES
 
 
 def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:

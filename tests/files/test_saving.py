@@ -24,6 +24,7 @@ from amp_studio.files import (
     save_file,
     write_atomic,
 )
+from amp_studio.files.atomic import digest
 from amp_studio.schema import Value
 
 OLD, NEW = b"the old content\n", b"the new content, a little longer\n"
@@ -159,9 +160,8 @@ def test_a_save_that_fails_at_any_call_leaves_the_old_file_and_one_that_passes_t
 
     def save() -> None:
         old.write_bytes(OLD)
-        before = digest_of(old)
         try:
-            write_atomic(old, NEW, before)
+            write_atomic(old, NEW, digest(OLD))
         except SaveFault as fault:
             seen.append(str(fault))
             assert old.read_bytes() == OLD

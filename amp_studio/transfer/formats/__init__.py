@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from amp_studio.files import Header, ParameterFile, SaveFault, secret_values, write_atomic
+from amp_studio.files import Header, ParameterFile, SaveFault, Tell, secret_values, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
+from amp_studio.schema.regular_file import read_file
 
 from . import acr_script, automax, ballscrew, num_table, patch_sheet, values_csv
 from .text_format import FamilyUntold, FormatFault, TextFormat, TextRead
@@ -43,7 +44,7 @@ def import_file(
     Without a family, the format or the text has to tell it. Raises FormatFault with line and column, KeyError for a
     family that does not exist, OSError.
     """
-    content = path.read_bytes()
+    content = read_file(path)
     chosen = _format_for_reading(content, family, format_key)
     try:
         text = content.decode(chosen.encoding)
@@ -78,11 +79,13 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
 
 
 def export_file(
-    file: ParameterFile, path: Path, format_key: str | None = None, *, secrets: bool = False
-) -> TextFormat:
+    file: ParameterFile, path: Path, format_key: str | None = None, tell: Tell = lambda _said: None,
+    *, secrets: bool = False,
+) -> TextFormat:  # fmt: skip
     """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
 
-    Secret values are left out unless ``secrets`` asks for them. Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
+    Secret values are left out unless ``secrets`` asks for them; ``tell`` is called with what of the old file could not be
+    kept. Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
     """
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
     text = chosen.write(file if secrets else without_secrets(file)).replace("\n", chosen.newline)
@@ -93,7 +96,7 @@ def export_file(
         raise FormatFault(
             f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
         ) from None
-    write_atomic(path, content)
+    write_atomic(path, content, tell=tell)
     return chosen
 
 
