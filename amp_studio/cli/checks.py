@@ -13,12 +13,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import ENDING, FileFault, open_file
+from amp_studio.files import ENDING, FileFault, open_file, real_path
 from amp_studio.report import finding_json, finding_text, suppressed_text, why_parts, why_text, write_report
-from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rules_beside
+from amp_studio.schema.regular_file import read_file
+from amp_studio.validate import RULES_FILE, Finding, Validator, explain, read_builder_rules, rules_beside
 
 from .console import note, print_json, progress
 from .errors import UsageFault
+from .output import check_replaced
 
 MANY = 50
 """From so many files on it pays to start more processes."""
@@ -42,8 +44,10 @@ class Checked:
 def validate_verb(options: argparse.Namespace) -> int:
     """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
     if options.rules:
-        options.rules.read_bytes()  # a file that is not there is a slip of the hand, one that is wrong a finding
-    paths = list(_files(options.paths))
+        read_file(
+            options.rules
+        )  # a file that is not there is a slip of the hand, one that is wrong a finding
+    paths, unread = _files(options.paths)
     check = partial(_check, options)
     counts_shown = len(paths) > 1 and (options.json or not sys.stdout.isatty())
     show = progress() if counts_shown else None
@@ -56,22 +60,34 @@ def validate_verb(options: argparse.Namespace) -> int:
             print(one.told)
         if show:
             show("checked", n, len(paths))
+    for said in unread:
+        checked.append(Checked(fault=said))
+        note(f"amp-studio: {said}")
     good = [one for one in checked if not one.fault]
     if options.json and good:
         print_json(good[0].told if paths == options.paths[:1] else {"files": [one.told for one in good]})
     return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
 
 
-def _files(paths: Sequence[Path]) -> Iterator[Path]:
-    """Yield files as they are named, and those in folders in the order of their names."""
+def _files(paths: Sequence[Path]) -> tuple[list[Path], list[str]]:
+    """Return files as they are named, those in folders in the order of their names, and which folders cannot be read."""
+    found: list[Path] = []
+    unread: list[str] = []
+
+    def skip(error: OSError) -> None:
+        unread.append(f"{error.filename}: cannot be read: {error.strerror}")
+
     for path in paths:
         if not path.is_dir():
-            yield path
+            found.append(path)
             continue
-        inside = sorted(path.rglob(f"*{ENDING}"))
-        if not inside:
+        told = len(unread)
+        names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
+        inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
+        if not inside and told == len(unread):
             raise UsageFault(f"{path}: holds no {ENDING} files")
-        yield from inside
+        found += inside
+    return found, unread
 
 
 def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | None) -> Iterator[Checked]:
@@ -135,6 +151,7 @@ def _lines(
 
 def report_verb(options: argparse.Namespace) -> int:
     """Write the documentation of a file."""
+    check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
     file = open_file(options.path).file
     own = rules_beside(options.path, file.schema)
     write_report(
@@ -145,6 +162,7 @@ def report_verb(options: argparse.Namespace) -> int:
         source=options.path,
         own=own,
         secrets=options.secrets,
+        tell=note,
     )
     print(options.output)
     return 0

@@ -7,7 +7,7 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from amp_studio.files import Document, ParameterFile, RangeFault, open_file
+from amp_studio.files import ParameterFile, RangeFault, open_file
 from amp_studio.files.lock import now
 from amp_studio.schema import Address, ValueFault
 from amp_studio.transfer import Outcome
@@ -26,6 +26,7 @@ from amp_studio.transfer.verification import verify_images
 from .console import ask, family, note, print_json, progress
 from .errors import UsageFault
 from .files import difference_json, print_comparison, print_difference
+from .output import check_new, write_new
 
 
 def emulate_verb(options: argparse.Namespace) -> int:
@@ -92,8 +93,7 @@ def _told(outcome: Outcome) -> int:
 def upload_verb(options: argparse.Namespace) -> int:
     """Fetch what a control holds under a new name: its file, or byte for byte as an image."""
     output = options.output
-    if output.exists():
-        raise UsageFault(f"{output} exists already: an upload gets a new name")
+    check_new(output, "an upload")
     image = fetch_image(options.source, progress())
     if not image:
         raise UsageFault("the control holds nothing: there is nothing to upload")
@@ -104,8 +104,7 @@ def upload_verb(options: argparse.Namespace) -> int:
         file = _readable(image, output)
         for address, said in out_of_range(file):
             walk(file, address, said, options.on_fault, "an upload")
-        file.header.name = output.stem
-        Document.create(file, output).close()
+        write_new(file, output)
         print(f"{output}: {len(file.values)} values")
     print(f"sha256 {sha256(image)}")
     return 0

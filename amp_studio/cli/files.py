@@ -34,6 +34,7 @@ from amp_studio.schema.stored import stored_number
 
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageFault
+from .output import check_new, note_all, write_new
 
 
 def new_verb(options: argparse.Namespace) -> int:
@@ -41,7 +42,7 @@ def new_verb(options: argparse.Namespace) -> int:
     schema = family(options.family)
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
     file = new_file(options.family, options.machine, axes, options.path.stem)
-    Document.create(file, options.path).close()
+    write_new(file, options.path)
     print(f"{options.path}: {schema.family.name}, {file.machine}, {len(file.values)} values")
     return 0
 
@@ -57,6 +58,7 @@ def set_verb(options: argparse.Namespace) -> int:
             raise UsageFault(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
+            note_all(document.notes)
         if not changes:
             note("nothing changed: every value was so already")
         for change in changes:
@@ -209,10 +211,10 @@ def _side(text: str) -> tuple[ParameterFile, str | None]:
 
 def merge_verb(options: argparse.Namespace) -> int:
     """Merge three files by parameter; 1 where there are conflicts."""
+    check_new(options.output, "a merge", options.base, options.ours, options.theirs)
     base, ours, theirs = (open_file(p).file for p in (options.base, options.ours, options.theirs))
     merged, conflicts = merge(base, ours, theirs)
-    merged.header.name = options.output.stem
-    Document.create(merged, options.output).close()
+    write_new(merged, options.output)
     for c in conflicts:
         p = base.schema.parameters.get(c.address[0])
         if p is None:  # an entry that the schema does not know

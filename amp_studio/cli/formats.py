@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import Document, open_file, secret_values
+from amp_studio.files import open_file, secret_values
 from amp_studio.schema import written
 from amp_studio.transfer.formats import FamilyUntold, export_file, import_file
 from amp_studio.transfer.parameters import out_of_range
@@ -12,12 +12,12 @@ from amp_studio.transfer.parameters import out_of_range
 from .console import note
 from .control import walk
 from .errors import UsageFault
+from .output import check_new, check_replaced, write_new
 
 
 def import_verb(options: argparse.Namespace) -> int:
     """Make a parameter file of a text; nothing is written when a part of it cannot be meant."""
-    if options.output.exists():
-        raise UsageFault(f"{options.output} exists already: an import gets a new name")
+    check_new(options.output, "an import", options.text)
     try:
         file = import_file(
             options.text,
@@ -36,21 +36,21 @@ def import_verb(options: argparse.Namespace) -> int:
         walk(file, address, said, options.on_fault, "an import")
     for key in file.unknown:
         note(f"kept without knowing it: {key}")
-    file.header.name = options.output.stem
-    Document.create(file, options.output).close()
+    write_new(file, options.output)
     print(f"{options.output}: {len(file.values)} values")
     return 0
 
 
 def export_verb(options: argparse.Namespace) -> int:
     """Write a parameter file in a text format."""
+    check_replaced(options.output, options.path)
     file = open_file(options.path).file
     for key in file.unknown:
         note(f"{key} is not known to this schema")
     hidden = [a for a in file.values if file.situation.state(a).state == "hidden"]
     if hidden:
         note(f"{len(hidden)} values do not exist for this configuration, {written(hidden[0])} among them")
-    chosen = export_file(file, options.output, options.format, secrets=options.secrets)
+    chosen = export_file(file, options.output, options.format, note, secrets=options.secrets)
     left_out = [] if options.secrets else secret_values(file)
     if left_out:
         note(

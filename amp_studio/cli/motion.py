@@ -10,13 +10,16 @@ from amp_studio.schema import ValueFault, canonical, unit_named, write_value
 from amp_studio.schema.values import read_number
 from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
 
-from .console import assignments, print_json
+from .console import assignments, note, print_json
 from .errors import UsageFault
 from .files import wanted
+from .output import check_replaced
 
 
 def simulate_verb(options: argparse.Namespace) -> int:
     """Move the machine; 1 where it raised an alarm."""
+    if options.output:
+        check_replaced(options.output, options.path)
     file = open_file(options.path).file
     settings, own = _settings(options.assignments)
     for address, value in wanted(file, own).items():
@@ -24,7 +27,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
     axis = _axis(file, options.axis) if options.axis else None
     trace = simulate(file, options.scenario, axis, settings)
     if options.output:
-        write_trace(trace, options.output)
+        write_trace(trace, options.output, note)
     if options.json:
         print_json(trace_summary(trace))
     else:

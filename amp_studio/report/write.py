@@ -6,7 +6,7 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, write_atomic
+from amp_studio.files import ParameterFile, Tell, write_atomic
 from amp_studio.validate import NO_RULES, BuilderRules
 
 from .build import build_report
@@ -34,13 +34,14 @@ def write_report(
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
     secrets: bool = False,
+    tell: Tell = lambda _said: None,
 ) -> None:
     """Write the documentation of a file, whole or not at all; the format follows the ending of ``path``.
 
     ``sort`` is one of the documenter's three orders, ``changed_only`` keeps
     what differs from the printed default, ``source`` is where the file lies
     on disk, ``date`` is printed (now when left out), ``own`` are the builder's rules, and ``secrets`` prints
-    passwords in clear. Raises ValueError for an ending or an order that is not known, SaveFault when it cannot be
+    passwords in clear; ``tell`` is called with what of a file that stood there could not be kept. Raises ValueError for an ending or an order that is not known, SaveFault when it cannot be
     written.
     """
     render = FORMATS.get(path.suffix.lower())
@@ -49,4 +50,4 @@ def write_report(
     report = build_report(
         file, sort=sort, changed_only=changed_only, source=source, date=date, own=own, secrets=secrets
     )
-    write_atomic(path, render(report), keep_backup=False)
+    write_atomic(path, render(report), keep_backup=False, tell=tell)

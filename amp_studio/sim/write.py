@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from amp_studio.files import Tell, write_atomic
+
 from .rounding import shown
 from .servo import SimulationError
 from .svg import plot_svg
@@ -65,19 +67,21 @@ def trace_text(trace: Trace) -> str:
     return "\n".join(lines)
 
 
-def write_trace(trace: Trace, path: Path) -> None:
-    """Write ``.csv``, ``.svg`` or ``.png``; raises SimulationError for another ending, OSError where it
-    cannot.
+def write_trace(trace: Trace, path: Path, tell: Tell = lambda _said: None) -> None:
+    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``tell`` is called with what could not be kept.
+
+    Raises SimulationError for another ending, SaveFault where it cannot.
     """
     ending = path.suffix.lower()
     if ending == ".csv":
-        path.write_text(trace_csv(trace), encoding="utf-8", newline="\n")
+        content = trace_csv(trace).encode()
     elif ending == ".svg":
-        path.write_text(plot_svg(trace), encoding="utf-8", newline="\n")
+        content = plot_svg(trace).encode()
     elif ending == ".png":
-        path.write_bytes(plot_png(trace))
+        content = plot_png(trace)
     else:
         raise SimulationError(f"a trace is written as {', '.join(ENDINGS)}, not as '{path.name}'")
+    write_atomic(path, content, keep_backup=False, tell=tell)
 
 
 def trace_summary(trace: Trace) -> dict[str, Any]:

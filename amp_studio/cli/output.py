@@ -1,0 +1,48 @@
+"""What a verb writes: checked before anything is done, written whole or not at all, with a note of what was not kept."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from amp_studio.files import Document, ParameterFile, check_output, is_there, text_of_name
+
+from .console import note
+from .errors import UsageFault
+
+
+def check_replaced(output: Path, *inputs: Path) -> None:
+    """Refuse an output that cannot be written, belongs to an input, or is where the results are printed.
+
+    Raises UsageFault, SaveFault.
+    """
+    check_output(output, *inputs)
+    for printed in (1, 2):
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(printed), output.stat()):
+                raise UsageFault(
+                    f"{output} is where the results are printed: choose another name for the output"
+                )
+
+
+def check_new(output: Path, what: str, *inputs: Path) -> None:
+    """Refuse an output that is there already, or could not be written; raises UsageFault, SaveFault."""
+    check_output(output, *inputs)
+    if is_there(output):
+        raise UsageFault(f"{output} exists already: {what} gets a new name")
+
+
+def write_new(file: ParameterFile, path: Path) -> None:
+    """Save a new file, named as its path; raises FileExistsError, SaveFault."""
+    file.header.name = text_of_name(path.stem)
+    document = Document.create(file, path)
+    document.close()
+    note_all(document.notes)
+
+
+def note_all(notes: Sequence[str]) -> None:
+    """Print what a save could not keep."""
+    for said in notes:
+        note(said)

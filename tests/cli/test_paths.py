@@ -1,0 +1,212 @@
+"""Paths that are no files, outputs that are inputs, folders that cannot be read: one sentence, exit 2, nothing changed."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import checks
+from amp_studio.files import atomic
+
+ODD = ("pipe", "folder", "zero", "loop", "nowhere")
+
+
+@pytest.fixture(params=ODD)
+def odd(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    """Return a path that is no file."""
+    path = tmp_path / f"{request.param}.csv"
+    match request.param:
+        case "pipe":
+            os.mkfifo(path)
+        case "folder":
+            path.mkdir()
+        case "zero":
+            path.symlink_to("/dev/zero")
+        case "loop":
+            path.symlink_to(path)
+        case "nowhere":
+            path.symlink_to("nothing")
+    return path
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        "get IT", "set IT 1300=1", "validate IT", "validate MILL --rules IT", "diff MILL IT", "merge MILL IT MILL -o NEW",
+        "report IT -o NEW.csv", "import IT -o NEW", "import IT -o NEW --family 9pc --format csv", "export IT -o NEW.csv",
+        "simulate IT step -o NEW.csv",
+    ],
+)  # fmt: skip
+def test_a_path_that_is_no_file_is_no_input(amp, mill: Path, odd: Path, folder, verb: str) -> None:
+    if odd.name == "folder.csv" and verb == "validate IT":
+        pytest.skip("its files are checked")
+    before = folder()
+    words = {"IT": odd, "MILL": mill, "NEW": mill.with_name("new.amp"), "NEW.csv": mill.with_name("new.csv")}
+    said = amp(*[words.get(word, word) for word in verb.split()])
+    assert said.code == 2
+    assert odd.name in said.err
+    assert folder() == before
+
+
+@pytest.mark.parametrize(
+    "verb",
+    ["report MILL -o IT", "export MILL -o IT", "simulate MILL step -o IT", "merge MILL MILL MILL -o IT",
+     "import MILL -o IT", "new 9pc IT", "upload --from tcp://127.0.0.1:1 -o IT"],
+)  # fmt: skip
+def test_a_path_that_is_no_file_is_no_output(amp, mill: Path, odd: Path, folder, verb: str) -> None:
+    before, kind = folder(), os.lstat(odd)
+    said = amp(*[{"IT": odd, "MILL": mill}.get(word, word) for word in verb.split()])
+    assert said.code == 2
+    assert odd.name in said.err
+    assert (folder(), os.lstat(odd)) == (before, kind)
+
+
+def hard(path: Path, of: Path) -> None:
+    """Give a file a second name."""
+    path.hardlink_to(of)
+
+
+@pytest.mark.parametrize("link", [hard, Path.symlink_to])
+@pytest.mark.parametrize("verb", ["report MILL -o IT", "export MILL -o IT", "simulate MILL step -o IT"])
+def test_an_output_that_is_the_input_by_another_name_is_refused(
+    amp, mill: Path, folder, link: Callable[[Path, Path], None], verb: str
+) -> None:
+    other = mill.with_name("other.csv")
+    link(other, mill)
+    before = folder()
+    said = amp(*[{"IT": other, "MILL": mill}.get(word, word) for word in verb.split()])
+    assert said.code == 2
+    assert "is the input" in said.err
+    assert (folder(), other.is_symlink()) == (before, link is not hard)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("mill.amp", "is the input"),
+        ("./mill.amp", "is the input"),
+        ("below/../mill.amp", "is the input"),
+        ("mill.amp.bak", "belongs to the input"),
+        ("mill.amp.history", "belongs to the input"),
+        (".mill.amp.unsaved", "belongs to the input"),
+        (".mill.amp.lock", "belongs to the input"),
+    ],
+)
+def test_an_export_onto_the_file_itself_or_what_is_kept_beside_it_is_refused(
+    amp, mill: Path, folder, name: str, said: str
+) -> None:
+    (mill.parent / "below").mkdir()
+    before = folder()
+    refused = amp("export", mill, "-o", f"{mill.parent}/{name}", "--format", "csv")
+    assert (refused.code, folder()) == (2, before)
+    assert said in refused.err
+
+
+def test_an_export_whose_backup_would_replace_the_input_is_refused(amp, mill: Path, folder) -> None:
+    backup = mill.rename(mill.with_name("table.csv.bak"))
+    mill.with_name("table.csv").write_bytes(b"older")
+    before = folder()
+    said = amp("export", backup, "-o", mill.with_name("table.csv"))
+    assert (said.code, folder()) == (2, before)
+    assert "in the place of the input" in said.err
+
+
+def test_results_are_not_printed_into_the_output(amp, mill: Path, folder) -> None:
+    said = amp("report", mill, "-o", "/dev/stdout")
+    assert (said.code, set(folder())) == (2, {"mill.amp"})
+
+
+def test_a_report_that_does_not_fit_on_the_disk_leaves_the_old_one(
+    amp, mill: Path, folder, monkeypatch
+) -> None:
+    report = mill.with_name("mill.csv")
+    report.write_bytes(b"old")
+
+    def full(handle: int, content: bytes) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(atomic.os, "write", full)
+    said = amp("report", mill, "-o", report)
+    monkeypatch.undo()
+    assert (said.code, set(folder()), report.read_bytes()) == (2, {"mill.amp", "mill.csv"}, b"old")
+    assert said.err == f"amp-studio: {report} cannot be written: No space left on device\n"
+
+
+# -- folders --------------------------------------------------------------------------------------------------------
+
+
+def test_what_is_no_file_in_a_folder_is_told_and_the_rest_is_checked(amp, mill: Path, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a-pipe.amp")
+    (tmp_path / "endless.amp").symlink_to("/dev/zero")
+    (tmp_path / "loop.amp").symlink_to("loop.amp")
+    said = _validated(tmp_path)
+    assert (said[0], said[1]) == (2, ["a-pipe.amp", "endless.amp", "loop.amp"])
+    assert "mill.amp: " in said[2]
+
+
+def test_a_folder_that_cannot_be_read_is_told_after_the_rest(mill: Path, tmp_path: Path, monkeypatch) -> None:
+    """As root reads every folder, the system says so here by itself."""
+    shut = tmp_path / "shut"
+    shut.mkdir()
+    scandir = os.scandir
+
+    def denied(path: str) -> object:
+        if Path(path) == shut:
+            raise PermissionError(13, "Permission denied", str(path))
+        return scandir(path)
+
+    monkeypatch.setattr(checks.os, "scandir", denied)
+    code, unread, out = _validated(tmp_path)
+    assert (code, unread) == (2, ["shut"])
+    assert "mill.amp: " in out
+    code, unread, out = _validated(shut)
+    assert (code, unread, out) == (2, ["shut"], "")
+
+
+def _validated(folder: Path) -> tuple[int, list[str], str]:
+    """Check a folder; return the exit code, the names of what could not be read, and the results."""
+    import contextlib
+    import io
+
+    from amp_studio import cli
+
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = cli.run(["validate", str(folder)])
+    told = [line for line in err.getvalue().splitlines() if line.startswith("amp-studio: ")]
+    return code, [Path(line.split(": ")[1]).name for line in told], out.getvalue()
+
+
+# -- names --------------------------------------------------------------------------------------------------------------
+
+
+def test_a_name_that_is_no_text_is_worked_with_and_shown(tmp_path: Path) -> None:
+    def program(*words: str) -> tuple[int, bytes]:
+        done = subprocess.run(
+            [sys.executable, "-m", "amp_studio.cli", *words], cwd=tmp_path, capture_output=True, check=False
+        )
+        return done.returncode, done.stdout + done.stderr
+
+    name, csv, again = (os.fsdecode(n) for n in (b"m\xfcll.amp", b"m\xfcll.csv", b"\xe9.amp"))
+    assert program("new", "9pc", name)[1].startswith(b"m\\udcfcll.amp: Allen-Bradley")
+    assert program("set", name, "1300=2 mm")[0] == 0
+    assert program("export", name, "-o", csv)[0] == 0
+    assert program("report", name, "-o", os.fsdecode(b"\xff.html"))[0] == 0
+    assert program("import", csv, "-o", again, "--family", "9pc")[0] == 0
+    code, out = program("get", again, "1300", "--json")
+    assert (code, json.loads(out)["values"][0]["value"]) == (0, 2.0)
+
+
+def test_a_name_too_long_to_be_edited_can_be_read_and_is_told(amp, mill: Path) -> None:
+    long = mill.rename(mill.with_name(f"{'x' * 250}.amp"))
+    assert amp("get", long, "1300").code == 0
+    assert amp("report", long, "-o", long.with_suffix(".txt")).code == 0
+    said = amp("set", long, "1300=2 mm")
+    assert said.code == 2
+    assert "The name is too long for the files kept beside it" in said.err
