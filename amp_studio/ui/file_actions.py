@@ -11,7 +11,18 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QAction, QDesktopServices, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
 
-from amp_studio.files import Document, InUse, Unsaved, backup_path, open_file, recover_backup, secret_values
+from amp_studio.files import (
+    Document,
+    InUse,
+    Unsaved,
+    backup_path,
+    check_output,
+    open_file,
+    real_path,
+    recover_backup,
+    same_file,
+    secret_values,
+)
 from amp_studio.files.lock import EditLock
 from amp_studio.schema import Address
 from amp_studio.validate import Validator, rules_beside
@@ -124,7 +135,7 @@ class FileActions:
         question = f"{path.name} exists already. Replace it? What stands there becomes its backup."
         if path.exists() and ask(self.window, title, question, "&Replace", "Cancel", default=1) != "&Replace":
             return None
-        return path
+        return real_path(path) if path.exists() else path  # of a link it is the file that is replaced
 
     def write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
         """Show the document that ``write`` makes; a file that stands there becomes its own backup first."""
@@ -158,7 +169,7 @@ class FileActions:
         if ask_first and not self.window.may_leave():
             return
         workspace, here = self.window.workspace, None
-        if workspace is not None and workspace.path.resolve() == path.resolve():
+        if workspace is not None and same_file(workspace.path, path):
             here = self.window.selected()
             in_background(
                 self.window, "Opening", lambda: open_file(path)
@@ -230,7 +241,7 @@ class FileActions:
         path = self.ask_path("Save as", workspace.path)
         if path is None:
             return
-        if path.resolve() == workspace.path.resolve():
+        if same_file(path, workspace.path):
             self.window.save_or_tell()
             return
         self.write_new(path, lambda: workspace.document.save_as(path), here)
@@ -283,6 +294,7 @@ class FileActions:
             return
         path, sort, changed_only, show = dialog.chosen()
         secrets = dialog.secrets.isChecked()
+        check_output(path, workspace.path)
         file = workspace.file.copy()
 
         def work(_: Progress, __: threading.Event) -> None:

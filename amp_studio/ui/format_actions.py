@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import Document, ParameterFile, secret_values
+from amp_studio.files import Document, ParameterFile, check_output, secret_values
 from amp_studio.files.lock import now
 from amp_studio.schema import family_ids, load_schema
 
@@ -135,6 +135,7 @@ class FormatActions:
         found = filters.get(chosen)
         path = Path(text)
         path = path if path.suffix or found is None else path.with_suffix(found.ending)
+        check_output(path, workspace.path)
         file, key = workspace.file.copy(), found.key if found else None
         secrets = workspace.secrets
         in_background(self.window, "Exporting", lambda: export_file(file, path, key, secrets=secrets))

@@ -358,6 +358,8 @@ class MainWindow(QMainWindow):
         except OSError as error:
             tell(self, "Not saved", f"{error}.\n\nYour work is still open.")
             return False
+        if self.workspace.document.notes:
+            self.say("; ".join(self.workspace.document.notes))
         return True
 
     def may_leave(self) -> bool:

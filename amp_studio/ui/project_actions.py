@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import FileFault, Project
+from amp_studio.files import FileFault, Project, same_file
 from amp_studio.schema import Address
 
 from .file_actions import FILTER
@@ -117,7 +117,7 @@ class ProjectActions:
     def _let_go(self, path: Path) -> bool:
         """Close a file if it is the open one, its unsaved work being asked for; tells whether it may be moved."""
         workspace = self.window.workspace
-        if workspace is None or workspace.path.resolve() != path.resolve() or not workspace.may_edit:
+        if workspace is None or not same_file(workspace.path, path) or not workspace.may_edit:
             return True
         if not self.window.may_leave():
             return False
@@ -149,10 +149,10 @@ class ProjectActions:
 
         def show() -> None:
             workspace = self.window.workspace
-            if workspace is None or workspace.path.resolve() != path.resolve():
+            if workspace is None or not same_file(workspace.path, path):
                 self.window.files.open_path(path)
             workspace = self.window.workspace
-            if address is not None and workspace is not None and workspace.path.resolve() == path.resolve():
+            if address is not None and workspace is not None and same_file(workspace.path, path):
                 self.window.go_to(address)
 
         self.window.guarded(show, "Open")
