@@ -29,9 +29,9 @@ def check_replaced(output: Path, *inputs: Path) -> None:
 
 def check_new(output: Path, what: str, *inputs: Path) -> None:
     """Refuse an output that is there already, or could not be written; raises UsageFault, SaveFault."""
-    check_output(output, *inputs)
     if is_there(output):
         raise UsageFault(f"{output} exists already: {what} gets a new name")
+    check_output(output, *inputs)
 
 
 def write_new(file: ParameterFile, path: Path) -> None:

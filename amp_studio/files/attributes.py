@@ -16,9 +16,7 @@ def keep_attributes(old: Path, handle: int) -> list[str]:
     now = _with_owner_of(was, handle)
     notes, mode = [], stat.S_IMODE(was.st_mode)
     if (now.st_uid, now.st_gid) != (was.st_uid, was.st_gid):
-        notes.append(
-            f"owner and group are now {now.st_uid}:{now.st_gid}; {was.st_uid}:{was.st_gid} could not be kept"
-        )
+        notes.append(f"owner and group are now {_owners(now)}; {_owners(was)} could not be kept")
         mode &= 0o777
     if now.st_gid != was.st_gid:  # what was allowed to the one group is not given to another
         mode = mode & 0o707 | (mode & 0o007) << 3
@@ -43,6 +41,19 @@ def _with_owner_of(was: os.stat_result, handle: int) -> os.stat_result:
         with contextlib.suppress(OSError):
             os.fchown(handle, user, was.st_gid)
     return os.fstat(handle)
+
+
+def _owners(found: os.stat_result) -> str:
+    """Return owner and group by name where they have one."""
+    import grp
+    import pwd
+
+    names = [str(found.st_uid), str(found.st_gid)]
+    with contextlib.suppress(KeyError):
+        names[0] = pwd.getpwuid(found.st_uid).pw_name
+    with contextlib.suppress(KeyError):
+        names[1] = grp.getgrgid(found.st_gid).gr_name
+    return ":".join(names)
 
 
 def _keep_extended(old: Path, handle: int) -> list[str]:

@@ -59,7 +59,9 @@ class EditLock:
             raise InUse(f"{self.path.name} is open in another program ({self._holder()})") from None
         except OSError as error:
             said = error.strerror or str(error)
-            if not _may_go_without(error, self._place):
+            if not _is_open_to_us(self._place.parent):
+                raise InUse(f"{self.path.name} cannot be changed: its folder cannot be written to") from None
+            if error.errno == errno.ENAMETOOLONG or not _is_sound(self._place):
                 raise InUse(f"{self.path.name} cannot be locked ({self._place.name}): {said}") from None
             self.note = f"{self.path.name} could not be locked ({said}): see that no other program changes it"
         self.is_taken = True
@@ -134,8 +136,11 @@ def _opened(place: Path) -> int:
     flags = NO_LINK | HARMLESS
     try:
         return os.open(place, flags | os.O_RDWR | os.O_CREAT, 0o666)
-    except PermissionError:
-        return os.open(place, flags | os.O_RDONLY)  # another user's: it can be locked all the same
+    except PermissionError as error:
+        try:
+            return os.open(place, flags | os.O_RDONLY)  # another user's: it can be locked all the same
+        except FileNotFoundError:
+            raise error from None
 
 
 def _still_named(handle: int, place: Path) -> bool:
@@ -145,14 +150,17 @@ def _still_named(handle: int, place: Path) -> bool:
         return False
 
 
-def _may_go_without(error: OSError, place: Path) -> bool:
-    """Tell whether the system has no lock to give: the place is sound, and a file in it can be saved."""
-    if error.errno in (errno.ENAMETOOLONG, errno.EROFS) or not os.access(place.parent, os.W_OK):
-        return False
+def _is_open_to_us(folder: Path) -> bool:
+    """Tell whether a file in a folder can be saved; what is no folder is told elsewhere."""
+    return os.access(folder, os.W_OK) or not folder.is_dir()
+
+
+def _is_sound(place: Path) -> bool:
+    """Tell whether nothing but a lock file has its name: then it is the system that has no lock to give."""
     try:
         demand_file(os.lstat(place))
     except FileNotFoundError:
-        return True
+        return place.parent.is_dir()
     except OSError:
         return False
     return True

@@ -27,6 +27,7 @@ from amp_studio.schema import (
     family_ids,
     read_entries,
 )
+from amp_studio.schema.regular_file import read_file
 
 from .expressions import RuleFault
 from .finding import Finding
@@ -58,7 +59,11 @@ def rules_beside(path: Path, schema: Schema) -> BuilderRules:
 
 def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
     """Return what a file says to files of a family; faults of the file are findings."""
-    return _read(path, digest_of(path), schema)
+    try:
+        return _read(path, digest_of(path), schema)
+    except OSError as error:
+        said = DatabaseFault(path, None, f"cannot be read: {error.strerror}")
+        return BuilderRules(faults=(_finding(path, said),))
 
 
 @lru_cache(maxsize=32)  # it lies beside many files
@@ -85,8 +90,12 @@ def _read(path: Path, _digest: str | None, schema: Schema) -> BuilderRules:
                 suppressions.append(entry)
             else:
                 faults.append(DatabaseFault(path, line, f"suppresses '{entry.rule}', which is no rule"))
-    findings = (Finding(OWN_FAULT, "error", (), f"{_told(path, fault)}.") for fault in faults)
-    return BuilderRules(tuple(rules), tuple(suppressions), tuple(findings))
+    findings = tuple(_finding(path, fault) for fault in faults)
+    return BuilderRules(tuple(rules), tuple(suppressions), findings)
+
+
+def _finding(path: Path, fault: DatabaseFault) -> Finding:
+    return Finding(OWN_FAULT, "error", (), f"{_told(path, fault)}.")
 
 
 def _try(rule: BuilderRule, schema: Schema, known: set[str]) -> None:
@@ -113,7 +122,7 @@ def suppress(path: Path, rule: str, params: Iterable[str], *, reason: str, by: s
     yaml.preserve_quotes = True
     try:
         entry = Suppression(rule=rule, params=tuple(params), reason=reason.strip(), by=by.strip())
-        data = yaml.load(path.read_text(encoding="utf-8")) if path.exists() else None
+        data = yaml.load(read_file(path).decode("utf-8")) if is_there(path) else None
     except ValidationError:
         raise ValueError("A suppression needs a reason and a name.") from None
     except YAMLError as error:

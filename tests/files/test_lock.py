@@ -82,6 +82,37 @@ def test_what_is_no_lock_file_is_named(on_disk: Path, kind: str) -> None:
         Document.open(on_disk)
 
 
+def test_a_folder_that_cannot_be_written_to_is_named(on_disk: Path, monkeypatch) -> None:
+    def denied(*_: object) -> int:
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+    monkeypatch.setattr(os, "access", lambda *_, **__: False)
+    monkeypatch.setattr("amp_studio.files.lock._opened", denied)
+    with pytest.raises(InUse, match=r"bench\.amp cannot be changed: its folder cannot be written to"):
+        Document.open(on_disk)
+
+
+def test_the_lock_file_of_another_user_is_locked_though_it_cannot_be_written(
+    on_disk: Path, monkeypatch
+) -> None:
+    opened = os.open
+
+    def read_only(path: Path, flags: int, *mode: int) -> int:
+        if str(path).endswith(".lock") and flags & os.O_RDWR:
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        return opened(path, flags, *mode)
+
+    on_disk.with_name(".bench.amp.lock").touch()
+    monkeypatch.setattr(os, "open", read_only)
+    with Document.open(on_disk) as document:
+        assert document.is_locked
+        with pytest.raises(InUse, match="is open in another program"):
+            Document.open(on_disk)
+        document.file.set(CALIBRATION, Value(2.0, "mm"))
+        document.save()
+        assert document.notes == []
+
+
 def test_the_lock_of_another_file_of_that_name_is_not_taken_for_ours(on_disk: Path, monkeypatch) -> None:
     """A program that waits may lock what its holder has just removed: then it locks the new one."""
     flock, calls = fcntl.flock, []

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from textwrap import dedent
 
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Value
+from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Finding, Setting, Validator, read_builder_rules, rules_beside, suppress
 
 RAPID = ("feedrate.rapid", "1")
@@ -169,3 +170,24 @@ def test_the_page_about_rules_of_your_own_shows_a_file_that_works(
     assert finding.message == "Rapid of axis 1 is 20000 mm/min; our lathes are built for 15000 mm/min."
     assert finding.repairs == (Setting(RAPID, Value(15000.0, "mm/min")),)
     assert of(Validator(machine("mill"), own).run(), "works.lathe-rapid") == []
+
+
+@pytest.mark.parametrize("kind", ["pipe", "folder", "endless", "loop", "nowhere"])
+def test_rules_that_are_no_file_are_a_finding_at_once(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "rules.yaml"
+    match kind:
+        case "pipe":
+            os.mkfifo(path)
+        case "folder":
+            path.mkdir()
+        case "endless":
+            path.symlink_to("/dev/zero")
+        case "loop":
+            path.symlink_to(path)
+        case "nowhere":
+            path.symlink_to("nothing")
+    machine = tmp_path / "machine.amp"
+    machine.touch()
+    found = rules_beside(machine, load_schema("9pc")).faults
+    assert [fault.rule for fault in found] == ["rules.unusable"]
+    assert found[0].message.startswith("rules.yaml: ")
