@@ -36,9 +36,20 @@ def targets(paths: Sequence[Path]) -> list[Target]:
     """Return the files that a verb may replace, to be asked later what has become of them."""
     if not paths:
         return []
+    backups = [_backup(path) for path in paths]
+    return [
+        Target(path, _mark(path), backup, _mark(backup)) for path, backup in zip(paths, backups, strict=True)
+    ]
+
+
+def _backup(path: Path) -> Path:
+    """Return where the previous content of a file will be; any place where none can be kept."""
     from amp_studio.files import backup_path  # only a verb that writes needs it
 
-    return [Target(path, _mark(path), backup_path(path), _mark(backup_path(path))) for path in paths]
+    try:
+        return backup_path(path)
+    except OSError:
+        return path.with_name(path.name + ".bak")
 
 
 def _mark(path: Path) -> Mark:

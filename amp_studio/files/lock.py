@@ -1,4 +1,8 @@
-"""The lock by which two programs on one file notice each other; it ends with its program."""
+"""The lock by which two programs on one file notice each other; it ends with its program.
+
+It is the operating system's own call: a library would put another kind of lock, which outlives a killed program, in its
+place where a file system has none, and cannot lock by a file that another user has left.
+"""
 
 from __future__ import annotations
 
