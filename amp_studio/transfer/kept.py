@@ -15,6 +15,7 @@ from pathlib import Path
 
 from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
 from amp_studio.files.storage import FileFault, read_content
+from amp_studio.schema.regular_file import read_file
 
 from .image import MAGIC, ImageFault, decode_image, encode_image
 
@@ -131,13 +132,12 @@ def open_copy(path: Path) -> Copy:
 
 
 def _content(path: Path) -> bytes:
-    if path.exists() and not path.is_file():
-        raise CopyFault(f"{path} is no file")
-    with path.open("rb") as stream:
-        image = stream.read(LARGEST + 1)
-    if len(image) > LARGEST:
-        raise CopyFault(f"{path} is larger than any control image")
-    return image
+    try:
+        return read_file(path, LARGEST)
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        raise CopyFault(f"{path} cannot be read: {error.strerror}") from None
 
 
 def _check(path: Path, image: bytes) -> None:

@@ -12,7 +12,11 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+from amp_studio.schema.regular_file import read_file
+
 TEMPORARY = ".tmp"
+LARGEST = 1 << 26
+"""Bytes of a file, as of an image in an exchange."""
 
 
 class Memory:
@@ -31,7 +35,7 @@ class Memory:
     def read(self, name: str) -> bytes | None:
         """Return a file's content, or None when there is no such file."""
         try:
-            return (self.folder / name).read_bytes()
+            return read_file(self.folder / name, LARGEST)
         except FileNotFoundError:
             return None
 
