@@ -114,6 +114,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
     return {
         "rule": finding.rule, "severity": finding.severity,
         "params": [schema.short(a, machine) for a in finding.addresses],
+        "compared": [schema.short(a, machine) for a in finding.compared],
         "message": finding.message,
         "fix": [_setting_json(file, setting) for setting in finding.repairs],
         "effective": [_setting_json(file, setting) for setting in finding.effective],

@@ -6,7 +6,7 @@ it; every other room asks here and knows no parameter by heart.
 
 from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
 from .conditions import IN_FORCE, Reading, StateInfo, program
-from .constraint import Limits, clip, fault, limits
+from .constraint import Limits, bounding, clip, fault, limits
 from .load import DatabaseFault, database_folder, family_ids, read_entries
 from .model import (
     AxisProfile,
@@ -64,6 +64,7 @@ __all__ = [
     "Value",
     "ValueFault",
     "angular",
+    "bounding",
     "canonical",
     "canonical_unit",
     "canonical_value",

@@ -14,7 +14,7 @@ from .catalog import Address
 from .model import Bound, BoundRef, Parameter, Range
 from .situation import Situation
 from .units import angular, canonical_unit, convert, dimension, shown
-from .values import MASKED, Value, digits_of, field_value, write_number
+from .values import MASKED, Value, digits_of, field_value, show_value, write_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,10 +138,25 @@ def fault(situation: Situation, address: Address, value: Value) -> str | None:
     allowed = limits(situation, address, value.unit)
     if allowed is None:
         return None
-    if _below(found, allowed.low, allowed.low_from) or _below(allowed.high, found, allowed.high_from):
+    if _beyond(found, allowed):
         said = MASKED if parameter.secret else _shown(value)
         return f"{parameter.name} {said} is outside {_named(situation, allowed)}"
     return None
+
+
+def bounding(situation: Situation, address: Address, value: Value) -> tuple[Address, ...]:
+    """Return the parameter whose value is the bound that a number lies beyond; empty where no other one sets it."""
+    if isinstance(value.value, (str, bool)):
+        return ()
+    allowed = limits(situation, address, value.unit)
+    beyond = _beyond(value.value, allowed) if allowed else ()
+    return tuple(source for _, source in beyond if source is not None)
+
+
+def _beyond(found: float, allowed: Limits) -> tuple[tuple[float | None, Address | None], ...]:
+    """Return the bounds that a number lies beyond, each with the parameter that sets it."""
+    low, high = (allowed.low, allowed.low_from), (allowed.high, allowed.high_from)
+    return ((low,) if _below(found, *low) else ()) + ((high,) if _below(high[0], found, high[1]) else ())
 
 
 def _format_fault(situation: Situation, address: Address, form: str) -> str | None:
@@ -179,7 +194,9 @@ def _named(situation: Situation, allowed: Limits) -> str:
     text = allowed.text()
     for bound, source in ((allowed.low, allowed.low_from), (allowed.high, allowed.high_from)):
         if bound is not None and source is not None:
-            text += f" (set by {situation.schema.label(source, situation.machine)})"
+            label = situation.schema.label(source, situation.machine)
+            shown_value = show_value(situation.schema.parameters[source[0]], situation.value(source))
+            text += f" (set by {label}, {shown_value})"
     return text
 
 

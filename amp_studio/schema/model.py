@@ -451,7 +451,23 @@ class Rule(Model):
     fix: tuple[Fix, ...] = ()
     effective: tuple[Assignment, ...] = ()
     """What the control really uses while the rule is broken: it corrects, clamps or forces the value silently."""
+    blames: dict[str, str] = {}
+    """Names of what is wrong, worst first, each with the condition in CEL under which it is; a list of names for always.
+
+    Left out: what ``effective`` replaces, else the first of ``reads``. ``it`` is the value at hand, ``at`` its position in a list.
+    """
+    compares: dict[str, str] = {}
+    """The same for what it is compared with. All other single values it speaks of follow, unless ``blames`` names them."""
     page: Page
+
+    @field_validator("blames", "compares", mode="before")
+    @classmethod
+    def _each_name(cls, names: object) -> object:
+        if isinstance(names, (list, tuple)):
+            return dict.fromkeys(names, "true")
+        if isinstance(names, dict):
+            return {name: text for several, text in names.items() for name in str(several).split(", ")}
+        return names
 
     @field_validator("reads")
     @classmethod

@@ -58,6 +58,10 @@ class Situation:
 
     # -- values ----------------------------------------------------------------
 
+    def value(self, address: Address) -> Value | None:
+        """Return a value as it was entered; None when unset."""
+        return self._value(address)
+
     def canonical(self, address: Address) -> Canonical:
         """Return a value in canonical units: double, choice key, bool or text; None when unset."""
         found = self._canonical.get(address)

@@ -198,7 +198,7 @@ class FindingsPanel(QWidget):
         self.view.fit()
         findings = self.model.findings
         if findings:
-            same = [n for n, f in enumerate(findings) if self._selected and _key(f) == _key(self._selected)]
+            same = [n for n, f in enumerate(findings) if self._selected and f.key == self._selected.key]
             self.view.selectRow(same[0] if same else 0)
         self._update_buttons()
 
@@ -237,7 +237,3 @@ class FindingsPanel(QWidget):
         self.why_button.setEnabled(finding is not None)
         self.suppress_button.setEnabled(finding is not None and not finding.rule.startswith("rules."))
         self.repair_button.setEnabled(bool(finding and finding.repairs and self._workspace.may_edit))
-
-
-def _key(finding: Finding) -> tuple[object, ...]:
-    return finding.rule, finding.addresses

@@ -348,7 +348,7 @@ class ParameterTable(QAbstractTableModel):
     def _find_worst(self) -> None:
         worst: dict[Address, str] = {}
         for finding in self.workspace.findings:  # errors come first
-            for address in finding.addresses:
+            for address in finding.causes:
                 worst.setdefault(address, finding.severity)
         self._worst, self._effective = worst, self.workspace.effective()
 

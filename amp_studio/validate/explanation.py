@@ -10,9 +10,9 @@ from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.model import BoundRef
 from amp_studio.schema.units import canonical_unit
 
+from .expressions import EVALUATION_FAULTS
 from .finding import Finding
 from .plan import RuleCheck
-from .rules import EVALUATION_FAULTS
 from .validator import Validator
 
 _NAME = re.compile(r"'[^']*'|(?<![\w.])[a-z][a-z0-9_]*(?!\w*\()")

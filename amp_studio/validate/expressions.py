@@ -19,6 +19,12 @@ from amp_studio.schema.units import UNITS
 ALWAYS_THERE = ("machine", "application", "instance", "part")
 """Names that a rule need not read: machine type and model of the control, the instance it runs for, its part."""
 
+AT_HAND = ("it", "at")
+"""Names in the conditions of ``blames`` and ``compares``: the value at hand, and its position in a list."""
+
+EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
+"""What CEL raises for a value of a kind that an expression does not speak of."""
+
 _TYPES = {
     "int",
     "uint",
@@ -55,6 +61,10 @@ class Expressions:
     """Name of the value to set, and the value."""
     effective: tuple[tuple[str, Program], ...]
     """Name of the value, and what the control uses instead."""
+    blames: tuple[tuple[str, Program], ...]
+    """Name of what is at fault, and whether it is."""
+    compares: tuple[tuple[str, Program], ...]
+    """Name of what that is compared with, and whether it is."""
     functions: tuple[str, ...]
     """Functions offered to rules that these call."""
     always: tuple[str, ...]
@@ -67,23 +77,47 @@ def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
     """Compile a rule that may call ``functions``; raises RuleFault."""
     called: set[str] = set()
     always: set[str] = set()
+    spoken_of: set[str] = set()
+    asked_of: set[str] = set()
     for place, text in _texts(rule):
         compiled = _compiled(rule, place, text)
-        variables = set(compiled.references()["variables"]) - set(_OVER_A_LIST.findall(text)) - _TYPES
-        for name in sorted(variables - set(rule.reads) - set(ALWAYS_THERE)):
+        found = set(compiled.references()["variables"]) - set(_OVER_A_LIST.findall(text))
+        variables = found - _TYPES
+        known = {*rule.reads, *ALWAYS_THERE, *(AT_HAND if place.startswith(("blames", "compares")) else ())}
+        for name in sorted(variables - known):
             raise RuleFault(rule.id, f"{place} speaks of '{name}', which it does not read")
+        if place.startswith(("check", "value ")):
+            spoken_of |= found
+        if place == "when":
+            asked_of |= found
         named = functions_called(compiled)
         for name in sorted(named - set(functions)):
             raise RuleFault(rule.id, f"{place} calls '{name}', which is no function")
         called |= named & set(functions)
         always |= variables & set(ALWAYS_THERE)
-    _check_names(rule)
+    spoken_of |= _check_names(rule)
+    replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
+    blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
+    others = [
+        name
+        for name, text in rule.reads.items()
+        if name not in blames and name not in rule.compares and not _is_list(text)
+    ]
+    compares = {
+        **rule.compares,
+        **{name: "true" for name in others if name in spoken_of},
+        **{
+            name: "true" for name in others if name in asked_of
+        },  # what decides whether the rule applies: last
+    }
     return Expressions(
         # A line of its own for each bracket: an expression may end in a comment.
         _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)"),
         tuple((name, program(text)) for name, text in rule.values.items()),
         tuple((fix.set, program(fix.value)) for fix in rule.fix),
         tuple((used.set, program(used.value)) for used in rule.effective),
+        tuple(_at_hand(rule, blames)),
+        tuple(_at_hand(rule, compares)),
         tuple(sorted(called)),
         tuple(sorted(always)),
     )
@@ -98,6 +132,10 @@ def _texts(rule: Rule) -> Iterator[tuple[str, str]]:
         yield f"fix of {fix.set}", fix.value
     for used in rule.effective:
         yield f"effective {used.set}", used.value
+    for name, text in rule.blames.items():
+        yield f"blames of {name}", text
+    for name, text in rule.compares.items():
+        yield f"compares of {name}", text
 
 
 def _compiled(rule: Rule, place: str, text: str) -> Program:
@@ -107,10 +145,21 @@ def _compiled(rule: Rule, place: str, text: str) -> Program:
         raise RuleFault(rule.id, f"{place}: {str(error).splitlines()[0]}") from None
 
 
-def _check_names(rule: Rule) -> None:
-    """Check the names a rule uses outside its expressions; raises RuleFault."""
-    lists = {name for name, text in rule.reads.items() if text.partition("@")[2] in ("*", "<", ">", ".")}
-    for place, names in (("optional", rule.optional), ("any_state", rule.any_state)):
+def _at_hand(rule: Rule, conditions: dict[str, str]) -> Iterator[tuple[str, Program]]:
+    """Yield names and conditions; of a list that is named without one, the values that are there."""
+    for name, text in conditions.items():
+        yield name, program("it != null" if text == "true" and _is_list(rule.reads[name]) else text)
+
+
+def _is_list(read: str) -> bool:
+    return read.partition("@")[2] in ("*", "<", ">", ".")
+
+
+def _check_names(rule: Rule) -> set[str]:
+    """Check the names a rule uses outside its expressions; returns those its message shows, raises RuleFault."""
+    lists = {name for name, text in rule.reads.items() if _is_list(text)}
+    named = {f: getattr(rule, f) for f in ("optional", "any_state", "blames", "compares")}
+    for place, names in named.items():
         for name in names:
             if name not in rule.reads:
                 raise RuleFault(rule.id, f"{place} names '{name}', which it does not read")
@@ -135,3 +184,4 @@ def _check_names(rule: Rule) -> None:
             raise RuleFault(
                 rule.id, f"the message shows '{{{written}}}', which is neither read nor among its values"
             )
+    return {name for name, _, _ in fields}

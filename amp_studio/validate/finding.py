@@ -24,7 +24,8 @@ class Finding:
 
     rule: str
     severity: Severity
-    addresses: tuple[Address, ...]
+    causes: tuple[Address, ...]
+    """What is wrong, worst first."""
     message: str
     repairs: tuple[Setting, ...] = ()
     page: str | None = None
@@ -32,3 +33,17 @@ class Finding:
     """Its repair cannot change motion."""
     effective: tuple[Setting, ...] = ()
     """What the control really uses instead of the values in the file."""
+    compared: tuple[Address, ...] = ()
+    """What the causes were compared with: they need not be wrong themselves."""
+    instance: str | None = None
+    """The instance a rule was broken for; None where no rule was."""
+
+    @property
+    def addresses(self) -> tuple[Address, ...]:
+        """What is wrong first, then what it was compared with."""
+        return self.causes + self.compared
+
+    @property
+    def key(self) -> tuple[str, str | tuple[Address, ...]]:
+        """What stays the same while it is the same finding, of other values: which are wrong may change."""
+        return self.rule, self.causes if self.instance is None else self.instance

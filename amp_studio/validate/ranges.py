@@ -14,6 +14,7 @@ from amp_studio.schema import (
     Parameter,
     Schema,
     Value,
+    bounding,
     clip,
     dimension,
     fault,
@@ -135,7 +136,15 @@ class ValueChecks:
         repairs = (Setting(address, mended),) if mended is not None and allowed else ()
         forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
         kind = "schema.choice" if parameter.choices else "schema.range"
-        return Finding(kind, "error", (address,), said + "." + forced, repairs, parameter.page)
+        return Finding(
+            kind,
+            "error",
+            (address,),
+            said + "." + forced,
+            repairs,
+            parameter.page,
+            compared=bounding(self._file.situation, address, value),
+        )
 
 
 def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:

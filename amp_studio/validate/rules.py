@@ -26,12 +26,11 @@ from amp_studio.schema.cel_engine import Context, Program
 from amp_studio.schema.conditions import Canonical, same_values
 from amp_studio.schema.units import angular
 
+from .blame import about
+from .expressions import EVALUATION_FAULTS
 from .finding import Finding, Setting
 from .formulas import rule_functions
 from .plan import Listed, RuleCheck
-
-EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
-"""What CEL raises for a value of a kind that an expression does not speak of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,28 +174,32 @@ class RuleChecks:
             texts[single.name] = self._shown(single.address)
         for name, listed in check.lists:
             texts[name] = ", ".join(map(self._shown, listed.addresses))
-        own = tuple(single.address for single in check.singles)
+        own = [single.address for single in check.singles]
         turns = any(situation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
         is_secret = self._reads_secret(check)
         for name, expression in check.expressions.values:
-            unit = angular(rule.units.get(name, "")) if turns else rule.units.get(name, "")
+            unit = rule.units.get(name, "")
+            unit = angular(unit) if turns else unit
             # What is worked out of a secret can give it away.
             texts[name] = MASKED if is_secret else self._text(expression, given.context, unit, entered)
-        about = own or tuple(
-            a for _, listed in check.lists for a in listed.addresses if situation.state(a).state == "in-force"
+        causes, compared = (
+            tuple(a for a in addresses if situation.state(a).state != "hidden") or addresses
+            for addresses in about(check, given.context, present)
         )
         repairs = self._repairs(check, given)
         safe = bool(repairs) and all(fix.safe for fix in rule.fix)
         return Finding(
             rule.id,
             rule.severity,
-            about,
+            causes,
             rule.message.format_map(texts),
             repairs,
             rule.page,
             safe,
             tuple(self._set(check, given, check.expressions.effective)),
+            compared,
+            check.instance,
         )
 
     def _reads_secret(self, check: RuleCheck) -> bool:

@@ -15,7 +15,7 @@ from .ranges import ValueChecks
 from .rules import RuleChecks
 
 _Order = tuple[int, int, str, int]
-"""Severity, place of the first address in the manual, rule, and place among the checks."""
+"""Severity, place of the first cause in the manual, rule, and place among the checks."""
 
 
 class Validator:
@@ -136,7 +136,7 @@ class Validator:
 
     def _order(self, finding: Finding, place: int = -1) -> _Order:
         order, last = self._plan.order, len(self._plan.order)
-        first = min([order.get(address, last) for address in finding.addresses], default=-1)
+        first = min([order.get(address, last) for address in finding.causes], default=-1)
         return SEVERITIES.index(finding.severity), first, finding.rule, place
 
     def _general(self) -> list[tuple[_Order, Finding]]:

@@ -239,7 +239,7 @@ def test_a_bound_may_be_another_parameter_of_the_same_axis(facts, machine) -> No
     assert fault(here.situation, ("zone.max", "1"), Value(25.4, "mm")) is None
     assert fault(here.situation, ("zone.max", "1"), Value(1.0, "in")) is None
     said = fault(here.situation, ("zone.max", "1"), Value(0.9, "in"))
-    assert said == "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum)"
+    assert said == "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum, 25.4 mm)"
     assert fault(here.situation, ("zone.max", "2"), Value(49.0, "mm")) is not None
     assert fault(here.situation, ("zone.max", "3"), Value(-1e9, "mm")) is None, (
         "an unset bound bounds nothing"

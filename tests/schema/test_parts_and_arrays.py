@@ -88,7 +88,7 @@ def test_a_bound_is_that_of_the_same_gear(spindles, machine) -> None:
         spindles, {"spindle.max_speed@1.1": Value(900.0, "rpm"), "spindle.max_speed@2.1": Value(90.0, "rpm")}
     )
     assert None is fault(here.situation, ("spindle.min_speed", "1.1"), Value(900.0, "rpm"))
-    assert "(set by 930 Max. Spindle Speed)" in str(
+    assert "(set by 930 Max. Spindle Speed, 90 rpm)" in str(
         fault(here.situation, ("spindle.min_speed", "2.1"), Value(91.0, "rpm"))
     )
 

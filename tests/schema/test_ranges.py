@@ -84,7 +84,9 @@ def test_an_edge_that_another_parameter_sets_moves_with_it(here) -> None:
     here.set("zone.overtravel_negative@1", Value(1.0, "in"))
     said = fault(here.situation, ("zone.overtravel_positive", "1"), Value(25.3, "mm"))
     named = "1330 Negative Software Overtravel"
-    assert f"Positive Software Overtravel 25.3 mm is outside 25.4 to 2540000 mm (set by {named})" == said
+    assert (
+        f"Positive Software Overtravel 25.3 mm is outside 25.4 to 2540000 mm (set by {named}, 1 in)" == said
+    )
     assert allowed(here, "zone.overtravel_positive@1", Value(25.4, "mm"))
     here.set("zone.overtravel_negative@1", Value(-5.0, "mm"))
     assert allowed(here, "zone.overtravel_positive@1", Value(0.0, "mm"))

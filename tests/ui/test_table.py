@@ -131,6 +131,16 @@ def test_a_finding_colours_its_cells_and_tells_itself(table: ParameterTable, wor
     assert "Forced on a day" in index.data(Qt.ItemDataRole.ToolTipRole)
 
 
+def test_what_a_wrong_value_was_compared_with_is_not_coloured(table: ParameterTable) -> None:
+    """Maximum Cutting Feedrate must not be above Rapid Feedrate for Positioning, which is as it should be."""
+    cutting, rapid = ("feedrate.max_cutting", "1"), ("feedrate.rapid", "1")
+    before = table.index_of(rapid).data(Qt.ItemDataRole.BackgroundRole)
+    table.workspace.edit("force", {cutting: Value(1e5, "mm/min")}, force="on a day")
+    assert table.index_of(cutting).data(Qt.ItemDataRole.BackgroundRole) is not None
+    assert table.index_of(rapid).data(Qt.ItemDataRole.BackgroundRole) == before
+    assert any(rapid in finding.compared for finding in table.workspace.findings_of(cutting))
+
+
 def test_a_value_that_differs_from_the_default_is_bold(table: ParameterTable, workspace: Workspace) -> None:
     default = workspace.file.default(EXCESS)
     assert table.index_of(EXCESS).data(Qt.ItemDataRole.FontRole).bold()

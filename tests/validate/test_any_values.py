@@ -239,16 +239,14 @@ def test_a_repair_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
             said = [
                 f
                 for f in validator.update([address])
-                if f.rule.startswith("schema.") and f.addresses == (address,)
+                if f.rule.startswith("schema.") and f.causes == (address,)
             ]
             for repair in (repair for finding in said for repair in finding.repairs):
                 assert not same_value(repair.value, value)
                 file.set(repair.address, repair.value)
                 left = validator.update([address])
                 assert not [
-                    f
-                    for f in left
-                    if f.rule in ("schema.range", "schema.choice") and f.addresses == (address,)
+                    f for f in left if f.rule in ("schema.range", "schema.choice") and f.causes == (address,)
                 ]
         file.set(address, before)
         validator.update([address])

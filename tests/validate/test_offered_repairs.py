@@ -76,7 +76,7 @@ BROUGHT_TO_LIGHT = {
 
 def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, object]]:
     """Return which errors there are, and about what."""
-    return {(finding.rule, finding.addresses) for finding in findings if finding.severity == "error"}
+    return {finding.key for finding in findings if finding.severity == "error"}
 
 
 def broken_promises(case: Case) -> list[str]:
@@ -94,11 +94,11 @@ def broken_promises(case: Case) -> list[str]:
                     if fault(here.file.situation, repair.address, repair.value)
                 ]
                 after = here.findings
-                if any((f.rule, f.addresses) == (finding.rule, finding.addresses) for f in after):
+                if any(f.key == finding.key for f in after):
                     told.append(f"{who}: still there")
                 told += [
                     f"{who}: {rule}"
-                    for rule, _ in errors_of(after) - errors_of(before)
+                    for rule, *_ in errors_of(after) - errors_of(before)
                     if (finding.rule, rule) not in BROUGHT_TO_LIGHT
                 ]
     return told

@@ -13,9 +13,8 @@ from collections.abc import Callable, Iterator
 import pytest
 from rule_stands import FAMILIES, HERE, Case, all_cases, cases, machines, stand
 
-from amp_studio.schema import Address, Value, canonical_unit, load_schema, program
+from amp_studio.schema import Value, canonical_unit, load_schema, program
 from amp_studio.validate import Finding
-from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks
 
 RULES = {rule.id: rule for family in FAMILIES for rule in load_schema(family).rules}
@@ -52,7 +51,7 @@ def test_a_broken_rule_is_found(case: Case) -> None:
             assert len(found) == case.times
             for finding in found:
                 assert (finding.severity, finding.page) == (rule.severity, rule.page)
-                assert finding.addresses
+                assert finding.causes
                 assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
             assert case.is_said(found), [finding.message for finding in found]
 
@@ -66,9 +65,9 @@ def test_a_rule_that_just_holds_says_nothing(case: Case) -> None:
 # --------------------------------------------------------------------------------------------- repairs
 
 
-def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, tuple[Address, ...]]]:
+def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, object]]:
     """Return which errors there are, and about what."""
-    return {(finding.rule, finding.addresses) for finding in findings if finding.severity == "error"}
+    return {finding.key for finding in findings if finding.severity == "error"}
 
 
 @pytest.mark.parametrize("case", [case for case in BREAKING if RULES[case.rule].fix], ids=str)
@@ -81,7 +80,7 @@ def test_the_repairs_of_a_rule_mend_it_and_cause_no_error(case: Case) -> None:
         assert case.mends is None or case.offers(mendable), [finding.repairs for finding in mendable]
         with here.recorded():
             here.set({repair.address: repair.value for finding in mendable for repair in finding.repairs})
-            assert {f.addresses for f in mendable} & {f.addresses for f in here.of(case.rule)} == set()
+            assert {f.key for f in mendable} & {f.key for f in here.of(case.rule)} == set()
             assert errors_of(here.findings) - errors_of(broken) == set()
 
 
@@ -140,9 +139,7 @@ def test_a_comparison_turns_exactly_at_its_bound(rule_id: str) -> None:
     case = next(case for case in BREAKING if case.rule == rule_id)
     here = case.stand
     with here.changed(case.given), here.changed(case.breaks):
-        about = here.of(rule_id)[0].addresses
-        checks = checks_of(here.file.situation, (rule,))
-        check = next(check for check in checks if {single.address for single in check.singles} == set(about))
+        check = here.validator.check_of(here.of(rule_id)[0])
         address = check.address_of(left)
         bound = program(right).execute(RuleChecks(here.file, here.file.machine).context_of(check))
         for number in (bound, math.nextafter(bound, -math.inf), math.nextafter(bound, math.inf)):
@@ -151,7 +148,7 @@ def test_a_comparison_turns_exactly_at_its_bound(rule_id: str) -> None:
                 applies = program(rule.when).execute(
                     RuleChecks(here.file, here.file.machine).context_of(check)
                 )
-                said = any(finding.addresses == about for finding in here.of(rule_id))
+                said = any(here.validator.check_of(finding) is check for finding in here.of(rule_id))
             assert said is (applies and not OPERATORS[sign](number, bound)), (
                 f"{left} = {number!r} at {bound!r}"
             )

@@ -46,7 +46,7 @@ def test_a_value_out_of_range_is_an_error_with_its_range_page_and_repair(mill) -
     assert the(mill, "schema.range") == Finding(
         rule="schema.range",
         severity="error",
-        addresses=(("home.g28_speed", "1"),),
+        causes=(("home.g28_speed", "1"),),
         message="G28 Home Speed 10161 mm/min is outside 0 to 10160 mm/min.",
         repairs=(Setting(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
         page="5-16",
@@ -67,7 +67,7 @@ def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
     finding = the(mill, "schema.range")
     assert finding.message == (
         "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
-        "(set by 1203 Rapid Feedrate for Positioning)."
+        "(set by 1203 Rapid Feedrate for Positioning, 12000 mm/min)."
     )
     assert finding.repairs == (Setting(CUTTING, Value(12000.0, "mm/min")),)
 
@@ -76,7 +76,7 @@ def test_a_bound_that_moves_is_noticed(mill) -> None:
     validator = Validator(mill)
     validator.run()
     mill.set(RAPID, Value(5000.0, "mm/min"))
-    assert [f.addresses for f in validator.update([RAPID]) if f.rule == "schema.range"] == [(CUTTING,)]
+    assert [f.addresses for f in validator.update([RAPID]) if f.rule == "schema.range"] == [(CUTTING, RAPID)]
 
 
 def test_a_code_without_a_choice_is_an_error_repaired_by_the_default(mill) -> None:
@@ -84,7 +84,7 @@ def test_a_code_without_a_choice_is_an_error_repaired_by_the_default(mill) -> No
     assert the(mill, "schema.choice") == Finding(
         rule="schema.choice",
         severity="error",
-        addresses=(("servo.sercos_baud", ""),),
+        causes=(("servo.sercos_baud", ""),),
         message="999 is no code of Baud Rate for SERCOS.",
         repairs=(Setting(("servo.sercos_baud", ""), Value("mhz2")),),
         page="7-3",
@@ -332,8 +332,8 @@ def test_a_repair_that_would_not_help_is_not_offered(mill) -> None:
 def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:
     mill.set(("servo.loop_type", "5"), Value("digital"))
     finding = the(mill, "9pc.axis.more-than-one-1394")
-    assert finding.addresses == tuple(
-        (name, str(axis)) for name in ("servo.loop_type", "servo.position_loop_type") for axis in range(1, 8)
+    assert finding.causes == tuple(("servo.loop_type", str(axis)) for axis in range(1, 8)), (
+        "axis 8 is unfitted"
     )
 
 
@@ -383,7 +383,7 @@ def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
     findings = Validator(mill).run()
     order = {address: n for n, address in enumerate(mill.addresses())}
     keys = [
-        (SEVERITIES.index(f.severity), min((order[a] for a in f.addresses), default=-1), f.rule)
+        (SEVERITIES.index(f.severity), min((order[a] for a in f.causes), default=-1), f.rule)
         for f in findings
     ]
     assert keys == sorted(keys)
