@@ -135,3 +135,34 @@ def test_choices_and_texts_have_no_range_to_be_mended_into(here) -> None:
 )
 def test_a_range_is_told_as_printed(here, text: str, name: str, unit: str) -> None:
     assert text == limits(here.situation, (name, "1"), unit).text()
+
+
+@pytest.mark.parametrize(
+    ("value", "inside"),
+    [
+        (Value(6000.0000000054, "mm/min"), True),
+        (Value(6000.0000000066, "mm/min"), False),
+        (Value(6000.00001, "mm/min"), False),
+        (Value(6000.001, "mm/min"), False),
+        (Value(6000.0 / 25.4, "in/min"), True),
+        (Value(236.220473, "in/min"), False),
+    ],
+)
+def test_a_bound_of_another_parameter_forgives_a_change_of_unit_and_no_more(
+    ninepc, machine, value: Value, inside: bool
+) -> None:
+    """Maximum Cutting Feedrate is at most rapid (page 9-2): to the last digits of a double, 1e-12 of it."""
+    here = machine(ninepc, LINEAR | {"feedrate.rapid@1": Value(100.0, "mm/s")})
+    assert allowed(here, "feedrate.max_cutting@1", value) is inside
+
+
+@pytest.mark.parametrize(
+    ("value", "inside"), [(Value(5999.9999999946, "mm/min"), True), (Value(5999.9999999934, "mm/min"), False),
+                          (Value(5999.999, "mm/min"), False)]
+)  # fmt: skip
+def test_a_lower_bound_of_another_parameter_forgives_no_more_either(
+    ninepc, machine, value: Value, inside: bool
+) -> None:
+    """Jog speeds increase or stay the same (page 8-1)."""
+    here = machine(ninepc, LINEAR | {"jog.speed_lowest@1": Value(100.0, "mm/s")})
+    assert allowed(here, "jog.speed_second@1", value) is inside
