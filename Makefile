@@ -27,7 +27,7 @@ mutants: setup ## change every rule and what it tells in every way, one at a tim
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_told_mutants.py
 
 campaign: setup ## write anything whatever into machines of every family, thousands of times
-	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py
 
 check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check

@@ -14,7 +14,7 @@ from .explanation import Explanation, Seen, explain
 from .expressions import RuleFault
 from .finding import SEVERITIES, Finding, Setting
 from .formulas import formulas
-from .repairs import repair_all_safe
+from .repairs import Fixed, apply_fixes, repair_all_safe
 from .validator import Validator
 
 __all__ = [
@@ -26,11 +26,13 @@ __all__ = [
     "Calculator",
     "Explanation",
     "Finding",
+    "Fixed",
     "RuleFault",
     "Seen",
     "Setting",
     "Suppressed",
     "Validator",
+    "apply_fixes",
     "calculate",
     "calculators",
     "explain",

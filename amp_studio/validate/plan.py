@@ -109,8 +109,6 @@ def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     rule_readers: dict[Address, list[RuleCheck]] = {}
     for check in checks:
         read_by_check = {seen for address in check.addresses for seen in {address} | states[address]}
-        for fix in check.rule.fix:  # a repair is offered only while its bounds allow it
-            read_by_check |= bounds[check.address_of(fix.set)]
         for address in read_by_check:
             rule_readers.setdefault(address, []).append(check)
     return Plan(

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, field
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from functools import lru_cache
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     MASKED,
     Address,
+    Limits,
     Parameter,
     Schema,
     Value,
@@ -106,8 +108,26 @@ class ValueChecks:
         said = fault(self._file.situation, address, value)
         if said is None:
             return None
-        mended = self._file.default(address) if facts.keys else clip(self._file.situation, address, value)
+        mended = self._file.default(address) if facts.keys else self._nearest(address, value)
         return self._finding(address, value, said, mended)
+
+    def _nearest(self, address: Address, value: Value) -> Value | None:
+        """Return the nearest allowed value; None where a bound that another parameter sets may be what is wrong.
+
+        Of a positive and a negative limit that are reversed, neither belongs at the edge of the other: that leaves an
+        axis without travel. Nor does a bound that leaves a single value say which value is meant.
+        """
+        allowed = limits(self._file.situation, address, value.unit)
+        if allowed is not None and not isinstance(value.value, str):
+            low = allowed.low is not None and value.value < allowed.low
+            other = allowed.low_from if low else allowed.high_from
+            if other is not None and (
+                allowed.low == allowed.high or _bounds(self._file.schema.parameters[other[0]], address[0])
+            ):
+                return None
+        return _rounded_inwards(
+            self._facts[address[0]].parameter, clip(self._file.situation, address, value), allowed
+        )
 
     def _turns(self, address: Address) -> bool:
         return self._angular is not None and self._file.situation.holds(self._angular, address[1], "axis")
@@ -131,7 +151,7 @@ class ValueChecks:
 
     def _finding(self, address: Address, value: Value, said: str, mended: Value | None) -> Finding:
         parameter = self._facts[address[0]].parameter
-        allowed = mended is not None and mended != value and not fault(self._file.situation, address, mended)
+        allowed = mended is not None and mended != value
         allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
         repairs = (Setting(address, mended),) if mended is not None and allowed else ()
         forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
@@ -145,6 +165,26 @@ class ValueChecks:
             parameter.page,
             compared=bounding(self._file.situation, address, value),
         )
+
+
+def _rounded_inwards(parameter: Parameter, value: Value, allowed: Limits | None) -> Value:
+    """Return a bound with the decimals that the parameter takes; one that came from another unit may have more."""
+    decimals, number = parameter.decimals, value.value
+    if allowed is None or decimals is None or not isinstance(number, float) or not math.isfinite(number):
+        return value
+    if parameter.ranges and value.unit not in parameter.ranges:
+        return value
+    towards = ROUND_FLOOR if number == allowed.high else ROUND_CEILING
+    return Value(float(Decimal(repr(number)).quantize(Decimal(1).scaleb(-decimals), towards)), value.unit)
+
+
+def _bounds(parameter: Parameter, other: str) -> bool:
+    """Tell whether a parameter is itself bounded by another one."""
+    ranges = [
+        *(parameter.ranges or {}).values(),
+        *(r for v in parameter.range_variants for r in v.ranges.values()),
+    ]
+    return any(isinstance(bound, BoundRef) and bound.param == other for pair in ranges for bound in pair)
 
 
 def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:

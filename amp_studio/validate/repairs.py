@@ -1,35 +1,45 @@
-"""Repairs of many findings at once."""
+"""Fixes of many findings, one after the other."""
 
 from __future__ import annotations
 
-from contextlib import suppress
+from collections.abc import Callable
+from dataclasses import dataclass
 
-from amp_studio.files import RangeFault
+from amp_studio.files import Change
 from amp_studio.schema import Address
 
+from .finding import Finding
 from .validator import Validator
 
-_ROUNDS = 10
-"""A repair may leave another finding, whose repair may leave another; two that contradict each other end here."""
+_MOST = 100_000
+"""Fixes at once. Each leaves fewer or lesser findings, so they end by themselves long before."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fixed:
+    """A value that a fix replaced, and the rule whose fix it was."""
+
+    change: Change
+    rule: str
+
+
+def apply_fixes(validator: Validator, wanted: Callable[[Finding], bool]) -> list[Fixed]:
+    """Apply the fixes of the findings that are ``wanted``, until no such fix is offered; returns what was changed.
+
+    The most severe finding comes first, then the manual's order; each fix is offered in the light of those before it.
+    The findings are up to date before and after.
+    """
+    done: list[Fixed] = []
+    for _ in range(_MOST):
+        finding = next((f for f in validator.findings() if f.repairs and wanted(f)), None)
+        if finding is None:
+            break
+        changes = validator.file.set_many({repair.address: repair.value for repair in finding.repairs})
+        done += [Fixed(change, finding.rule) for change in changes]
+        validator.update([change.address for change in changes])
+    return done
 
 
 def repair_all_safe(validator: Validator) -> dict[Address, None]:
-    """Apply every repair that cannot change motion, until there is none; returns the addresses that were set.
-
-    The findings are up to date before and after. Of two findings that want one parameter to have different values,
-    the more severe one has it.
-    """
-    changed: dict[Address, None] = {}
-    file = validator.file
-    for _ in range(_ROUNDS):
-        done: dict[Address, None] = {}
-        for finding in validator.findings():  # errors come first
-            wanted = {repair.address: repair.value for repair in finding.repairs}
-            if finding.safe and done.keys().isdisjoint(wanted):
-                with suppress(RangeFault):  # its bound moved with another repair
-                    done |= dict.fromkeys(change.address for change in file.set_many(wanted))
-        if not done:
-            break
-        changed |= done
-        validator.update(done)
-    return changed
+    """Apply every fix that cannot change motion, until there is none; returns the addresses that were set."""
+    return dict.fromkeys(fixed.change.address for fixed in apply_fixes(validator, lambda f: f.safe))

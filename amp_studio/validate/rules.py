@@ -16,7 +16,6 @@ from amp_studio.schema import (
     canonical_unit,
     canonical_value,
     convert,
-    fault,
     part_of,
     show_value,
     shown,
@@ -71,11 +70,16 @@ class RuleChecks:
         if given is not None and all(map(is_, values, given[0])):
             broken = given[1]
         else:
-            broken = self._is_broken(check, values)
+            broken = self._broken_by(check, values)
             self._given[check.place] = (values, broken)
         return self._finding(check, values) if broken else None
 
-    def _is_broken(self, check: RuleCheck, values: list[Any]) -> bool:
+    def is_broken(self, check: RuleCheck) -> bool:
+        """Tell whether there is a ``finding``, without its words."""
+        values = self._values(check)
+        return values is not None and self._broken_by(check, values)
+
+    def _broken_by(self, check: RuleCheck, values: list[Any]) -> bool:
         """Tell whether a rule is broken by values; what it came to for equal ones before is remembered."""
         expressions = check.expressions
         key = same_values(values[: len(check.singles)])
@@ -227,10 +231,8 @@ class RuleChecks:
         return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
 
     def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
-        """Return what the rule would change; nothing if a part of it is not allowed, or if it would not help."""
+        """Return what the rule would change; nothing if it would not help. Whether it does harm is for a trial."""
         repairs = tuple(self._set(check, given, check.expressions.fixes))
-        if any(fault(self._file.situation, repair.address, repair.value) for repair in repairs):
-            return ()
         return repairs if repairs and self._mends(check, given, repairs) else ()
 
     def _set(

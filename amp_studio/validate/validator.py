@@ -9,10 +9,10 @@ from amp_studio.schema import Address, Rule
 from amp_studio.schema.cel_engine import Context
 
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
+from .checks import Checks
 from .finding import SEVERITIES, Finding
 from .plan import Plan, RuleCheck, make_plan
-from .ranges import ValueChecks
-from .rules import RuleChecks
+from .trial import Place, Trials
 
 _Order = tuple[int, int, str, int]
 """Severity, place of the first cause in the manual, rule, and place among the checks."""
@@ -36,26 +36,23 @@ class Validator:
         self._unset: set[Address] = set()
         self._unset_advice: list[tuple[_Order, Finding]] | None = None
         """What is said of them, until they change."""
-        self._ranges: dict[Address, tuple[_Order, Finding]] = {}
-        self._rules: dict[int, tuple[_Order, Finding]] = {}
+        self._filed: dict[Place, tuple[_Order, Finding]] = {}
         self._prepare()
 
     def _prepare(self) -> None:
-        machine = self.file.machine
-        self._plan: Plan = make_plan(self.file.schema, machine, self.own.rules)
-        self._value_checks = ValueChecks(self.file, machine)
-        self._rule_checks = RuleChecks(self.file, machine)
-        self._machine, self._application = machine, self.file.header.application
+        self._plan: Plan = make_plan(self.file.schema, self.file.machine, self.own.rules)
+        self._checks = Checks(self.file)
+        self._trials = Trials(self.file, self._plan, self.own)
 
     def run(self) -> tuple[Finding, ...]:
         """Check everything; returns the findings, errors first, in the manual's order."""
-        if (self.file.machine, self.file.header.application) != (self._machine, self._application):
+        if not self._checks.fit:
             self._prepare()
+        self._trials = Trials(self.file, self._plan, self.own)  # of a file in which anything may have changed
         self._light = self._present_light()
-        self._ranges.clear()
+        self._filed.clear()
         self._unset.clear()
         self._unset_advice = None
-        self._rules.clear()
         self._check(self._plan.addresses, self._plan.checks)
         return self.findings()
 
@@ -63,13 +60,15 @@ class Validator:
         """Check again what reads the changed addresses; returns all findings."""
         if self._light != self._present_light():
             return self.run()
+        edited = list(changed)
         addresses: set[Address] = set()
         checks: dict[int, RuleCheck] = {}
-        for address in changed:
+        for address in edited:
             addresses |= self._plan.range_readers.get(address, frozenset())
             for check in self._plan.rule_readers.get(address, ()):
                 checks[check.place] = check
         self._check(addresses, checks.values())
+        self._trials.changed(edited, (*addresses, *checks))
         return self.findings()
 
     def _present_light(self) -> tuple[str, str, str]:
@@ -78,9 +77,7 @@ class Validator:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return the present findings, errors first, in the manual's order."""
-        found = sorted(
-            (*self._ranges.values(), *self._rules.values(), *self._general()), key=lambda filed: filed[0]
-        )
+        found = sorted((*self._offered(), *self._general()), key=lambda filed: filed[0])
         stay, self.suppressed, unused = sort_out(
             tuple(finding for _, finding in found), self.own.suppressions, self.file.situation
         )
@@ -99,40 +96,47 @@ class Validator:
 
     def check_of(self, finding: Finding) -> RuleCheck | None:
         """Return the rule and the instance that a present finding is of; None for a range, a choice and the like."""
-        place = next((place for place, (_, filed) in self._rules.items() if filed == finding), None)
-        return None if place is None else self._plan.checks[place]
+        for place, (_, filed) in self._filed.items():
+            if isinstance(place, int) and self._trials.offered(place, filed, self._filed) == finding:
+                return self._plan.checks[place]
+        return None
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see."""
-        return self._rule_checks.context_of(check)
+        return self._checks.context_of(check)
 
     # -- filing ----------------------------------------------------------------
 
     def _check(self, addresses: Iterable[Address], checks: Iterable[RuleCheck]) -> None:
-        self._rule_checks.look_again()
+        self._checks.look_again()
         for address in addresses:
             finding = self._check_address(address)
             if finding is not None:
-                self._ranges[address] = (self._order(finding), finding)
+                self._filed[address] = (self._order(finding), finding)
             else:
-                self._ranges.pop(address, None)
+                self._filed.pop(address, None)
         for check in checks:
-            finding = self._rule_checks.finding(check)
+            finding = self._checks.of_rule(check)
             if finding is not None:
-                self._rules[check.place] = (self._order(finding, check.place), finding)
+                self._filed[check.place] = (self._order(finding, check.place), finding)
             else:
-                self._rules.pop(check.place, None)
+                self._filed.pop(check.place, None)
 
     def _check_address(self, address: Address) -> Finding | None:
-        state = self.file.situation.state(address).state
-        value = self.file.values.get(address)
-        asked = value is None and state == "in-force" and not self.file.schema.parameters[address[0]].optional
+        asked = (
+            address not in self.file.values
+            and not self.file.schema.parameters[address[0]].optional
+            and self.file.situation.state(address).state == "in-force"
+        )
         if asked != (address in self._unset):
             self._unset ^= {address}
             self._unset_advice = None
-        if value is None or (state in ("hidden", "ignored") and address not in self.file.forced):
-            return None
-        return self._value_checks.finding(address, value)
+        return self._checks.of_value(address)
+
+    def _offered(self) -> Iterator[tuple[_Order, Finding]]:
+        """Yield what is filed, each finding with its fix only where a trial of it came out well."""
+        for place, (order, finding) in self._filed.items():
+            yield order, self._trials.offered(place, finding, self._filed)
 
     def _order(self, finding: Finding, place: int = -1) -> _Order:
         order, last = self._plan.order, len(self._plan.order)
@@ -160,7 +164,7 @@ class Validator:
         unset = tuple(sorted(every, key=self._plan.order.__getitem__))
         if not unset:
             return
-        names = ", ".join(self.file.schema.label(address, self._machine) for address in unset[:4])
+        names = ", ".join(self.file.schema.label(address, self._checks.machine) for address in unset[:4])
         more = f" and {len(unset) - 4} more" if len(unset) > 4 else ""
         said = f"{len(unset)} parameters in force have no value here, so the control keeps its own: {names}{more}."
         yield Finding("schema.unset", "advice", unset, said)

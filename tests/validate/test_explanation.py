@@ -1,4 +1,4 @@
-"""Why a finding is there, and repairs of many findings at once."""
+"""Why a finding is there."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.report import why_text
 from amp_studio.schema import Rule, Value, load_schema
-from amp_studio.validate import BuilderRules, Explanation, Validator, explain, repair_all_safe
+from amp_studio.validate import BuilderRules, Explanation, Validator, explain
 
 RAPID = ("feedrate.rapid", "1")
 
@@ -91,28 +91,3 @@ def test_every_finding_of_a_machine_with_nothing_right_can_be_explained(family: 
     for finding in findings[:: max(1, len(findings) // 200)]:
         text = why_text(file, finding, explain(validator, finding))
         assert finding.rule in text
-
-
-def test_safe_repairs_are_made_together_until_nothing_is_left(mill) -> None:
-    """A repair may bring another finding to light."""
-    one = rule(id="own.one", check="rapid != 9000.0", fix=[{"set": "rapid", "value": "8000.0", "safe": True}])
-    two = rule(id="own.two", check="rapid != 8000.0", fix=[{"set": "rapid", "value": "7000.0", "safe": True}])
-    three = rule(id="own.three", check="rapid != 6000.0", fix=[{"set": "rapid", "value": "5000.0"}])
-    mill.set(RAPID, Value(9000.0, "mm/min"))
-    mill.set(("feedrate.rapid", "2"), Value(6000.0, "mm/min"))
-    validator = Validator(mill, BuilderRules((one, two, three)))
-    validator.run()
-    assert list(repair_all_safe(validator)) == [RAPID]
-    assert mill.get(RAPID) == Value(7000.0, "mm/min")
-    assert mill.get(("feedrate.rapid", "2")) == Value(6000.0, "mm/min"), "that would change motion"
-    assert validator.findings() == Validator(mill, validator.own).run()
-
-
-def test_repairs_that_contradict_each_other_end(mill) -> None:
-    one = rule(id="own.one", check="rapid != 9000.0", fix=[{"set": "rapid", "value": "8000.0", "safe": True}])
-    two = rule(id="own.two", check="rapid != 8000.0", fix=[{"set": "rapid", "value": "9000.0", "safe": True}])
-    mill.set(RAPID, Value(9000.0, "mm/min"))
-    validator = Validator(mill, BuilderRules((one, two)))
-    validator.run()
-    repair_all_safe(validator)
-    assert mill.get(RAPID) in (Value(8000.0, "mm/min"), Value(9000.0, "mm/min"))

@@ -86,10 +86,13 @@ def other_values(rule: Rule, part: str, name: str, text: str) -> Iterator[tuple[
             yield text.replace(f"'{named}'", f"'{instead}'"), f"{named} → {instead}"
 
 
-def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck]) -> bool:
-    """Tell whether a case gets something else than it says; the findings are those of the checks."""
+def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck], mends: bool) -> bool:
+    """Tell whether a case gets something else than it says; the findings are those of the checks.
+
+    ``mends`` is whether the rule as it is written has a fix there, which a trial may refuse.
+    """
     rule = checks[0].rule
-    if rule.fix and any(finding.repairs for finding in found) is bool(case.unmended):
+    if rule.fix and any(finding.repairs for finding in found) is not mends:
         return True
     if case.mends is not None and not case.offers(found):
         return True
@@ -116,6 +119,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
         broken = [
             check for check in checks_of(here.file.situation, (rule,)) if values.finding(check) is not None
         ]
+        mends = any(one.repairs for check in broken if (one := values.finding(check)) is not None)
         for mutant in mutants:
             try:
                 expressions = mutant.of(broken[0].expressions)
@@ -126,7 +130,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
                 for check in broken
                 if (one := values.finding(replace(check, expressions=expressions))) is not None
             ]
-            if not notices(case, found, broken):
+            if not notices(case, found, broken, mends):
                 left.append(mutant)
     return tuple(left)
 

@@ -157,7 +157,7 @@ def test_a_repair_that_would_be_wrong_too_is_not_offered(mill) -> None:
     positive, negative = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
     mill.set(negative, Value(2540001.0, "mm"))
     offered = {f.addresses[0]: [r.value for r in f.repairs] for f in found(mill, "schema.range")}
-    assert offered == {positive: [], negative: [Value(400.0, "mm")]}
+    assert offered == {positive: [], negative: []}
 
 
 def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
@@ -243,7 +243,8 @@ def test_a_finding_of_a_rule_has_its_values_page_and_repair(mill) -> None:
         "end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
     )
     assert (finding.page, finding.severity, finding.safe) == ("7-20", "error", False)
-    assert finding.repairs == (Setting(EXCESS, Value(13.2, "mm")),)
+    suppression_stays_off = Setting(("servo.feedrate_suppression", "1"), Value(13.2, "mm"))
+    assert finding.repairs == (Setting(EXCESS, Value(13.2, "mm")), suppression_stays_off)
 
 
 def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:

@@ -1,0 +1,53 @@
+"""What a file is checked for, check by check: each value by itself, and each rule for each instance."""
+
+from __future__ import annotations
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address
+from amp_studio.schema.cel_engine import Context
+
+from .finding import Finding
+from .plan import RuleCheck
+from .ranges import ValueChecks
+from .rules import RuleChecks
+
+
+class Checks:
+    """The checks of one file on one machine type."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+        self.machine, self.application = file.machine, file.header.application
+        self._values = ValueChecks(file, self.machine)
+        self._rules = RuleChecks(file, self.machine)
+
+    @property
+    def fit(self) -> bool:
+        """Whether the file still describes the machine type and the model that these checks were made for."""
+        return (self._file.machine, self._file.header.application) == (self.machine, self.application)
+
+    def look_again(self) -> None:
+        """Forget the values, which may have changed; called before the checks of a round."""
+        self._rules.look_again()
+
+    def of_value(self, address: Address) -> Finding | None:
+        """Return what is wrong with a value by itself; one without effect is looked at only if it was forced."""
+        value = self._file.values.get(address)
+        if value is None:
+            return None
+        state = self._file.situation.state(address).state
+        if state in ("hidden", "ignored") and address not in self._file.forced:
+            return None
+        return self._values.finding(address, value)
+
+    def of_rule(self, check: RuleCheck) -> Finding | None:
+        """Return what is wrong if a rule is broken."""
+        return self._rules.finding(check)
+
+    def is_broken(self, check: RuleCheck) -> bool:
+        """Tell whether a rule is broken, without the words."""
+        return self._rules.is_broken(check)
+
+    def context_of(self, check: RuleCheck) -> Context:
+        """Return what the expressions of a check see."""
+        return self._rules.context_of(check)

@@ -1,0 +1,154 @@
+"""A fix is tried against the whole file before it is offered.
+
+It is offered only if with it its finding is gone and whatever comes up instead is less severe: never an error, a
+warning only for an error, a recommendation for either. So each fix that is made leaves fewer findings or lesser ones, and
+whoever makes one after the other comes to an end. Values that nobody gave (``schema.unset``) do not count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from amp_studio.files import Change, ParameterFile, RangeFault
+from amp_studio.schema import Address
+
+from .builder_rules import BuilderRules, sort_out
+from .checks import Checks
+from .finding import SEVERITIES, Finding
+from .plan import Plan, RuleCheck, make_plan
+
+Place = Address | int
+"""Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Tried:
+    """What came of a trial, and the checks that would have to be another for it to come to something else."""
+
+    is_good: bool
+    asked: frozenset[Place] | None
+    """None where that is every check."""
+
+
+class Trials:
+    """Fixes of the findings of one file, tried on a copy of it.
+
+    A copy, because the file itself tells everyone who listens of its changes, and may just be saved by another thread.
+    """
+
+    def __init__(self, file: ParameterFile, plan: Plan, own: BuilderRules) -> None:
+        self._original, self._plan, self._own = file, plan, own
+        self._file: ParameterFile | None = None
+        """The copy; made for the first trial."""
+        self._checks: Checks
+        self._tried: dict[Place, _Tried] = {}
+
+    def changed(self, addresses: Iterable[Address], asked: Iterable[Place]) -> None:
+        """Take over values that changed, and forget the trials that the checks ``asked`` again have a part in."""
+        if self._file is not None:
+            for address in addresses:
+                self._file.set(address, self._original.values.get(address))
+                self._file.forced.pop(address, None)
+                if address in self._original.forced:
+                    self._file.forced[address] = self._original.forced[address]
+        if self._tried:
+            again = frozenset(asked)
+            for place, tried in tuple(self._tried.items()):
+                if place in again or tried.asked is None or not again.isdisjoint(tried.asked):
+                    del self._tried[place]
+
+    def offered(
+        self, place: Place, finding: Finding, filed: Mapping[Place, tuple[object, Finding]]
+    ) -> Finding:
+        """Return a finding of those that are ``filed`` with its fix, or without where that is not good."""
+        if not finding.repairs:
+            return finding
+        tried = self._tried.get(place)
+        if tried is None:
+            tried = self._tried[place] = self._try(place, finding, filed)
+        return finding if tried.is_good else replace(finding, repairs=(), safe=False)
+
+    def _try(self, place: Place, finding: Finding, filed: Mapping[Place, tuple[object, Finding]]) -> _Tried:
+        file = self._file
+        if file is None:
+            file = self._file = self._original.copy()
+            self._checks = Checks(file)
+        forced = dict(file.forced)
+        try:
+            changes = file.set_many({repair.address: repair.value for repair in finding.repairs})
+        except RangeFault:
+            return _Tried(False, self._asked([repair.address for repair in finding.repairs]))
+        try:
+            return self._judge(place, finding, filed, changes)
+        finally:
+            for change in reversed(changes):
+                file.apply(change.reversed())
+            file.forced.clear()
+            file.forced.update(forced)
+
+    def _judge(
+        self,
+        place: Place,
+        finding: Finding,
+        filed: Mapping[Place, tuple[object, Finding]],
+        changes: list[Change],
+    ) -> _Tried:
+        if not self._checks.fit:
+            return _Tried(self._is_good_on_another_machine(finding, filed), None)
+        asked = self._asked([*(c.address for c in changes), *(repair.address for repair in finding.repairs)])
+        self._checks.look_again()
+        if self._found(place):
+            return _Tried(False, asked)
+        found = ((other, self._finding(other)) for other in asked if self._found(other))
+        # A check that found something before, but now about more values, has found something new.
+        new = (
+            f for other, f in found
+            if other not in filed or not set(filed[other][1].causes).issuperset(f.causes)
+        )  # fmt: skip
+        return _Tried(self._are_lesser(new, finding), asked)
+
+    def _asked(self, addresses: Iterable[Address]) -> frozenset[Place]:
+        """Return the checks that can come to something else when these values change."""
+        asked: set[Place] = set()
+        for address in addresses:
+            asked |= self._plan.range_readers.get(address, frozenset())
+            asked.update(check.place for check in self._plan.rule_readers.get(address, ()))
+        return frozenset(asked)
+
+    def _found(self, place: Place) -> bool:
+        if isinstance(place, int):
+            return self._checks.is_broken(self._check(place))
+        return self._checks.of_value(place) is not None
+
+    def _finding(self, place: Place) -> Finding:
+        found = (
+            self._checks.of_rule(self._check(place))
+            if isinstance(place, int)
+            else self._checks.of_value(place)
+        )
+        assert found is not None
+        return found
+
+    def _check(self, place: int) -> RuleCheck:
+        return self._plan.checks[place]
+
+    def _are_lesser(self, new: Iterable[Finding], mended: Finding) -> bool:
+        """Tell whether new findings may be taken for the one that is mended; those the builder suppresses may."""
+        assert self._file is not None
+        limit, suppressions = SEVERITIES.index(mended.severity), self._own.suppressions
+        bad = (found for found in new if SEVERITIES.index(found.severity) <= limit)
+        return not any(sort_out((found,), suppressions, self._file.situation)[0] for found in bad)
+
+    def _is_good_on_another_machine(
+        self, mended: Finding, filed: Mapping[Place, tuple[object, Finding]]
+    ) -> bool:
+        """Judge a fix that makes another machine type of it, where other checks are asked."""
+        assert self._file is not None
+        checks = Checks(self._file)
+        plan = make_plan(self._file.schema, checks.machine, self._own.rules)
+        found = (*map(checks.of_value, plan.addresses), *map(checks.of_rule, plan.checks))
+        after = {finding.key: finding for finding in found if finding is not None}
+        before = {finding.key for _, finding in filed.values()}
+        new = [finding for key, finding in after.items() if key not in before]
+        return mended.key not in after and self._are_lesser(new, mended)

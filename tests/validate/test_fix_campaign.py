@@ -1,0 +1,23 @@
+"""Random machines of every family: each offered fix mends its finding, brings nothing as severe, and fixing comes to an end."""
+
+from __future__ import annotations
+
+import os
+
+from fix_campaign import campaign
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+LONG = os.environ.get("AMP_STUDIO_FULL") == "1"
+
+
+def test_every_fix_that_is_offered_in_a_random_machine_keeps_its_promises() -> None:
+    tried, broken = campaign(seed=0, count=4000 if LONG else 25)
+    assert broken == []
+    assert tried > (10000 if LONG else 80), "and there are fixes to try"
+
+
+@given(seed=st.integers(10**6, 10**9))
+@settings(max_examples=500 if LONG else 5, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+def test_so_does_every_other(seed: int) -> None:
+    assert campaign(seed, 1)[1] == []
