@@ -101,6 +101,18 @@ def parser() -> argparse.ArgumentParser:
         "--why", action="store_true", help="explain each finding: its rule, the values, the page"
     )
     json_option(sub)
+    sub = verb(
+        "fix",
+        "fix",
+        "make suggested fixes, all or none, and say what changed and what is left",
+        writes="path",
+    )
+    sub.add_argument("path", type=Path)
+    sub.add_argument("--rule", metavar="ID", help="only fixes of this rule")
+    sub.add_argument("--param", help="only fixes that set this parameter")
+    sub.add_argument("--safe", action="store_true", help="only fixes that cannot change motion")
+    sub.add_argument("--dry-run", action="store_true", help="change nothing, say what would change")
+    json_option(sub)
     sub = verb("diff", "files", "differences by parameter; A or B may be a control's address")
     sub.add_argument("a")
     sub.add_argument("b")

@@ -4,7 +4,6 @@ Loads ``parameter_db`` once into a compiled cache and answers questions about
 it; every other room asks here and knows no parameter by heart.
 """
 
-from .addressing import Meant, all_meant, axis_meant, meant, unknown
 from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
 from .conditions import IN_FORCE, Reading, StateInfo, program
 from .constraint import Limits, bounding, clip, fault, limits
@@ -52,7 +51,6 @@ __all__ = [
     "Erratum",
     "Group",
     "Limits",
-    "Meant",
     "Parameter",
     "Reading",
     "Rule",
@@ -65,9 +63,7 @@ __all__ = [
     "UnknownParameter",
     "Value",
     "ValueFault",
-    "all_meant",
     "angular",
-    "axis_meant",
     "bounding",
     "canonical",
     "canonical_unit",
@@ -85,7 +81,6 @@ __all__ = [
     "labelled",
     "limits",
     "load_schema",
-    "meant",
     "not_readable",
     "part_of",
     "program",
@@ -97,7 +92,6 @@ __all__ = [
     "show_value",
     "shown",
     "unit_named",
-    "unknown",
     "with_field",
     "write_number",
     "write_value",

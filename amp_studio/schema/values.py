@@ -127,8 +127,6 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
         hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
     ):
         return Value(int(hexadecimal[1], 16), unit)
-    if parameter.bits and not text.isdecimal() and (word := _labelled(parameter, text)) is not None:
-        return Value(word, unit)
     if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
         # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and 6.
         if not text.isdecimal():
@@ -155,16 +153,6 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
             raise ValueFault(f"{write_number(number)} is too large for {parameter.name}")
         return Value(int(number), unit)
     return Value(number, unit)
-
-
-def _labelled(parameter: Parameter, text: str) -> int | None:
-    """Return the word that the labels of its bits mean; None for what may be a number. Raises ValueFault."""
-    from .bit_labels import no_label, word_of_labels  # it changes fields with the functions below
-
-    word = word_of_labels(parameter, text)
-    if word is None and not re.match("[+-]?[0-9.,]|[0-9a-fA-F]+$", text):
-        raise ValueFault(no_label(parameter, text))
-    return word
 
 
 def _is_hex(parameter: Parameter) -> bool:
@@ -306,9 +294,6 @@ def with_field(field: Bit, word: int, text: str) -> int:
             number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
         except ValueError:
             number = lowest - 1
-        if field.choices and said not in switch and not lowest <= number <= highest:
-            offered = ", ".join(choice.label for choice in field.choices)
-            raise ValueFault(f"'{text.strip()}' is not a choice of {field.label}: {offered}")
         if not lowest <= number <= highest:
             raise ValueFault(f"'{text}' does not fit {field.label}, which takes {lowest} to {highest}")
         number &= mask

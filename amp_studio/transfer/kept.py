@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import os
 import re
 from dataclasses import dataclass
 from datetime import datetime
@@ -91,7 +90,7 @@ def save_image(image: bytes, path: Path) -> None:
 
 
 def _need_free(path: Path) -> None:
-    if os.path.lexists(path):  # a link that leads nowhere has the name too
+    if path.exists():
         raise FileExistsError(f"{path} exists already")
 
 

@@ -1,0 +1,160 @@
+"""The verb that makes suggested fixes: what it changes, what it leaves, and what it never brings."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+RULES = """
+rules:
+  - id: own.rapid
+    title: Rapid of our mills
+    severity: error
+    reads: {rapid: feedrate.rapid@1}
+    check: rapid <= 9000.0
+    message: Rapid is {rapid}.
+    fix: [{set: rapid, value: "9000.0"}]
+  - id: own.rapid-again
+    title: Rapid of our mills, in other words
+    severity: warning
+    reads: {rapid: feedrate.rapid@1}
+    check: rapid <= 9500.0
+    message: Rapid is {rapid}.
+    fix: [{set: rapid, value: "9400.0"}]
+"""
+
+
+@pytest.fixture
+def broken(checkout: Path, tmp_path: Path, amp) -> Path:
+    """Return a mill whose excess error is too small for its rapid, and whose suppression is switched off."""
+    path = tmp_path / "mill.amp"
+    path.write_bytes((checkout / "examples/mill-1394/MILL_1394.amp").read_bytes())
+    assert amp("set", path, "1203=10000 mm/min", "1750=8 mm", "1740=8 mm", "1730=2 mm").code == 0
+    return path
+
+
+def test_a_fix_is_made_saved_and_told_with_its_rule(broken: Path, amp) -> None:
+    before = broken.read_bytes()
+    said = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error")
+    assert (
+        "1750 Excess Error: 8 mm -> 11 mm (9pc.servo.excess-below-following-error)" in said.out.splitlines()
+    )
+    assert "1740 Feedrate Suppression Point: 8 mm -> 11 mm" in said.out, "what was off stays off"
+    assert b"servo.excess_error@1: 11 mm" in broken.read_bytes()
+    assert broken.with_name("mill.amp.bak").read_bytes() == before
+    how = {json.loads(line)[2] for line in broken.with_name("mill.amp.history").read_text().splitlines()[-2:]}
+    assert how == {"fix"}
+
+
+def test_the_json_has_the_changes_and_what_is_left(broken: Path, amp) -> None:
+    said = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error", "--json")
+    checked = amp("validate", broken, "--json").json
+    rule = "9pc.servo.excess-below-following-error"
+    assert said.json == {
+        "file": str(broken),
+        "changes": [
+            {"param": "1750", "id": "servo.excess_error", "instance": "1", "old": "8 mm", "new": "11 mm", "rule": rule},
+            {"param": "1740", "id": "servo.feedrate_suppression", "instance": "1", "old": "8 mm", "new": "11 mm",
+             "rule": rule},
+        ],
+        "left": {key: checked[key] for key in ("errors", "warnings", "advice")},
+        "dry_run": False,
+    }  # fmt: skip
+    assert said.code == int(checked["errors"] > 0)
+
+
+def test_a_dry_run_says_the_same_and_touches_nothing(broken: Path, amp, folder) -> None:
+    before = folder()
+    tried = amp("fix", broken, "--dry-run", "--json").json
+    assert folder() == before
+    assert tried.pop("dry_run") is True
+    done = amp("fix", broken, "--json").json
+    done.pop("dry_run")
+    assert tried == done
+    assert done["changes"]
+
+
+def test_afterwards_nothing_more_is_offered(broken: Path, amp, folder) -> None:
+    amp("fix", broken)
+    assert [f["fix"] for f in amp("validate", broken, "--json").json["findings"] if f["fix"]] == []
+    before = folder()
+    again = amp("fix", broken)
+    assert again.err == f"{broken}: nothing to fix\n"
+    assert folder() == before
+
+
+def test_no_error_comes_that_was_not_there(broken: Path, amp) -> None:
+    def errors() -> set[tuple[str, ...]]:
+        findings = amp("validate", broken, "--json").json["findings"]
+        return {(f["rule"], *f["params"]) for f in findings if f["severity"] == "error"}
+
+    before = errors()
+    amp("fix", broken)
+    assert errors() < before
+
+
+def test_the_more_severe_finding_comes_first_and_the_builders_rules_count(broken: Path, amp) -> None:
+    broken.with_name("rules.yaml").write_text(RULES)
+    said = amp("fix", broken, "--param", "1203", "--json").json
+    assert [(c["param"], c["new"], c["rule"]) for c in said["changes"]] == [
+        ("1203", "9000 mm/min", "own.rapid")
+    ]
+
+
+def test_a_fix_that_breaks_a_rule_of_the_builder_is_not_made(broken: Path, amp) -> None:
+    broken.with_name("rules.yaml").write_text(
+        "rules:\n  - {id: own.excess, title: Excess, severity: error, reads: {excess: servo.excess_error@1},"
+        " check: excess <= 10.0, message: Too much.}\n"
+    )
+    said = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error", "--json")
+    assert (said.code, said.json["changes"]) == (1, [])
+    assert b"servo.excess_error@1: 8 mm" in broken.read_bytes()
+
+
+def test_only_fixes_that_set_a_parameter(broken: Path, amp) -> None:
+    for named in ("1750", "servo.excess_error", "servo.excess_error@1"):
+        found = amp("fix", broken, "--param", named, "--dry-run", "--json").json["changes"]
+        assert {"1750", "1740"} == {change["param"] for change in found}
+    assert amp("fix", broken, "--param", "2750", "--dry-run", "--json").json["changes"] == []
+
+
+def test_only_safe_fixes_leave_the_motion_alone(broken: Path, amp) -> None:
+    amp("set", broken, "oci.connections=2", "--force")
+    said = amp("fix", broken, "--safe", "--json")
+    assert [(c["id"], c["new"]) for c in said.json["changes"]] == [("oci.connections", "1")]
+    assert said.code == 1, "errors are left"
+
+
+@pytest.mark.parametrize(
+    ("option", "text", "told"),
+    [
+        ("--rule", "9pc.servo.excess-margins", "Unknown rule '9pc.servo.excess-margins'. Nearest: 9pc.servo.excess-margin"),
+        ("--rule", "", "Unknown rule ''."),
+        ("--param", "servo.exces_error@1", "servo.excess_error"),
+        ("--param", "99999", "99999"),
+    ],
+)  # fmt: skip
+def test_an_unknown_name_is_refused_with_the_nearest(
+    broken: Path, amp, folder, option: str, text: str, told: str
+) -> None:
+    before = folder()
+    said = amp("fix", broken, option, text)
+    assert said.code == 2
+    assert told in said.err
+    assert folder() == before
+
+
+def test_a_sound_file_has_nothing_to_fix(mill: Path, amp, tmp_path: Path) -> None:
+    path = tmp_path / "module.amp"
+    amp("new", "57c422b", path)
+    before = path.read_bytes()
+    said = amp("fix", path, "--json")
+    assert said.json["changes"] == []
+    assert path.read_bytes() == before
+
+
+def test_a_missing_file_is_refused(tmp_path: Path, amp) -> None:
+    assert amp("fix", tmp_path / "none.amp").code == 2
+    assert amp("fix", tmp_path / "none.amp", "--dry-run").code == 2
