@@ -21,6 +21,7 @@ from amp_studio.validate import RULES_FILE, Finding, Validator, explain, read_bu
 from .console import note, print_json, progress
 from .errors import UsageFault
 from .output import check_replaced
+from .trouble import keep_details
 
 MANY = 50
 """From so many files on it pays to start more processes."""
@@ -34,11 +35,17 @@ AT_A_TIME = 8
 class Checked:
     """What there is to say of one file; passes from one process to another."""
 
+    path: Path
     errors: int = 0
     told: Any = None
     """Text, or the JSON document."""
     fault: str = ""
-    """Why the file cannot be read."""
+    """Why the file cannot be checked."""
+
+    @property
+    def json(self) -> Any:
+        """What stands in the list of several files: the document, or why there is none."""
+        return {"file": str(self.path), "error": self.fault} if self.fault else self.told
 
 
 def validate_verb(options: argparse.Namespace) -> int:
@@ -60,22 +67,25 @@ def validate_verb(options: argparse.Namespace) -> int:
             print(one.told)
         if show:
             show("checked", n, len(paths))
-    for said in unread:
-        checked.append(Checked(fault=said))
-        note(f"amp-studio: {said}")
+    for one in unread:
+        checked.append(one)
+        note(f"amp-studio: {one.fault}")
     good = [one for one in checked if not one.fault]
-    if options.json and good:
-        print_json(good[0].told if paths == options.paths[:1] else {"files": [one.told for one in good]})
+    if options.json and paths != options.paths[:1]:
+        print_json({"files": [one.json for one in checked]})
+    elif options.json and good:
+        print_json(good[0].told)
     return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
 
 
-def _files(paths: Sequence[Path]) -> tuple[list[Path], list[str]]:
+def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
     """Return files as they are named, those in folders in the order of their names, and which folders cannot be read."""
     found: list[Path] = []
-    unread: list[str] = []
+    unread: list[Checked] = []
 
     def skip(error: OSError) -> None:
-        unread.append(f"{error.filename}: cannot be read: {error.strerror}")
+        folder = Path(error.filename)
+        unread.append(Checked(folder, fault=f"{folder}: cannot be read: {error.strerror}"))
 
     for path in paths:
         if not path.is_dir():
@@ -96,10 +106,28 @@ def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | N
     if wanted == 1:
         yield from map(check, paths)
         return
-    from concurrent.futures import ProcessPoolExecutor  # a single file need not wait for it
+    from concurrent.futures.process import (  # a single file need not wait
+        BrokenProcessPool,
+        ProcessPoolExecutor,
+    )
 
-    with ProcessPoolExecutor(wanted, initializer=_start) as pool:
-        yield from pool.map(check, paths, chunksize=AT_A_TIME)
+    left = list(paths)
+    while left:
+        try:
+            with ProcessPoolExecutor(wanted, initializer=_start) as pool:
+                for one in pool.map(check, left, chunksize=AT_A_TIME):
+                    left.pop(0)
+                    yield one
+        except (
+            BrokenProcessPool
+        ):  # one of the next ones ended its process, for want of memory: each gets its own
+            for _ in range(min(AT_A_TIME, len(left))):
+                path = left.pop(0)
+                try:
+                    with ProcessPoolExecutor(1, initializer=_start) as pool:
+                        yield pool.submit(check, path).result()
+                except BrokenProcessPool:
+                    yield Checked(path, fault=f"{path}: its check was ended from outside")
 
 
 def _start() -> None:
@@ -108,11 +136,19 @@ def _start() -> None:
 
 
 def _check(options: argparse.Namespace, path: Path) -> Checked:
-    """Check one file."""
+    """Check one file; whatever is wrong with it ends no other's check."""
     try:
-        file = open_file(path).file
+        return _checked(options, path)
     except FileFault as fault:
-        return Checked(fault=str(fault))
+        return Checked(path, fault=str(fault))
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a panic of the rule engine is no Exception
+        return Checked(path, fault=f"{path}: {keep_details(error)}")
+
+
+def _checked(options: argparse.Namespace, path: Path) -> Checked:
+    file = open_file(path).file
     rules = options.rules
     own = read_builder_rules(rules, file.schema) if rules else rules_beside(path, file.schema)
     validator = Validator(file, own)
@@ -120,8 +156,8 @@ def _check(options: argparse.Namespace, path: Path) -> Checked:
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
     if not options.json:
         lines = _lines(validator, findings, counts, path, why=options.why)
-        return Checked(counts["error"], "\n".join(lines))
-    return Checked(counts["error"], {
+        return Checked(path, counts["error"], "\n".join(lines))
+    return Checked(path, counts["error"], {
         "file": str(path), "errors": counts["error"], "warnings": counts["warning"], "advice": counts["advice"],
         "findings": [_json(validator, f, options.why) for f in findings],
         "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}

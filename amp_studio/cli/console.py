@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from amp_studio.schema import Schema, family_ids, load_schema
+from amp_studio.schema import Schema, UnknownFamilyError, load_schema
 
 from .errors import UsageFault
 from .screen import tell, tell_over
@@ -33,8 +33,8 @@ def family(name: str) -> Schema:
     """Return a family's schema; raises UsageFault."""
     try:
         return load_schema(name)
-    except KeyError:
-        raise UsageFault(f"'{name}' is no control family: {', '.join(family_ids())}") from None
+    except UnknownFamilyError as error:
+        raise UsageFault(str(error)) from None
 
 
 def progress() -> Callable[[str, int, int], None]:

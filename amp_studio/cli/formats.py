@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from amp_studio.files import open_file, secret_values
-from amp_studio.schema import written
+from amp_studio.schema import UnknownFamilyError, written
 from amp_studio.transfer.formats import FamilyUntold, export_file, import_file
 from amp_studio.transfer.parameters import out_of_range
 
@@ -28,8 +28,8 @@ def import_verb(options: argparse.Namespace) -> int:
         )
     except FamilyUntold as error:
         raise UsageFault(f"{options.text}: {error} (--family tells it)") from None
-    except KeyError:
-        raise UsageFault(f"'{options.family}' is no control family") from None
+    except UnknownFamilyError as error:
+        raise UsageFault(str(error)) from None
     except ValueError as error:
         raise UsageFault(f"{options.text}: {error}") from None
     for address, said in out_of_range(file):

@@ -192,18 +192,18 @@ class Document:
             )
 
     def history(self, address: Address | None = None) -> list[HistoryEntry]:
-        """Return what was saved before, newest first; of one address, or of all."""
+        """Return what was saved before, newest first; of one address, or of all. A line that is none is left out."""
         try:
             content = read_file(self.history_path, follow=False, tail=True)
         except OSError:
             return []
         found = []
-        for line in content.decode("utf-8", "replace").splitlines():
-            with contextlib.suppress(ValueError, TypeError):
-                entry = HistoryEntry(*json.loads(line))
-                if address is None or entry.param == written(address):
-                    found.append(self._masked(entry))
-        return found[::-1]
+        for line in content.decode("utf-8", "replace").split("\n"):
+            with contextlib.suppress(ValueError, RecursionError):
+                entry = json.loads(line)
+                if isinstance(entry, list) and len(entry) == 6 and all(isinstance(e, str) for e in entry):
+                    found.append(self._masked(HistoryEntry(*entry)))
+        return [e for e in reversed(found) if address is None or e.param == written(address)]
 
     def _masked(self, entry: HistoryEntry) -> HistoryEntry:
         """Return an entry without its secret, which was written in clear before secrets were marked."""
@@ -256,29 +256,36 @@ class Document:
             self._journal_is_ours = False
 
     def find_unsaved(self) -> Unsaved | None:
-        """Return the work a killed program left for this file, or None; this document's own is not left yet."""
+        """Return the work a killed program left for this file, or None; this document's own is not left yet.
+
+        A journal that cannot be read leaves nothing to offer; a change in it that cannot be meant is left out.
+        """
         if self._journal_is_ours:
             return None
         try:
             left = json.loads(read_file(self.journal_path, follow=False))
-            changes = tuple(
-                filter(None, (self._left_change(str(entry), text) for entry, text in left["changes"]))
-            )
-            header = {key: str(text) for key, text in left.get("header", {}).items() if key in _TYPED}
-            return Unsaved(
-                str(left["when"]), str(left["who"]), changes, header, left["digest"] == self.digest
-            )
-        except (OSError, ValueError, TypeError, LookupError):
+            changes = [self._left_change(entry, text) for entry, text in left["changes"]]
+            header = {key: text for key, text in left.get("header", {}).items() if key in _TYPED}
+            when, who, digest = left["when"], left["who"], left["digest"]
+        except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
             return None
+        if not all(isinstance(text, str) for text in (when, who, *header.values())):
+            return None
+        return Unsaved(when, who, tuple(filter(None, changes)), header, digest == self.digest)
 
-    def _left_change(self, entry: str, text: str | None) -> Change | None:
+    def _left_change(self, entry: object, text: object) -> Change | None:
         """Return one change of a journal; None where this schema cannot read it."""
+        schema = self.file.schema
+        if not isinstance(entry, str) or not isinstance(text, (str, type(None))):
+            return None
         address = read_address(entry)
-        parameter = self.file.schema.parameters.get(address[0])
-        if parameter is None:
+        parameter = schema.parameters.get(address[0])
+        if parameter is None or not any(
+            address[1] in schema.instances(parameter, machine) for machine in schema.machines
+        ):
             return None
         try:
-            value = None if text is None else read_stored(self.file.schema, parameter, text)
+            value = None if text is None else read_stored(schema, parameter, text)
         except ValueFault:
             return None
         return Change(address, self.file.get(address), value)

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import contextlib
-import io
 import re
 import shutil
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema import UnknownFamilyError, family_ids, load_schema
+from amp_studio.schema.file_error import text_of
+from amp_studio.schema.quoting import quoted
 from amp_studio.schema.regular_file import read_file
+from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
 
-from .atomic import digest_of, write_atomic
+from .atomic import SaveFault, digest_of, write_atomic
 from .document import recover_backup
 from .lock import EditLock
 from .paths import backup_path, hidden_path, history_path, is_link, is_there
 from .storage import FileFault, file_content, read_content
+from .yaml_text import amended, new_text
 
 PROJECT_FORMAT = 1
+_VERSION = "amp_studio_project"
+_MOST_BYTES = 2**20
 ENDING = ".amp"
 
 
@@ -45,6 +50,9 @@ class ProjectInfo:
     extra: dict[str, Any] = field(default_factory=dict, compare=False)
 
 
+_TEXTS = tuple(f.name for f in fields(ProjectInfo) if f.name != "extra")
+
+
 class Project:
     """One project on disk. Every operation on its files is here, with one clear sentence when it cannot be done."""
 
@@ -55,7 +63,7 @@ class Project:
 
     @classmethod
     def create(cls, folder: Path, info: ProjectInfo) -> Project:
-        """Make a new project folder; raises NameFault when there is a project already, KeyError for the family."""
+        """Make a new project folder; raises NameFault when there is a project already or the family is unknown, SaveFault."""
         _check(info)
         if is_there(folder / "project.yaml"):
             raise NameFault(f"{folder} is a project already")
@@ -67,33 +75,12 @@ class Project:
     @classmethod
     def open(cls, folder: Path) -> Project:
         """Read a project; raises FileFault."""
-        from ruamel.yaml import YAML
-        from ruamel.yaml.error import YAMLError
-
         path = folder / "project.yaml"
         try:
-            data = YAML(typ="safe").load(read_file(path).decode("utf-8"))
-        except (OSError, UnicodeDecodeError) as error:
-            raise FileFault(
-                path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}"
-            ) from None
-        except (YAMLError, ValueError, RecursionError) as error:
-            mark = getattr(error, "problem_mark", None)
-            raise FileFault(path, mark.line + 1 if mark else None, "is not readable YAML") from None
-        version = data.get("amp_studio_project") if isinstance(data, dict) else None
-        if not isinstance(version, int) or isinstance(version, bool):
-            raise FileFault(path, None, "is not an AMP Studio project")
-        if version > PROJECT_FORMAT:
-            raise FileFault(path, None, f"was written by a newer AMP Studio (project format {version})")
-        known = {f.name for f in fields(ProjectInfo)} - {"extra"}
-        said = {k: str(v) for k, v in data.items() if k in known and v is not None}
-        extra = {k: v for k, v in data.items() if k not in known and k != "amp_studio_project"}
-        try:
-            info = ProjectInfo(**{"name": "", "family": "", **said}, extra=extra)
-            _check(info)
-        except NameFault as error:
-            raise FileFault(path, None, str(error)) from None
-        return cls(folder, info)
+            content = read_file(path, _MOST_BYTES)
+        except OSError as error:
+            raise FileFault(path, None, f"cannot be read: {error.strerror or error}") from None
+        return cls(folder, _read(path, content))
 
     def change(self, **changes: str) -> None:
         """Change the project information and save it; raises NameFault."""
@@ -104,26 +91,19 @@ class Project:
 
     def save(self) -> None:
         """Write ``project.yaml``; comments in it survive."""
-        from ruamel.yaml import YAML
-
-        yaml = YAML(typ="rt")
-        yaml.width = 4096
+        path = self.folder / "project.yaml"
 
         def made(previous: bytes | None) -> bytes:
-            tree: Any = yaml.load(previous.decode("utf-8")) if previous else {}
-            self._fill(tree)
-            stream = io.StringIO()
-            yaml.dump(tree, stream)
-            return stream.getvalue().encode("utf-8")
+            try:
+                content = _content(self.info, previous).encode("utf-8")
+                is_same = _read(path, content) == self.info
+            except (UnicodeError, YamlError, FileFault) as error:
+                raise SaveFault(f"{path} was not written: {error}") from None
+            if not is_same:
+                raise SaveFault(f"{path} was not written: it would be read back otherwise")
+            return content
 
-        write_atomic(self.folder / "project.yaml", made)
-
-    def _fill(self, tree: Any) -> None:
-        tree["amp_studio_project"] = PROJECT_FORMAT
-        for item in fields(ProjectInfo):
-            value = getattr(self.info, item.name)
-            if item.name != "extra" and (value or item.name in tree):
-                tree[item.name] = value
+        write_atomic(path, made)
 
     # -- its files -------------------------------------------------------------
 
@@ -141,7 +121,7 @@ class Project:
         name = name.removesuffix(ENDING)
         if not re.fullmatch(r"[^\W_][\w .-]{0,63}", name) or name.endswith((".", " ")):
             raise NameFault(
-                f"'{name}' is no file name: letters, digits, '_', '-', '.' and spaces, at most 64"
+                f"{quoted(name)} is no file name: letters, digits, '_', '-', '.' and spaces, at most 64"
             )
         if name.split(".")[0].rstrip().upper() in _RESERVED:
             raise NameFault(f"'{name}' is a name that Windows keeps for itself")
@@ -190,17 +170,62 @@ class Project:
         return target
 
 
+def _read(path: Path, content: bytes) -> ProjectInfo:
+    """Return what the content of a project file says; raises FileFault."""
+    try:
+        text = text_of(path, content, FileFault)
+        document = read_yaml(text, text_scalar, spans=True)
+        typed = read_yaml(text, spelled_scalar).data
+    except YamlError as error:
+        raise FileFault(path, error.line, error.what) from None
+    data = document.data
+    version = data.get(_VERSION) if isinstance(data, dict) else None
+    if not isinstance(version, str) or not re.fullmatch("[0-9]{1,9}", version):
+        raise FileFault(path, None, "is not an AMP Studio project")
+    if int(version) > PROJECT_FORMAT:
+        raise FileFault(path, None, f"was written by a newer AMP Studio (project format {version})")
+    said = {key: data[key] for key in _TEXTS if data.get(key) is not None}
+    for key, value in said.items():
+        if not isinstance(value, str):
+            raise FileFault(path, document.line((key,)), f"{key} is no text")
+    extra = {k: v for k, v in typed.items() if k not in _TEXTS and k != _VERSION}
+    info = ProjectInfo(**{"name": "", "family": "", **said}, extra=extra)
+    try:
+        _check(info)
+    except NameFault as error:
+        line = document.line(("family",)) if info.name.strip() and info.family else None
+        raise FileFault(path, line, str(error)) from None
+    return info
+
+
+def _content(info: ProjectInfo, previous: bytes | None) -> str:
+    """Return the text of a project file; what did not change, and what it says besides, stays as it is."""
+    wanted: dict[str, Any] = {_VERSION: PROJECT_FORMAT, **{key: getattr(info, key) for key in _TEXTS}}
+    if previous is not None:
+        document = read_yaml(previous.decode("utf-8"), text_scalar, spans=True)
+        known = document.data if isinstance(document.data, dict) else {}
+        own = {k: known[k] for k in known if k not in wanted}
+        kept = {k: known[k] if k in known and not v and not known[k] else v for k, v in wanted.items()}
+        told = {k: v for k, v in kept.items() if v or k in known} | {_VERSION: str(PROJECT_FORMAT)}
+        text = amended(document, known, told | own) if known else None
+        if text is not None:
+            return text
+    return new_text({k: v for k, v in wanted.items() if v} | info.extra)
+
+
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for n in "123456789¹²³")}
 
 
 def _check(info: ProjectInfo) -> None:
     if not info.name.strip():
         raise NameFault("a project needs a name")
+    if not info.family:
+        raise NameFault("a project needs a control family")
     if info.family not in family_ids():
-        raise NameFault(f"'{info.family}' is no control family: {', '.join(family_ids())}")
+        raise NameFault(str(UnknownFamilyError(info.family)))
     machines = [m.key for m in load_schema(info.family).family.machines]
     if info.machine and info.machine not in machines:
-        raise NameFault(f"'{info.machine}' is no machine type: {', '.join(machines)}")
+        raise NameFault(f"{quoted(info.machine)} is no machine type: {', '.join(machines)}")
 
 
 def _has_backup(path: Path) -> bool:

@@ -7,7 +7,8 @@ it; every other room asks here and knows no parameter by heart.
 from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
 from .conditions import IN_FORCE, Reading, StateInfo, program
 from .constraint import Limits, bounding, clip, fault, limits
-from .load import DatabaseFault, database_folder, family_ids, read_entries
+from .file_error import FileError
+from .load import DatabaseFault, UnknownFamilyError, database_folder, family_ids, read_entries
 from .model import (
     AxisProfile,
     BuilderRule,
@@ -49,6 +50,7 @@ __all__ = [
     "Condition",
     "DatabaseFault",
     "Erratum",
+    "FileError",
     "Group",
     "Limits",
     "Parameter",
@@ -60,6 +62,7 @@ __all__ = [
     "Suppression",
     "Table",
     "UnitError",
+    "UnknownFamilyError",
     "UnknownParameter",
     "Value",
     "ValueFault",

@@ -1,37 +1,47 @@
 """Reads ``parameter_db`` into one compiled family, and keeps it compiled.
 
 YAML is parsed only when a file of the family has changed: the compiled form
-is JSON in the user's cache folder, keyed by the content of every file and of
+is kept in the user's cache folder, keyed by the content of every file and of
 the models. A fault in a fact is told with file and line.
 """
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
-import os
-import tempfile
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
 import platformdirs
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from .compiled_cache import read_cached, report_unusable, write_cached
 from .consistency import Place, faults_between
+from .file_error import FileError, read_yaml_file
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
+from .quoting import quoted, short
+from .yaml_reader import Document
 
 T = TypeVar("T", bound=Model)
+_MOST_RULES = 2**20
+"""Bytes of a file of rules; the largest of our own has 37,000."""
+_LONGEST_MESSAGE = 500
 
 
-class DatabaseFault(Exception):
+class DatabaseFault(FileError):
     """A fact file that cannot be used: file, line and what is wrong with it."""
 
-    def __init__(self, path: Path, line: int | None, what: str) -> None:
-        self.path, self.line, self.what = path, line, what
-        super().__init__(f"{path}{f', line {line}' if line else ''}: {what}")
+
+class UnknownFamilyError(KeyError):
+    """A family that there is not; the text is one clear sentence."""
+
+    def __init__(self, said: str) -> None:
+        super().__init__(f"Unknown family {quoted(said)}. Known: {', '.join(family_ids())}")
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class Compiled(Model):
@@ -59,19 +69,26 @@ def family_ids() -> tuple[str, ...]:
 
 @cache
 def load_compiled(family_id: str) -> Compiled:
-    """Return the compiled facts of a family; raises KeyError for an unknown one, DatabaseFault for a bad fact."""
+    """Return the compiled facts of a family; raises UnknownFamilyError, DatabaseFault for a bad fact.
+
+    Only the id of a family that is there becomes a part of a path: what a file, an image or a person calls a family
+    may be anything.
+    """
+    if family_id not in family_ids():
+        raise UnknownFamilyError(family_id)
     folder = database_folder() / family_id
-    if not (folder / "family.yaml").is_file():
-        raise KeyError(family_id)
-    files = sorted(p for p in folder.rglob("*.yaml"))
-    key = _content_key(files)
-    cached = Path(platformdirs.user_cache_dir("amp-studio")) / f"{family_id}-{key}.json"
-    try:
-        return Compiled.model_validate_json(cached.read_bytes())
-    except (OSError, ValidationError):
-        pass
+    cached = (
+        Path(platformdirs.user_cache_dir("amp-studio"))
+        / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"
+    )
+    kept = read_cached(cached)
+    if kept is not None:
+        try:
+            return Compiled.model_validate_json(kept)
+        except ValidationError:
+            report_unusable(cached, "it holds no facts")
     compiled = compile_family(folder)
-    _keep(cached, compiled)
+    write_cached(cached, compiled.model_dump_json(exclude_defaults=True).encode(), family_id)
     return compiled
 
 
@@ -89,7 +106,7 @@ def compile_family(folder: Path) -> Compiled:
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
-        raise DatabaseFault(path, _line_of(path, fault.place), fault.what)
+        raise DatabaseFault(path, _parsed(path).line(fault.place), fault.what)
     return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables, guides=guides)
 
 
@@ -107,108 +124,78 @@ def read_entries(
     ``models`` says which lists there may be, and of what.
     """
     try:
-        data = _parsed(path)
+        document = read_yaml_file(path, DatabaseFault, most=_MOST_RULES)
     except DatabaseFault as fault:
         return [], [fault]
+    data = document.data
     if not isinstance(data, dict):
         return [], [] if data is None else [DatabaseFault(path, 1, f"holds no {' and no '.join(models)}")]
     entries: list[tuple[Model, int | None]] = []
     faults: list[DatabaseFault] = []
     for key, listed in data.items():
         if key not in models or not isinstance(listed, list):
-            said = f"{key}: is no list" if key in models else f"{key}: here stand {', '.join(models)}"
-            faults.append(DatabaseFault(path, _line_of(path, (str(key),)), said))
+            name = short(str(key))
+            said = f"{name}: is no list" if key in models else f"{name}: here stand {', '.join(models)}"
+            faults.append(DatabaseFault(path, document.line((key,)), said))
             continue
         for n, entry in enumerate(listed):
             try:
-                entries.append((_valid(path, entry, models[key], (key, n)), _line_of(path, (key, n))))
+                entries.append(
+                    (_valid(path, document, entry, models[key], (key, n)), document.line((key, n)))
+                )
             except DatabaseFault as fault:
                 faults.append(fault)
     return entries, faults
 
 
 def _read(path: Path, model: type[T]) -> T:
-    return _valid(path, _parsed(path), model)
+    document = _parsed(path)
+    return _valid(path, document, document.data, model)
 
 
-def _parsed(path: Path) -> Any:
-    """Return what a YAML file holds; raises DatabaseFault."""
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import MarkedYAMLError, YAMLError
-
-    try:
-        return YAML(typ="safe").load(path.read_text(encoding="utf-8"))
-    except MarkedYAMLError as error:
-        mark = error.problem_mark
-        raise DatabaseFault(path, mark.line + 1 if mark else None, str(error.problem)) from None
-    except (YAMLError, UnicodeDecodeError, OSError) as error:
-        raise DatabaseFault(path, None, str(error).splitlines()[0]) from None
+def _parsed(path: Path) -> Document:
+    """Return the document of a fact file; raises DatabaseFault."""
+    return read_yaml_file(path, DatabaseFault, references=True)
 
 
-def _valid(path: Path, data: Any, model: type[T], place: Place = ()) -> T:
+def _valid(path: Path, document: Document, data: Any, model: type[T], place: Place = ()) -> T:
     """Return data of a file as a model; raises DatabaseFault. ``place`` is where the data stand in the file."""
     try:
-        return TypeAdapter(model).validate_python(data)
+        return model.model_validate(data)
     except ValidationError as error:
         first = error.errors()[0]
-        line = _line_of(path, (*place, *first["loc"]))
-        raise DatabaseFault(path, line, f"{_place(data, first)}{first['msg']}") from None
+        line = document.line((*place, *first["loc"]))
+        raise DatabaseFault(path, line, f"{_place(data, first)}{_told(first)}") from None
+    except RecursionError:
+        raise DatabaseFault(path, document.line(place), "is too deep") from None
 
 
-def _line_of(path: Path, place: Place) -> int | None:
-    """Return the line of a place in a file by walking the YAML once more with its line marks."""
-    from ruamel.yaml import YAML
-
-    node = YAML(typ="rt").load(path.read_text(encoding="utf-8"))
-    line: int | None = 1
-    for step in place:
-        try:
-            marks = node.lc
-            line = (marks.key(step) if isinstance(step, str) else marks.item(step))[0] + 1
-            node = node[step]
-        except (AttributeError, KeyError, TypeError, IndexError):
-            break
-    return line
+def _told(fault: ErrorDetails) -> str:
+    """Return what is wrong, in one line; a value that it repeats may be of any length."""
+    return " ".join(fault["msg"].split())[:_LONGEST_MESSAGE]
 
 
 def _place(data: object, fault: ErrorDetails) -> str:
     """Name the parameter or rule a fault lies in, and the key."""
-    where, node = [str(data["id"])] if isinstance(data, dict) and "id" in data else [], data
+    where, node = [short(str(data["id"]))] if isinstance(data, dict) and "id" in data else [], data
     for step in fault["loc"]:
         try:
             node = node[step]  # type: ignore[index]  # walks plain YAML of unknown shape
         except (KeyError, TypeError, IndexError):
-            where.append(str(step))
+            where.append(short(str(step)))
             break
         if isinstance(node, dict) and "id" in node:
-            where = [str(node["id"])]
+            where = [short(str(node["id"]))]
         elif isinstance(step, str):
-            where.append(step)
+            where.append(short(step))
     return ": ".join(where) + ": " if where else ""
 
 
 def _content_key(files: list[Path]) -> str:
     digest = hashlib.sha256()
-    for path in [Path(__file__).with_name("model.py"), *files]:
+    own = (Path(__file__).with_name(name) for name in ("model.py", "compiled_cache.py"))
+    for path in [*own, *files]:
         content = path.read_bytes()
         digest.update(f"{path.name}:{len(content)}:".encode())
         digest.update(content)
     return digest.hexdigest()[:24]
-
-
-def _keep(cached: Path, compiled: Compiled) -> None:
-    """Write the cache file; a cache that cannot be written costs time only."""
-    name = ""
-    try:
-        cached.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=cached.parent, suffix=".tmp")
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(compiled.model_dump_json(exclude_defaults=True))
-        os.replace(name, cached)
-        for old in cached.parent.glob(f"{cached.name.rsplit('-', 1)[0]}-*.json"):
-            if old != cached:
-                old.unlink(missing_ok=True)
-    except OSError:
-        if name:
-            with contextlib.suppress(OSError):
-                os.unlink(name)

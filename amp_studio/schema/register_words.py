@@ -13,13 +13,14 @@ from decimal import Decimal
 from fractions import Fraction
 
 from .model import Parameter, Storage
+from .quoting import quoted
 from .units import UNITS, dimension, shown
 from .values import Value, label_of, write_number
 
 WORD = 16
 _PLAIN = Storage()
-_DECIMAL = re.compile(r"[+-]?[0-9]+\.?0*")
-_HEXADECIMAL = re.compile(r"([0-9][0-9A-F]*)H", re.IGNORECASE)
+_DECIMAL = re.compile(r"[+-]?[0-9]{1,20}(?:\.0{0,20})?")
+_HEXADECIMAL = re.compile(r"([0-9][0-9A-F]{0,19})H", re.IGNORECASE)
 
 
 class WordFault(ValueError):
@@ -159,4 +160,4 @@ def read_word(text: str) -> tuple[int, bool]:
         return int(found[1], 16), True
     if _DECIMAL.fullmatch(text):
         return int(text.partition(".")[0]), False
-    raise WordFault(f"'{text}' is no whole number, as 1984, -1 or 01414H")
+    raise WordFault(f"{quoted(text)} is no whole number, as 1984, -1 or 01414H")

@@ -11,6 +11,8 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
 
+from .quoting import quoted
+
 # unit -> (dimension, factor to the canonical unit of the dimension)
 UNITS: dict[str, tuple[str, Fraction]] = {
     "": ("", Fraction(1)),
@@ -113,7 +115,7 @@ def unit_named(text: str) -> str:
     if unit is None:
         unit = word.lower() if word.lower() in UNITS else None
     if unit is None:
-        raise UnitError(f"'{text.strip()}' is not a unit")
+        raise UnitError(f"{quoted(text.strip())} is not a unit")
     return unit
 
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
 
 from .model import Bit, Parameter
-from .units import UnitError, dimension, shown, unit_named
+from .quoting import quoted, short
+from .units import UNITS, UnitError, dimension, shown, unit_named
 from .visible import visible
 
 
@@ -47,8 +50,14 @@ def not_readable(parameter: Parameter, error: ValueError) -> str:
 
 _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?[0-9]+)?)\s*(.*)$")
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
-_EXACT = 2**53
-"""Above it a double no longer holds every whole number."""
+EXACT = 2**53 - 1
+"""Up to here a double holds every whole number, and none stands for its neighbour as well."""
+LONGEST_NUMBER = 400
+"""Signs of a number with its unit: the longest double written out has some 330."""
+LONGEST_TEXT = 100_000
+"""Signs of a text; the longest there are is a table of ballscrew compensation."""
+_RAW = re.compile(r"[+-]?[0-9]{1,16}")
+_UNWRITABLE = re.compile("[\ud800-\udfff\ufffe\uffff]")
 
 
 def read_number(text: str) -> tuple[float, str]:
@@ -58,34 +67,44 @@ def read_number(text: str) -> tuple[float, str]:
     that could be either (``1,234``) is refused rather than guessed.
     Returns the number and the rest of the text; raises ValueFault.
     """
+    digits, rest = _digits(text)
+    number = float(digits)
+    if not math.isfinite(number):
+        raise ValueFault(f"{quoted(digits)} is too large")
+    if number == 0 and Decimal(digits) != 0:
+        raise ValueFault(f"{quoted(digits)} is too small")
+    return number, rest
+
+
+def _digits(text: str) -> tuple[str, str]:
+    """Return a number with decimal point and exponent as Python writes it, and what follows; raises ValueFault."""
+    if len(text) > LONGEST_NUMBER:
+        raise ValueFault(f"{quoted(text)} is too long for a number")
     found = _NUMBER.match(text)
     if not found:
-        raise ValueFault(f"'{text.strip()}' is not a number")
+        raise ValueFault(f"{quoted(text.strip())} is not a number")
     digits, exponent, rest = found.groups()
     if _GROUPED.fullmatch(digits):
         digits = re.sub("[ '_]", "", digits)
     elif " " in digits:  # "3000 1/min": what stands after the blank is no part of the number
         digits, _, tail = digits.partition(" ")
         exponent, rest = "", tail + text[found.end(1) :]
-    number = _decimal(digits, exponent)
-    if not math.isfinite(number):
-        raise ValueFault(f"'{digits}{exponent}' is too large")
-    return number, rest
+    return _decimal(digits, exponent), rest
 
 
-def _decimal(digits: str, exponent: str) -> float:
-    """Return the number that digits with points and commas mean; raises ValueFault."""
+def _decimal(digits: str, exponent: str) -> str:
+    """Return the number that digits with points and commas mean, with a decimal point; raises ValueFault."""
     if "," in digits and "." in digits:
         decimal = max(digits.rfind(","), digits.rfind("."))
         whole, fraction = digits[:decimal], digits[decimal + 1 :]
         group = "," if digits[decimal] == "." else "."
         if digits[decimal] in whole or not re.fullmatch(rf"[+-]?\d{{1,3}}(\{group}\d{{3}})+", whole):
-            raise ValueFault(f"'{digits}' is not a number")
+            raise ValueFault(f"{quoted(digits)} is not a number")
         digits = whole.replace(group, "") + "." + fraction
     elif "," in digits:
         if digits.count(",") > 1:
             if not re.fullmatch(r"[+-]?\d{1,3}(,\d{3})+", digits):
-                raise ValueFault(f"'{digits}' is not a number")
+                raise ValueFault(f"{quoted(digits)} is not a number")
             digits = digits.replace(",", "")
         elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
             ways = [digits.replace(",", sign) + exponent for sign in ("", ".")]
@@ -95,9 +114,10 @@ def _decimal(digits: str, exponent: str) -> float:
     try:
         if "_" in digits:
             raise ValueError  # Python reads 1_0 as 10
-        return float(digits + exponent)
+        float(digits + exponent)
     except ValueError:
-        raise ValueFault(f"'{digits}{exponent}' is not a number") from None
+        raise ValueFault(f"{quoted(digits + exponent)} is not a number") from None
+    return digits + exponent
 
 
 def read_value(parameter: Parameter, text: str, unit: str) -> Value:
@@ -110,19 +130,66 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
     if is_mask(parameter, text):
         raise ValueFault(f"{parameter.name}: '{MASKED}' stands in place of a secret and is no value")
     try:
-        return _read(parameter, text, unit)
+        return _checked(parameter, _read(parameter, text.strip(), unit))
     except ValueFault as error:
         raise ValueFault(not_readable(parameter, error)) from None
 
 
+def checked(parameter: Parameter, value: Value) -> Value:
+    """Return a value that a file can hold: written, and read back as the same; raises ValueFault for any other.
+
+    Every value passes here that is made of something from outside: a text, a number of a control, a journal.
+    """
+    try:
+        return _checked(parameter, value)
+    except ValueFault as error:
+        raise ValueFault(not_readable(parameter, error)) from None
+
+
+def _checked(parameter: Parameter, value: Value) -> Value:
+    found = value.value
+    if isinstance(found, str):
+        return _checked_text(parameter, value, found)
+    if isinstance(found, bool) != (parameter.type == "boolean") or parameter.type in (
+        "choice",
+        "text",
+        "format",
+    ):
+        raise ValueFault(f"{found} is no value of {parameter.name}")
+    if isinstance(found, bool):
+        return value
+    if value.unit not in UNITS:
+        raise ValueFault(f"{quoted(value.unit)} is not a unit")
+    if not math.isfinite(found):
+        raise ValueFault(f"{found} is not a number that {parameter.name} can have")
+    if parameter.type in ("integer", "bits"):
+        if found != int(found):
+            raise ValueFault(f"{parameter.name} takes whole numbers, not {write_number(found)}")
+        if abs(found) > EXACT:
+            raise ValueFault(f"{short(write_number(found))} is too large for {parameter.name}")
+        return value if isinstance(found, int) else Value(int(found), value.unit)
+    return Value(0.0, value.unit) if found == 0 else value  # there is no -0
+
+
+def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
+    if parameter.type in ("integer", "real", "bits"):
+        raise ValueFault(f"{parameter.name} is a number, and {quoted(found)} is none")
+    if len(found) > LONGEST_TEXT:
+        raise ValueFault(f"{parameter.name} has {len(found):,} signs, and {LONGEST_TEXT:,} are the most")
+    if odd := _UNWRITABLE.search(found):
+        raise ValueFault(f"{parameter.name} holds the sign U+{ord(odd[0]):04X}, which no file can hold")
+    return _read_raw(parameter, found) if parameter.choices and found.startswith("raw:") else value
+
+
 def _read(parameter: Parameter, text: str, unit: str) -> Value:
-    text = text.strip()
     if parameter.type == "text":
         return Value(text)
     if parameter.choices:
         return _read_choice(parameter, text)
     if parameter.type == "format":
         return _read_format(parameter, text)
+    if len(text) > LONGEST_NUMBER:
+        raise ValueFault(f"{quoted(text)} is too long for a number")
     if parameter.type in ("bits", "integer") and (
         hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
     ):
@@ -130,9 +197,11 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
     if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
         # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and 6.
         if not text.isdecimal():
-            raise ValueFault(f"'{text}' is not a decimal number: write 0x{text}")
+            raise ValueFault(f"{quoted(text)} is not a decimal number: write 0x{short(text)}")
         if text.startswith("0") and int(text, 16) != int(text):
-            raise ValueFault(f"'{text}' can be read two ways: write 0x{text} or {int(text)}")
+            raise ValueFault(
+                f"{quoted(text)} can be read two ways: write 0x{short(text)} or {short(str(int(text)))}"
+            )
     number, rest = read_number(text)
     if rest:
         try:
@@ -146,13 +215,22 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
                 f"{parameter.name} is given in {shown(unit) or 'a bare number'}, not in {shown(named)}"
             )
         unit = named
-    if parameter.type in ("integer", "bits"):
-        if number != int(number):
-            raise ValueFault(f"{parameter.name} takes whole numbers, not {write_number(number)}")
-        if abs(number) > _EXACT:
-            raise ValueFault(f"{write_number(number)} is too large for {parameter.name}")
-        return Value(int(number), unit)
+    if parameter.type in ("integer", "bits") and (exact := Decimal(_digits(text)[0])) != number:
+        # Beyond what a double holds: 2 ** 53 + 1, or a half that would be rounded away.
+        size = "too large for" if exact == exact.to_integral_value() else "no whole number, which is taken by"
+        raise ValueFault(f"{quoted(text)} is {size} {parameter.name}")
     return Value(number, unit)
+
+
+def exact_number(text: str) -> Fraction:
+    """Return the number that bare digits with a decimal point mean, exactly; raises ValueFault.
+
+    Its exponent is that of a double at most, so that it stays a number that can be worked with.
+    """
+    number, rest = read_number(text)
+    if rest:
+        raise ValueFault(f"{quoted(text)} is not a number")
+    return Fraction(Decimal(text)) if number else Fraction(0)
 
 
 def _is_hex(parameter: Parameter) -> bool:
@@ -169,7 +247,7 @@ def _read_format(parameter: Parameter, text: str) -> Value:
     found = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
     if not found:
         raise ValueFault(
-            f"'{text}' is not a format: {parameter.name} takes digits before and behind the point, as 3.4"
+            f"{quoted(text)} is not a format: {parameter.name} takes digits before and behind the point, as 3.4"
         )
     return Value(f"{int(found[1])}.{int(found[2])}")
 
@@ -190,14 +268,7 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
     yes_no = parameter.type == "boolean"
     word = text.casefold()
     if word.startswith("raw:"):
-        try:
-            raw = int(text[4:])
-        except ValueError:
-            raise ValueFault(f"'{text}' is not 'raw:' and a whole number") from None
-        for choice in choices:
-            if choice.raw == raw:
-                return Value(choice.key == "yes" if yes_no else choice.key)
-        return Value(f"raw:{raw}")
+        return _read_raw(parameter, text)
     for field in ("label", "code", "key"):
         for choice in choices:
             said = getattr(choice, field)
@@ -206,7 +277,17 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))
     offered = ", ".join(f"{c.label} ({c.code})" if c.code else c.label for c in choices)
-    raise ValueFault(f"'{text}' is not a choice of {parameter.name}: {offered}")
+    raise ValueFault(f"{quoted(text)} is not a choice of {parameter.name}: {offered}")
+
+
+def _read_raw(parameter: Parameter, text: str) -> Value:
+    """Read a choice by what the control stores, ``raw:-1``; a code that is none of the parameter's is kept."""
+    if not _RAW.fullmatch(digits := text[4:].strip()) or abs(raw := int(digits)) > EXACT:
+        raise ValueFault(f"{quoted(text)} is not 'raw:' and a whole number")
+    for choice in parameter.choices or ():
+        if choice.raw == raw:
+            return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
+    return Value(f"raw:{raw}")
 
 
 def write_number(number: float) -> str:
@@ -291,11 +372,13 @@ def with_field(field: Bit, word: int, text: str) -> int:
         mask = (1 << field.width) - 1
         lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
         try:
+            if len(said) > LONGEST_NUMBER:
+                raise ValueError
             number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
         except ValueError:
             number = lowest - 1
         if not lowest <= number <= highest:
-            raise ValueFault(f"'{text}' does not fit {field.label}, which takes {lowest} to {highest}")
+            raise ValueFault(f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}")
         number &= mask
     return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
 

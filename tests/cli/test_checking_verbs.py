@@ -115,7 +115,16 @@ def test_a_file_that_cannot_be_read_does_not_hide_the_others(
         line for line in err.splitlines() if line.startswith(f"amp-studio: {broken}, line ")
     ]
     assert str(broken) in err
-    assert len(json.loads(out)["files"]) == 19
+    told = json.loads(out)["files"]
+    assert (len(told), [one for one in told if "error" in one]) == (
+        20,
+        [
+            {
+                "file": str(broken),
+                "error": f"{broken}, line 3: is not readable: did not find expected node content",
+            }
+        ],
+    )
 
 
 def test_a_folder_without_files_and_no_processes_are_refused(amp, tmp_path: Path, mill: Path) -> None:

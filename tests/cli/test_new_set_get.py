@@ -39,7 +39,7 @@ def test_a_new_file_does_not_overwrite(amp, mill: Path, folder) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("fanuc", "x.amp"), "'fanuc' is no control family: "),
+        (("fanuc", "x.amp"), "Unknown family 'fanuc'. Known: "),
         (("9pc", "x.amp", "--machine", "grinder"), "has no machine type 'grinder': lathe, mill"),
         (("9pc", "x.amp", "--axes", "X,Q"), "'Q' is not a choice of Axis Name"),
         (("9pc", "x.amp", "--axes", "X,Y,Z,A,B,C,U,V,W"), "9 axes are too many"),

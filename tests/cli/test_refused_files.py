@@ -72,7 +72,10 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
         ("newer", "bad.amp, line 1: was written by a newer AMP Studio (file format 9, known: 1)"),
         ("no end mark", "ends without its end mark '...': it has been cut off"),
         ("no number", "bad.amp, line 4: home.calibration@1: 'five mm' is not a number"),
-        ("another family", "is for the control family 'fanuc', which is not known here"),
+        (
+            "another family",
+            "bad.amp, line 2: Unknown family 'fanuc'. Known: 57c422b, 9pc, acromill, num, syntec",
+        ),
         ("not text", "bad.amp, line 3: is not UTF-8 text"),
     ],
 )

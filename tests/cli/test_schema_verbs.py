@@ -182,9 +182,9 @@ def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("schema", "fanuc"), "'fanuc' is no control family: "),
+        (("schema", "fanuc"), "Unknown family 'fanuc'. Known: "),
         (("schema", "9pc", "--group", "Tools"), "has no group 'Tools': Axis Configuration, "),
-        (("show", "fanuc", "1"), "'fanuc' is no control family: "),
+        (("show", "fanuc", "1"), "Unknown family 'fanuc'. Known: "),
         (("show", "9pc", "99999"), "'99999' is no parameter of Allen-Bradley 9/PC AMP"),
         (("show", "9pc", "home.calibratio"), "'home.calibratio' is no parameter"),
         (("show", "9pc"), "param"),

@@ -22,7 +22,7 @@ REFUSED = {
     "cut-off-to-nothing": ": is not an AMP Studio parameter file",
     "key-twice": ", line 9: 'home.calibration@1' stands twice",
     "newer-version": ", line 1: was written by a newer AMP Studio (file format 2, known: 1)",
-    "no-family": ": is for the control family 'None', which is not known here",
+    "no-family": ": names no control family",
     "no-finite-number": ", line 8: home.calibration@1: '1e999' is too large",
     "no-number": ", line 8: home.calibration@1: 'far' is not a number",
     "no-single-value": ", line 8: home.calibration@1 has no single value",
@@ -35,7 +35,7 @@ REFUSED = {
     "unit-of-something-else": ", line 8: home.calibration@1: Home Calibration is given in mm, not in ms",
     "unknown-choice": ", line 8: servo.sercos_baud: '8 MHz' is not a choice of Baud Rate for SERCOS: "
     "2 MHz (a), 4 MHz (b)",
-    "unknown-family": ": is for the control family '9/series', which is not known here",
+    "unknown-family": ", line 2: Unknown family '9/series'. Known: 57c422b, 9pc, acromill, num, syntec",
     "unknown-machine": ", line 4: machine is 'saw'; known here: lathe, mill",
     "unknown-unit": ", line 8: home.calibration@1: 'furlong' is not a unit; Home Calibration is given in mm",
     "unknown-units": ", line 4: units is 'nautical'; known here: metric, inch",

@@ -146,11 +146,15 @@ def test_a_file_of_windows_stays_one(small: Path, mark: bytes, comment: str) -> 
     assert open_file(small).file.get(CALIBRATION) == Value(7.0, "mm")
 
 
-def test_mixed_line_ends_become_those_of_most_lines_and_that_is_told(small: Path) -> None:
+def test_mixed_line_ends_stay_as_they_are(small: Path) -> None:
     lines = small.read_bytes().split(b"\n")
-    small.write_bytes(b"\r\n".join(lines[:5]) + b"\n" + b"\n".join(lines[5:]))
-    assert saved(small) == ["small.amp: its lines ended differently; all of them end with LF now"]
-    assert b"\r" not in small.read_bytes()
+    mixed = b"\r\n".join(lines[:5]) + b"\n" + b"\n".join(lines[5:])
+    small.write_bytes(mixed)
+    assert saved(small) == []
+    added = small.read_bytes().split(b"signature: ")[1].split(b"\r\n")[0]
+    assert small.read_bytes().replace(b"signature: " + added + b"\r\n", b"") == mixed.replace(
+        b"1.5 mm", b"7 mm"
+    )
 
 
 def test_a_text_of_several_lines_keeps_its_own_line_ends_in_a_file_of_windows(on_disk: Path) -> None:

@@ -74,7 +74,7 @@ def test_a_folder_that_is_a_project_is_not_made_one_again(project: Project) -> N
     ("info", "said"),
     [
         (ProjectInfo(" ", "9pc"), "a project needs a name"),
-        (ProjectInfo("x", "9pd"), "'9pd' is no control family: .*9pc"),
+        (ProjectInfo("x", "9pd"), "Unknown family '9pd'. Known: .*9pc"),
         (ProjectInfo("x", "9pc", machine="grinder"), "'grinder' is no machine type: lathe, mill"),
     ],
 )
@@ -119,11 +119,11 @@ def test_comments_and_unknown_keys_of_a_project_survive(project: Project) -> Non
             "was written by a newer AMP Studio (project format 2)",
         ),
         ("amp_studio_project: 1\nfamily: 9pc\n", None, "a project needs a name"),
-        ("amp_studio_project: 1\nname: x\n", None, "'' is no control family"),
-        ("amp_studio_project: 1\nname: x\nfamily: fanuc\n", None, "'fanuc' is no control family"),
-        ("amp_studio_project: 1\nname: [x\n", 3, "is not readable YAML"),
-        ("amp_studio_project: 1\nname: 2001-99-99\n", None, "is not readable YAML"),
-        ("amp_studio_project: 1\nname: x\nname: y\n", 3, "is not readable YAML"),
+        ("amp_studio_project: 1\nname: x\n", None, "a project needs a control family"),
+        ("amp_studio_project: 1\nname: x\nfamily: fanuc\n", 3, "Unknown family 'fanuc'. Known: "),
+        ("amp_studio_project: 1\nname: [x\n", 3, "is not readable: did not find expected"),
+        ("amp_studio_project: 1\nname: &x 2001-99-99\n", 2, "is not readable: it uses a YAML reference"),
+        ("amp_studio_project: 1\nname: x\nname: y\n", 3, "'name' stands twice"),
     ],
 )
 def test_a_project_file_that_is_not_understood_is_refused(

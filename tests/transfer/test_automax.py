@@ -217,7 +217,7 @@ def test_registers_of_no_parameter_and_odd_halves_are_kept_where_that_is_wanted(
     with pytest.raises(FormatFault, match=r"register 72, .* can only be read"):
         taken(TABLE, module, "72 1", keep=True)
     file.unknown["R300"] = "17\n18"
-    with pytest.raises(FormatFault, match="R300: '17\n18' is no whole number"):
+    with pytest.raises(FormatFault, match=r"R300: '17\\n18' is no whole number"):
         TABLE.write(file)
 
 

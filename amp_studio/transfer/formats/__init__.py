@@ -11,6 +11,7 @@ from pathlib import Path
 
 from amp_studio.files import Header, ParameterFile, SaveFault, Tell, secret_values, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
+from amp_studio.schema.quoting import quoted
 from amp_studio.schema.regular_file import read_file
 
 from . import acr_script, automax, ballscrew, num_table, patch_sheet, values_csv
@@ -26,6 +27,8 @@ FORMATS: tuple[TextFormat, ...] = (
     automax.TABLE,
 )
 """In the order in which a text is looked at."""
+_MOST_BYTES = 4 * 2**20
+"""Some ten times what the largest family would fill in its longest format."""
 
 
 def formats_of(family: str) -> tuple[TextFormat, ...]:
@@ -41,10 +44,10 @@ def import_file(
     """Return the parameters a text file holds, in a file that holds nothing else; values out of range are in it too.
 
     ``tell`` is called with what a person should know of a text that was taken: words it leaves out.
-    Without a family, the format or the text has to tell it. Raises FormatFault with line and column, KeyError for a
-    family that does not exist, OSError.
+    Without a family, the format or the text has to tell it. Raises FormatFault with line and column,
+    UnknownFamilyError, OSError.
     """
-    content = read_file(path)
+    content = read_file(path, _MOST_BYTES)
     chosen = _format_for_reading(content, family, format_key)
     try:
         text = content.decode(chosen.encoding)
@@ -139,7 +142,7 @@ def _named(key: str, offered: tuple[TextFormat, ...]) -> TextFormat:
     for found in offered:
         if found.key == key:
             return found
-    raise FormatFault(f"there is no format '{key}' here: {', '.join(f.key for f in offered)}")
+    raise FormatFault(f"there is no format {quoted(key)} here: {', '.join(f.key for f in offered)}")
 
 
 def _only_family(chosen: TextFormat) -> str:

@@ -13,7 +13,7 @@ from functools import cached_property
 
 from amp_studio.schema import Address, Parameter, Schema
 
-_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]+)?"
+_NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:E[+-]?[0-9]+)?"
 _PART = re.compile(r"\{(?P<place>.*?)\}|(?P<word>[A-Za-z0-9]+)|(?P<blank>\s+)|(?P<sign>.)")
 
 
@@ -95,7 +95,7 @@ class Command:
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
         names = "|".join(re.escape(i) for i in sorted(self.instances, key=len, reverse=True))
-        places = {"i": rf"\s*(?P<i>{names})\s*", "n": "(?P<n>[0-9]+)"}
+        places = {"i": rf"\s*(?P<i>{names})\s*", "n": "(?P<n>[0-9]{1,9})"}
         text, count = "", 0
         for part in _PART.finditer(self.form):
             if part["place"] is not None:

@@ -9,6 +9,7 @@ Written are scales, signs and limits before the gains they make safe (see ``ORDE
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -30,8 +31,10 @@ _MARK = "\ufeff".encode().decode(_SIGNS)
 _MARK_SEEN_AS_LATIN = "\ufeff".encode().decode("latin-1")
 _UNITS = re.compile(r"\s*REM\s+units\s+(\S+)\s*", re.IGNORECASE)
 _REMARK = re.compile(r"\s*(REM\b.*)?", re.IGNORECASE | re.DOTALL)
-_BEHIND = re.compile(r"\s*(\(.*\))?\s*")
+_BEHIND = re.compile(r"\s*+(?:\(.*\)\s*+)?")
 """The guide's own remarks: ``MULT X-4     (Times 4 multiplication in opposite direction)`` (page 114)."""
+
+_LONGEST_LINE = 1000
 
 ORDER = ("PPU", "MULT", "DAC", "EXC", "TLM", "LOPASS", "NOTCH", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT",
          "IGAIN", "FFVEL", "FFACC")  # fmt: skip
@@ -81,7 +84,9 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
 def _lines(text: str, commands: list[Command]) -> Iterator[_Line]:
     for n, row in enumerate(text.removeprefix(_MARK).removeprefix(_MARK_SEEN_AS_LATIN).split("\n"), 1):
         line = _Line(n, row.rstrip("\r"))
-        if not _REMARK.fullmatch(line.text):
+        if len(line.text) > _LONGEST_LINE:
+            line.fault = FormatFault(f"the line is longer than {_LONGEST_LINE} signs", n)
+        elif not _REMARK.fullmatch(line.text):
             try:
                 line.arguments = list(_arguments(line, commands))
             except FormatFault as fault:
@@ -118,8 +123,8 @@ def _not_read(line: _Line, at: int, known: list[Command]) -> FormatFault:
 
 def _set_aside_repeated(lines: list[_Line]) -> None:
     """Take what is set more than once for not understood: which value holds, the run of the script decides."""
-    settings = [a.setting for line in lines for a in line.arguments]
-    twice = {s for s in settings if settings.count(s) > 1}
+    counts = Counter(a.setting for line in lines for a in line.arguments)
+    twice = {setting for setting, count in counts.items() if count > 1}
     for line in lines:
         if any(a.setting in twice for a in line.arguments):
             line.arguments, line.fault = [], FormatFault("it is set more than once", line.number)

@@ -8,6 +8,7 @@ register, ``!`` a double word (page 4-48).
 from __future__ import annotations
 
 import re
+from collections import Counter
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, show_value
@@ -45,7 +46,7 @@ def _number(registers: Registers, of: Held) -> str:
 # -- the table -----------------------------------------------------------------------------------------------------
 
 _TABLE_HEAD = "! Register table"
-_ROW = re.compile(r"(\s*R?)([0-9]+)(\s*[,;=]\s*|\s+)([^\s!]+)", re.IGNORECASE)
+_ROW = re.compile(r"(\s*R?)([0-9]{1,9})(\s*[,;=]\s*|\s+)([^\s!]+)", re.IGNORECASE)
 
 
 _WORD = re.compile(r"[+-]?[0-9][0-9A-F]*H?", re.IGNORECASE)
@@ -62,7 +63,7 @@ def _write_table(file: ParameterFile) -> str:
     registers = Registers(file.schema, file.machine)
     rows: dict[int, str] = {}
     for key, text in file.unknown.items():
-        if re.fullmatch(r"R[0-9]+", key):
+        if re.fullmatch(r"R[0-9]{1,9}", key):
             rows[int(key[1:])] = f"{key[1:]}\t{_kept_word(key, text)}"
     for one in held_by(file, registers):
         remark = _remark(file, registers, one.address)
@@ -138,7 +139,7 @@ class Variables:
 
     def register(self, name: str) -> int | None:
         """Return the first register of a variable; None for one that is none."""
-        numbered = re.fullmatch(r"REG_([0-9]+)[%!]", name.upper())
+        numbered = re.fullmatch(r"REG_([0-9]{1,9})[%!]", name.upper())
         return int(numbered[1]) if numbered else self._registers.get(name.upper())
 
     def name(self, register: int, words: int) -> str:
@@ -151,7 +152,9 @@ def _words(name: str) -> int:
 
 def _is_task(text: str) -> bool:
     return bool(
-        re.search(r"^\s*[0-9]+\s+(?:LET\s+)?[A-Z][A-Z0-9_]*\s?[%!]\s*=", text, re.IGNORECASE | re.MULTILINE)
+        re.search(
+            r"^[ \t]*[0-9]+[ \t]+(?:LET\s+)?[A-Z][A-Z0-9_]*\s?[%!]\s*=", text, re.IGNORECASE | re.MULTILINE
+        )
     )
 
 
@@ -214,7 +217,7 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
 def _marked_registers(statement: Statement) -> tuple[int, ...]:
     """Return the registers whose mark a statement is; none for any other."""
     what = marked(statement.text) or ""
-    return tuple(map(int, what.split("+"))) if re.fullmatch(r"[0-9]+(\+[0-9]+)*", what) else ()
+    return tuple(map(int, what.split("+"))) if re.fullmatch(r"[0-9]{1,9}(\+[0-9]{1,9})*", what) else ()
 
 
 def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
@@ -231,8 +234,8 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
             if re.match(r"IF\b", statement.text, re.IGNORECASE):
                 break  # what follows in the line hangs on the condition (page 4-48)
     if keep_unknown:  # which of several values holds, the run of the task decides
-        registers = [one.register for one in settings.values()]
-        settings = {key: one for key, one in settings.items() if registers.count(one.register) == 1}
+        counts = Counter(one.register for one in settings.values())
+        settings = {key: one for key, one in settings.items() if counts[one.register] == 1}
     meaning = Meaning(Registers(schema, machine), keep_unknown)
     for one in settings.values():
         meaning.take(one)

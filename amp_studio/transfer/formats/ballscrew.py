@@ -8,12 +8,14 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Schema, Value
+from amp_studio.schema import Schema, Value, ValueFault
+from amp_studio.schema.quoting import quoted
+from amp_studio.schema.values import checked
 
 from .text_format import FormatFault, TextFormat, TextRead
 
 _TABLE = "ballscrew.table"
-_WORD = re.compile(r"([A-Z])(\d+)E-?\.\d{5}")
+_WORD = re.compile(r"([A-Z])([0-9]{1,6})E-?\.[0-9]{5}")
 
 
 def _recognises(text: str) -> bool:
@@ -21,7 +23,8 @@ def _recognises(text: str) -> bool:
 
 
 def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
-    offered = schema.instances(schema.parameters[_TABLE], schema.family.default_machine)
+    table = schema.parameters[_TABLE]
+    offered = schema.instances(table, schema.family.default_machine)
     tables: dict[str, list[str]] = {}
     for n, line in enumerate(text.splitlines(), 1):
         word = line.strip()
@@ -31,7 +34,7 @@ def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
         found = _WORD.fullmatch(word)
         if found is None:
             raise FormatFault(
-                f"'{word}' is no word like X0E.00325: letter, position, E, five decimals", n, column
+                f"{quoted(word)} is no word like X0E.00325: letter, position, E, five decimals", n, column
             )
         axis, position = found[1], int(found[2])
         if axis not in offered:
@@ -42,7 +45,12 @@ def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
         words.append(word)
     if not tables:
         raise FormatFault("there is no word of compensation")
-    return TextRead({(_TABLE, axis): Value(" ".join(words)) for axis, words in tables.items()})
+    try:
+        return TextRead(
+            {(_TABLE, axis): checked(table, Value(" ".join(words))) for axis, words in tables.items()}
+        )
+    except ValueFault as error:
+        raise FormatFault(str(error)) from None
 
 
 def _write(file: ParameterFile) -> str:

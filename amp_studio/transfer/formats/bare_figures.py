@@ -11,9 +11,11 @@ from decimal import Decimal
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Parameter, Schema, Value, dimension, shown
+from amp_studio.schema import Parameter, Schema, Value, ValueFault, dimension, shown
+from amp_studio.schema.quoting import quoted, short
 from amp_studio.schema.register_words import WordFault, choice_of, code_of, exact
 from amp_studio.schema.units import UNITS
+from amp_studio.schema.values import checked, exact_number
 
 
 def system_of(file: ParameterFile) -> str:
@@ -53,19 +55,26 @@ def write_figure(schema: Schema, parameter: Parameter, value: Value, system: str
 def read_figure(schema: Schema, parameter: Parameter, text: str, system: str) -> Value:
     """Return the value that a bare figure means; raises WordFault."""
     unit, scale = _kept_in(schema, parameter, system)
-    number = Fraction(text) / scale
     try:
-        is_double = math.isfinite(float(number))
+        number = exact_number(text) / scale
+        is_double = math.isfinite(float(number)) and (float(number) != 0 or number == 0)
+    except ValueFault as error:
+        raise WordFault(str(error)) from None
     except OverflowError:
         is_double = False
     if not is_double:
-        raise WordFault(f"{text} is too large")
+        raise WordFault(f"{quoted(text)} is no number that a value can be")
     is_whole = number.denominator == 1
     if not is_whole and (parameter.choices or parameter.type in ("integer", "bits")):
-        raise WordFault(f"{parameter.name} takes whole numbers, not {text}")
-    if parameter.choices:
-        return choice_of(parameter, int(number))
-    return Value(int(number) if parameter.type in ("integer", "bits") else float(number), unit)
+        raise WordFault(f"{parameter.name} takes whole numbers, not {short(text)}")
+    try:
+        if parameter.choices:
+            return checked(parameter, choice_of(parameter, int(number)))
+        return checked(
+            parameter, Value(int(number) if parameter.type in ("integer", "bits") else float(number), unit)
+        )
+    except ValueFault as error:
+        raise WordFault(str(error)) from None
 
 
 def _kept_in(schema: Schema, parameter: Parameter, system: str) -> tuple[str, Fraction]:

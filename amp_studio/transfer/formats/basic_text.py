@@ -22,6 +22,10 @@ _TOKEN = re.compile(
 )
 
 
+LONGEST_LINE = 5000
+"""Signs of a line with all that it goes on in."""
+
+
 @dataclass(eq=False)
 class Statement:
     """One statement of a line, without the blanks around it."""
@@ -96,6 +100,8 @@ def read_lines(text: str) -> Iterator[Line]:
         if not begun:
             first = n
         begun.append(line)
+        if sum(map(len, begun)) > LONGEST_LINE:
+            raise FormatFault(f"the line is longer than {LONGEST_LINE} signs", first)
         if line.rstrip().endswith("&") and not _ends_in_remark(line):
             continue
         if "".join(begun).strip():
@@ -114,7 +120,7 @@ def _ends_in_remark(line: str) -> bool:
 
 
 def _line(text: str, number: int) -> Line:
-    head = re.match(r"\s*[0-9]+[ \t]*", text)
+    head = re.match(r"\s*[0-9]{1,9}(?![0-9])[ \t]*", text)
     if head is None:
         raise FormatFault("a line of a task begins with its number", number, 1)
     line = Line(head[0])

@@ -29,6 +29,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.model import Storage
 from amp_studio.schema.stored import stored_number
+from amp_studio.schema.values import checked
 from amp_studio.transfer.image import patched_value
 
 Word = tuple[int, int]
@@ -173,15 +174,15 @@ class Meaning:
         if isinstance(content, str):
             if parameter.type != "text":
                 raise ValueFault(f"{parameter.name} is no text")
-            return Value(content)
+            return checked(parameter, Value(content))
         if parameter.choices:
-            return patched_value(file, self.address, parameter, content)
+            return checked(parameter, patched_value(file, self.address, parameter, content))
         number = content if self.scale == 1.0 else content / self.scale
         if parameter.type == "real":
             number = float(number)
         elif number == int(number):
             number = int(number)
-        return Value(number, self.unit_in(file))
+        return checked(parameter, Value(number, self.unit_in(file)))
 
     def content(self, file: ParameterFile, value: Value) -> Content:
         """Return what the word of a value holds, before it is made a whole number; raises ValueFault."""

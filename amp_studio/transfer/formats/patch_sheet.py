@@ -22,8 +22,9 @@ from amp_studio.schema import (
     unit_named,
     write_number,
 )
+from amp_studio.schema.quoting import quoted
 from amp_studio.schema.stored import stored_number
-from amp_studio.schema.values import read_number
+from amp_studio.schema.values import checked, read_number
 from amp_studio.transfer.image import patched_value
 
 from .text_format import FormatFault, TextFormat, TextRead
@@ -61,7 +62,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     told = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
     machine = told[1] if told else schema.family.default_machine
     if machine not in schema.machines:
-        raise FormatFault(f"{schema.family.name} has no machine type '{machine}'")
+        raise FormatFault(f"{schema.family.name} has no machine type {quoted(machine)}")
     found = TextRead(machine=machine)
     file = ParameterFile(schema)
     if schema.family.machine_parameter:
@@ -77,6 +78,8 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
         except UnknownParameter as error:
             if not keep_unknown:
                 raise FormatFault(str(error), n, 1) from None
+            if number.strip() in found.unknown:
+                raise FormatFault(f"{quoted(number)} stands twice", n, 1) from None
             found.unknown[number.strip()] = " ".join(cell for cell in cells[:2] if cell)
             continue
         if not schema.parameters[address[0]].patchable:
@@ -92,8 +95,8 @@ def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line
     try:
         number, rest = read_number(cells[0])
         if rest.strip():
-            raise ValueFault(f"'{cells[0]}' is no plain number")
-        value = patched_value(file, address, parameter, number)
+            raise ValueFault(f"{quoted(cells[0])} is no plain number")
+        value = checked(parameter, patched_value(file, address, parameter, number))
     except ValueFault as error:
         raise FormatFault(str(error), line, column) from None
     if parameter.choices or len(cells) < 2 or not cells[1].strip():

@@ -135,7 +135,7 @@ class Meaning:
     def __init__(self, registers: Registers, keep_unknown: bool) -> None:
         self.registers, self.keep_unknown = registers, keep_unknown
         self.values: dict[Address, Value] = {}
-        self.leftover: list[Written] = []
+        self.leftover: dict[Written, None] = {}
         self._cells: dict[int, _Cell] = {}
         self._done: set[int] = set()
 
@@ -212,8 +212,7 @@ class Meaning:
         cell = self._cells[register]
         if not self.keep_unknown:
             raise self._fault(cell, said)
-        if cell.source not in self.leftover:
-            self.leftover.append(cell.source)
+        self.leftover[cell.source] = None
         self._done.add(register)
 
     @staticmethod

@@ -11,16 +11,9 @@ import io
 
 from amp_studio.files import ParameterFile
 from amp_studio.files.spreadsheet import cell_text, text_cell
-from amp_studio.schema import (
-    Address,
-    Schema,
-    Value,
-    ValueFault,
-    is_mask,
-    read_value,
-    write_value,
-    written,
-)
+from amp_studio.files.storage import read_stored
+from amp_studio.schema import Address, Schema, Value, ValueFault, is_mask, write_value, written
+from amp_studio.schema.quoting import short
 
 from .text_format import FormatFault, TextFormat, TextRead
 
@@ -71,14 +64,19 @@ def _take(
         raise FormatFault(f"{len(cells)} cells below {len(heads)} columns", line)
     row = dict(zip(heads, map(cell_text, cells), strict=True))
     address: Address = (row["id"].strip(), row.get("instance", "").strip())
-    said = f"{row['value']} {row['unit']}".strip()
     parameter = schema.parameters.get(address[0])
+    is_text = parameter is not None and parameter.type == "text"
+    said = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
     offered = (
         {i for m in schema.family.machines for i in schema.instances(parameter, m.key)} if parameter else ()
     )
     if parameter is None or address[1] not in offered:
         if not keep_unknown:
-            raise FormatFault(f"{schema.family.name} has no {written(address)}", line, heads.index("id") + 1)
+            raise FormatFault(
+                f"{schema.family.name} has no {short(written(address))}", line, heads.index("id") + 1
+            )
+        if written(address) in found.unknown:
+            raise FormatFault(f"{short(written(address))} stands twice", line, heads.index("id") + 1)
         found.unknown[written(address)] = said
         return
     if address in found.values:
@@ -89,7 +87,7 @@ def _take(
         found.notes.append(f"{written(address)} is a secret that this table does not tell; it is not set")
         return
     try:
-        found.values[address] = read_value(parameter, said, row["unit"].strip())
+        found.values[address] = read_stored(schema, parameter, said)
     except ValueFault as error:
         raise FormatFault(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
 

@@ -1,0 +1,65 @@
+"""Where a compiled family is kept: JSON below a digest over it, which is rebuilt where it is anything else.
+
+JSON and not pickle: a cache must not be able to run code. What lies there and cannot be used is named in a warning of
+the log, once a start; a cache that cannot be written costs time only.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import logging
+import os
+import re
+import tempfile
+from pathlib import Path
+
+from .regular_file import read_file
+
+_log = logging.getLogger(__name__)
+_MOST_BYTES = 64 * 2**20
+
+
+def read_cached(path: Path) -> bytes | None:
+    """Return what was kept at a path; None where there is nothing, or nothing that can be used."""
+    try:
+        content = read_file(path, _MOST_BYTES)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        report_unusable(path, error.strerror or str(error))
+        return None
+    digest, _, kept = content.partition(b"\n")
+    if digest != _digest(kept):
+        report_unusable(path, "its content is not what was kept there")
+        return None
+    return kept
+
+
+def report_unusable(path: Path, why: str) -> None:
+    """Name a cache file that cannot be used."""
+    _log.warning("%s cannot be used and is made anew: %s", path, why)
+
+
+def write_cached(path: Path, kept: bytes, family: str) -> None:
+    """Keep the compiled form of a family, and remove what older facts of it left."""
+    temporary = ""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(_digest(kept) + b"\n" + kept)
+        os.replace(temporary, path)
+        older = re.compile(rf"{re.escape(family)}-[0-9a-f]{{24}}\.json")
+        for old in path.parent.iterdir():
+            if old != path and older.fullmatch(old.name):
+                old.unlink(missing_ok=True)
+    except OSError as error:
+        _log.info("%s cannot be kept: %s", path, error.strerror or error)
+        if temporary:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+
+
+def _digest(kept: bytes) -> bytes:
+    return hashlib.sha256(kept).hexdigest().encode()

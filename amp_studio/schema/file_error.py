@@ -1,0 +1,39 @@
+"""A file that cannot be used, whatever it is: facts, rules, projects, parameter files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .regular_file import MOST_BYTES, read_file
+from .yaml_reader import Document, YamlError, read_yaml
+
+
+class FileError(ValueError):
+    """A file that cannot be used: path, line and one clear sentence; nothing was changed."""
+
+    def __init__(self, path: Path, line: int | None, what: str) -> None:
+        self.path, self.line, self.what = path, line, what
+        super().__init__(f"{path}{f', line {line}' if line else ''}: {what}")
+
+
+def text_of(path: Path, content: bytes, error: type[FileError] = FileError) -> str:
+    """Return the text of a file's content; raises ``error``."""
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as fault:
+        line = content[: fault.start].count(b"\n") + 1
+        raise error(path, line, "is not UTF-8 text") from None
+
+
+def read_yaml_file(
+    path: Path, error: type[FileError], *, most: int = MOST_BYTES, references: bool = False
+) -> Document:
+    """Return the YAML document of a file, with the places of its entries; raises ``error``."""
+    try:
+        content = read_file(path, most)
+    except OSError as fault:
+        raise error(path, None, f"cannot be read: {fault.strerror or fault}") from None
+    try:
+        return read_yaml(text_of(path, content, error), spans=True, references=references)
+    except YamlError as fault:
+        raise error(path, fault.line, fault.what) from None

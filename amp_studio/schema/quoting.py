@@ -1,0 +1,17 @@
+"""How a message repeats what somebody wrote: short, and without a sign that a terminal would obey."""
+
+from __future__ import annotations
+
+from .visible import visible
+
+LONGEST = 60
+
+
+def quoted(text: str) -> str:
+    """Return ``'text'`` for a message, cut to ``LONGEST`` signs, every sign of it visible."""
+    return f"'{short(text)}'"
+
+
+def short(text: str) -> str:
+    """Return a text for a message, cut to ``LONGEST`` signs, every sign of it visible."""
+    return visible(text if len(text) <= LONGEST else text[: LONGEST - 1] + "…")

@@ -1,0 +1,267 @@
+"""The one reader of YAML: facts, rules, projects and parameter files all pass here.
+
+It reads the parser's events and makes dict, list and scalars of them by itself, because a general loader does more
+than any of these files needs: it follows references (a short file that fills the memory), makes objects of tags and
+dates of texts, and raises whatever the part that it stumbles over raises. Here there are none of these, depth and size
+are bounded, a key stands once, a file is one document, and every failure is one ``YamlError`` with its line.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import Any, NamedTuple
+
+from .quoting import quoted
+
+DEEPEST = 50
+"""Collections in each other."""
+LARGEST = 16_000_000
+"""Signs of a document; the largest machine of the examples has 36,000."""
+
+Path = tuple[str | int, ...]
+"""The way to a value: keys of mappings, positions in lists."""
+
+
+class YamlError(ValueError):
+    """A text that cannot be used: what is wrong, and in which line (from 1)."""
+
+    def __init__(self, what: str, line: int | None = None, *, is_syntax: bool = False) -> None:
+        self.line, self.what, self.is_syntax = line, what, is_syntax
+        super().__init__(what)
+
+
+class Span(NamedTuple):
+    """Where an entry of a mapping or list stands in the text, in signs from 0."""
+
+    start: int
+    """Of the key, or of the item of a list."""
+    value: int
+    end: int
+    """Behind the last sign of the value."""
+    is_flow: bool
+    """It stands in ``{}`` or ``[]``."""
+
+
+@dataclass
+class Document:
+    """What a text holds."""
+
+    text: str
+    data: Any = None
+    is_closed: bool = False
+    """It ends with the end mark ``...``."""
+    spans: dict[Path, Span] | None = None
+
+    def line(self, path: Path) -> int:
+        """Return the line of an entry, or of what it would stand in; needs the spans."""
+        spans = self.spans or {}
+        while path and path not in spans:
+            path = path[:-1]
+        return bisect_right(self._starts, spans[path].start) if path else 1
+
+    @property
+    def _starts(self) -> list[int]:
+        """Where each line begins."""
+        found: list[int] | None = self.__dict__.get("_found")
+        if found is None:
+            lines = self.text.split("\n")
+            found = [0, *accumulate(len(line) + 1 for line in lines[:-1])]
+            self.__dict__["_found"] = found
+        return found
+
+
+_UNREADABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff")
+_BREAK = "\n\r\x85\u2028\u2029"
+_BLANK = re.compile(rf"(?:[ \t]*(?:#[^{_BREAK}]*)?(?:[{_BREAK}]|$))*")
+
+
+def read_yaml(
+    text: str, scalar: Callable[[str], Any] | None = None, *, spans: bool = False, references: bool = False
+) -> Document:
+    """Read the one document of a text; an empty one is None.
+
+    ``scalar`` says what a plain scalar means, ``typed_scalar`` where nothing is said. With ``spans`` every entry has its
+    place. ``references`` are for facts of our own, which say a list once. Raises YamlError.
+    """
+    text = text.removeprefix("\ufeff")
+    if len(text) > LARGEST:
+        raise YamlError(f"is too large: {len(text):,} signs, and {LARGEST:,} are the most")
+    if odd := _UNREADABLE.search(text):
+        raise YamlError(
+            f"is not readable: the sign U+{ord(odd[0]):04X} has no place in it", _line_at(text, odd.start())
+        )
+    start = _BLANK.match(text)
+    if start and text.startswith("%", start.end()):
+        raise YamlError("is not readable: it begins with a YAML directive", _line_at(text, start.end()))
+    return _Reader(text, scalar or typed_scalar, spans, references).read()
+
+
+def _line_at(text: str, at: int) -> int:
+    return text.count("\n", 0, at) + 1
+
+
+class _Reader:
+    def __init__(self, text: str, scalar: Callable[[str], Any], spans: bool, references: bool) -> None:
+        self.scalar, self.depth = scalar, 0
+        self.anchors: dict[str, Any] | None = {} if references else None
+        self.document = Document(text, spans={} if spans else None)
+
+    def read(self) -> Document:
+        from ruamel.yaml import YAML
+        from ruamel.yaml.error import MarkedYAMLError, YAMLError
+
+        events = YAML(typ="safe").parse(self.document.text)
+        try:
+            self._read(events)
+        except MarkedYAMLError as error:
+            mark = error.problem_mark
+            line = _line_at(self.document.text, mark.index) if mark else None
+            raise YamlError(f"is not readable: {error.problem}", line, is_syntax=True) from None
+        except YAMLError as error:
+            raise YamlError(f"is not readable: {str(error).splitlines()[0]}") from None
+        return self.document
+
+    def _read(self, events: Iterator[Any]) -> None:
+        document = self.document
+        for event in events:
+            kind = type(event).__name__
+            if kind == "DocumentStartEvent":
+                document.data, _ = self._node(next(events), events, ())
+            elif kind == "DocumentEndEvent":
+                document.is_closed = bool(event.explicit)
+                self._check_end(event)
+                return  # what the parser would do with the rest is not asked: it has been looked at
+
+    def _check_end(self, event: Any) -> None:
+        """See that nothing but remarks stands behind the document; the parser would read on there."""
+        text, at = self.document.text, event.end_mark.index
+        if rest := _BLANK.match(text, at):
+            at = rest.end()
+        if at < len(text):
+            raise YamlError("is not readable: something stands behind its end", _line_at(text, at))
+
+    def _node(self, event: Any, events: Iterator[Any], path: Path) -> tuple[Any, int]:
+        """Return a value, and where its text ends."""
+        anchor, is_alias = event.anchor, type(event).__name__ == "AliasEvent"
+        if anchor is not None and (self.anchors is None or (is_alias and anchor not in self.anchors)):
+            raise self._error("is not readable: it uses a YAML reference", event)
+        if is_alias and self.anchors is not None:
+            return self.anchors[anchor], event.end_mark.index
+        if event.tag is not None:
+            raise self._error("is not readable: it uses a YAML tag", event)
+        data, end = self._content(event, events, path)
+        if anchor is not None and self.anchors is not None:
+            self.anchors[anchor] = data
+        return data, end
+
+    def _content(self, event: Any, events: Iterator[Any], path: Path) -> tuple[Any, int]:
+        kind = type(event).__name__
+        if kind == "ScalarEvent":
+            said = event.value
+            return self.scalar(said) if event.implicit[0] else said, event.end_mark.index
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise self._error(f"is not readable: more than {DEEPEST} lists and mappings in each other", event)
+        data: Any
+        data, end = (
+            self._mapping(event, events, path)
+            if kind == "MappingStartEvent"
+            else self._sequence(event, events, path)
+        )
+        self.depth -= 1
+        return data, end
+
+    def _mapping(self, start: Any, events: Iterator[Any], path: Path) -> tuple[dict[Any, Any], int]:
+        found: dict[Any, Any] = {}
+        spans, end = self.document.spans, start.end_mark.index
+        while type(event := next(events)).__name__ != "MappingEndEvent":
+            key, _ = self._node(event, events, path)
+            if not isinstance(key, (str, int)):
+                raise self._error("is not readable: a key is no text", event)
+            if key in found:
+                raise self._error(f"{quoted(str(key))} stands twice", event)
+            at = (*path, key)
+            value = next(events)
+            found[key], end = self._node(value, events, at)
+            if spans is not None:
+                spans[at] = Span(event.start_mark.index, value.start_mark.index, end, bool(start.flow_style))
+        if self.anchors is not None and isinstance(found.get("<<"), dict):
+            found = {**found.pop("<<"), **found}
+        return found, event.end_mark.index if start.flow_style else end
+
+    def _sequence(self, start: Any, events: Iterator[Any], path: Path) -> tuple[list[Any], int]:
+        found: list[Any] = []
+        spans, end = self.document.spans, start.end_mark.index
+        while type(event := next(events)).__name__ != "SequenceEndEvent":
+            at = (*path, len(found))
+            item, end = self._node(event, events, at)
+            found.append(item)
+            if spans is not None:
+                spans[at] = Span(event.start_mark.index, event.start_mark.index, end, bool(start.flow_style))
+        return found, event.end_mark.index if start.flow_style else end
+
+    def _error(self, what: str, event: Any) -> YamlError:
+        return YamlError(what, _line_at(self.document.text, event.start_mark.index))
+
+
+# -- what plain scalars mean ---------------------------------------------------------------------------------------
+
+_NULLS = frozenset(("", "~", "null", "Null", "NULL"))
+_TRUTHS = {"true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False}
+_WHOLE = re.compile(r"[-+]?[0-9]+")
+_BASED = re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+")
+_REAL = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+_LONGEST_NUMBER = 40
+
+
+def text_scalar(text: str) -> str | None:
+    """Return the text itself, None for null: what kind a value is, something else says."""
+    return None if text in _NULLS else text
+
+
+def typed_scalar(text: str) -> Any:
+    """Return None, a truth value, a number or a text, as the core schema of YAML 1.2 has it.
+
+    A number that is not finite or has more than 40 signs stays the text it is.
+    """
+    if text in _NULLS:
+        return None
+    if text in _TRUTHS:
+        return _TRUTHS[text]
+    if len(text) > _LONGEST_NUMBER or text[0] not in "-+.0123456789":
+        return text
+    if _WHOLE.fullmatch(text):
+        return int(text)
+    if _BASED.fullmatch(text):
+        return int(text, 0)
+    if _REAL.fullmatch(text):
+        number = float(text)
+        return number if math.isfinite(number) else text
+    return text
+
+
+class SpelledInt(int):
+    """A whole number that is written otherwise than Python writes it: 007, 0x1F."""
+
+    spelling = ""
+
+
+class SpelledFloat(float):
+    """A number that is written otherwise than Python writes it: a version 1.10."""
+
+    spelling = ""
+
+
+def spelled_scalar(text: str) -> Any:
+    """Return what ``typed_scalar`` does, with a number that remembers how it is spelled."""
+    found = typed_scalar(text)
+    if isinstance(found, (str, bool)) or found is None or repr(found) == text:
+        return found
+    number = SpelledInt(found) if isinstance(found, int) else SpelledFloat(found)
+    number.spelling = text
+    return number
