@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -297,3 +298,82 @@ def test_the_cache_of_another_family_stays(database, tmp_path, facts) -> None:
     load()
     assert other in cached(tmp_path)
     assert len(cached(tmp_path)) == 2
+
+
+def warned(caplog) -> list[str]:
+    """Return what the log warns of."""
+    return [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
+
+
+def test_a_cache_that_was_changed_but_is_still_json_is_made_again_and_named(
+    database, tmp_path, caplog
+) -> None:
+    expected = load()
+    (path,) = cached(tmp_path)
+    whole = path.read_bytes()
+    path.write_bytes(whole.replace(b'"Speed"', b'"Spend"'))
+    assert path.read_bytes() != whole
+    assert (load(), path.read_bytes()) == (expected, whole)
+    assert warned(caplog) == [
+        f"{path} cannot be used and is made anew: its content is not what was kept there"
+    ]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows has neither pipes nor devices in a folder")
+@pytest.mark.parametrize(
+    "kind", ["pipe", "folder", "device", "link to a device", "link to nothing", "link to itself", "garbage"]
+)
+def test_whatever_lies_where_the_cache_should_is_named_and_neither_waited_for_nor_followed(
+    database, tmp_path, caplog, kind: str
+) -> None:
+    expected = load()
+    (path,) = cached(tmp_path)
+    whole = path.read_bytes()
+    path.unlink()
+    elsewhere = tmp_path / "elsewhere"
+    match kind:
+        case "pipe":
+            os.mkfifo(path)
+        case "folder":
+            path.mkdir()
+        case "device":
+            path.symlink_to("/dev/tty")
+        case "link to a device":
+            path.symlink_to("/dev/zero")
+        case "link to nothing":
+            path.symlink_to(elsewhere)
+        case "link to itself":
+            path.symlink_to(path)
+        case "garbage":
+            path.write_bytes(b"\0" * 1000)
+    assert load() == expected
+    if kind == "folder":  # nothing takes its place: it may be somebody's
+        assert path.is_dir()
+    else:
+        assert (path.is_symlink(), path.read_bytes()) == (False, whole)
+    assert not elsewhere.exists()
+    if kind != "link to nothing":
+        assert [said.startswith(f"{path} cannot be used and is made anew: ") for said in warned(caplog)] == [
+            True
+        ]
+
+
+def test_a_cache_file_of_any_size_is_not_read_whole(database, tmp_path, caplog) -> None:
+    expected = load()
+    (path,) = cached(tmp_path)
+    with path.open("r+b") as stream:
+        stream.truncate(2**40)
+    assert load() == expected
+    assert "Is larger than 64 MiB" in warned(caplog)[0]
+
+
+def test_the_cache_of_another_family_whose_name_begins_alike_stays(database, tmp_path) -> None:
+    load()
+    (path,) = cached(tmp_path)
+    other = path.with_name("small-er-" + "0" * 24 + ".json")
+    older = path.with_name("small-" + "0" * 24 + ".json")
+    other.write_bytes(b"")
+    older.write_bytes(b"")
+    path.unlink()
+    load()
+    assert (other.exists(), older.exists()) == (True, False)
