@@ -69,7 +69,7 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
         ("severity: warning", "severity: fatal", "line 5: builder.rapid: severity: Input should be"),
         ("check: ", "chek: ", "line 3: builder.rapid: check: Field required"),
         ("title: Rapid of this machine", "title: 1", "line 4: builder.rapid: title: Input should be a valid str"),
-        ("rules:", "rules: [", "line 3: did not find expected"),
+        ("rules:", "rules: [", "line 3: is not readable: did not find expected"),
         ("rules:", "rule:", "line 2: rule: here stand rules, suppressions"),
         ("feedrate.rapid}", "feedrate.rapids}", "line 3: rule builder.rapid: reads 'feedrate.rapids', which the"),
         ("<= 10000.0", "<=", "line 3: rule builder.rapid: check: "),
