@@ -17,6 +17,7 @@ from amp_studio.schema import (
     read_address,
     same_value,
     show_value,
+    shown,
     written,
 )
 
@@ -133,9 +134,10 @@ class DetailPanel(QWidget):
         file = self._workspace.file
         if file.schema.parameters[address[0]].choices:
             return ""
-        found = limits(file.situation, address, self._workspace.typed_unit(address))
+        unit = self._workspace.typed_unit(address)
+        found = limits(file.situation, address, unit)
         if found is None:
-            return ""
+            return f"no bounds printed, in {shown(unit)}" if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = found.text() + "".join(f" (set by {file.schema.label(s, file.machine)})" for s in sources)
         return text + (" — degrees are not printed; the metric figures are used" if found.borrowed else "")
