@@ -225,7 +225,7 @@ def test_the_module_writes_its_status_itself(schema: Schema) -> None:
 COMMANDS = {
     "change default setups": {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 31, 34, 36, 83},
     "home axis": {15, 17, 19, 21, 23, 34, 36},
-    "enable feedback": {10, 11, 13},
+    "enable feedback": {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 31, 34, 36},
     "define sync position": {17, 29},
     "update LEDs": {27},
     "latch status": {74, 76, 78, 80, 81},
@@ -234,7 +234,8 @@ COMMANDS = {
     "change velocity": {19},
     "output volts": {28},
 }
-"""Page 4-32 for the default setups (registers 0-14, 31, 34-37 and 83), the pages of the registers for the rest."""
+"""Page 4-32 for the default setups (registers 0-14, 31, 34-37 and 83), 4-24 for enable feedback, which reads the set-up
+data too; the pages of the registers for the rest."""
 
 
 @pytest.mark.parametrize("command", COMMANDS)
