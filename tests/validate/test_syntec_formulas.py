@@ -103,17 +103,21 @@ def test_the_series_are_those_of_the_parameter_and_of_its_printed_table() -> Non
     schema = load_schema("syntec")
     notes = {c.key: c.note for c in schema.parameter("control.series").choices}
     told = {
-        key: f"hardware basic time {time:.0f} µs" for key, time in syntec.dda.HARDWARE_BASIC_TIMES_US.items()
-    }
+        key: f"hardware basic time {time:.0f} µs" for key, time in syntec.dda.PRINTED_BASIC_TIMES_US.items()
+    } | dict.fromkeys(syntec.dda.WITHOUT_PRINTED_TIME, "no time is printed, 983 µs is assumed")
     assert {key: note for key, note in notes.items() if note} == told
     assert schema.tables["hardware-basic-time"].column("Hardware basic time")[:2] == (983.0, 819.0)
 
 
-@pytest.mark.parametrize("series", ["s20", "s21", "s6", "ez", ""])
-def test_without_a_printed_time_there_is_no_limit(series: str) -> None:
+@pytest.mark.parametrize("series", ["s20", "s21", "s6", "ez"])
+def test_without_a_printed_time_the_longest_one_counts(series: str) -> None:
     """Section 1.4.1: the 20/21 series refer to Pr3203; the others are not named."""
-    with pytest.raises(ValueError, match="series must be one of super, a10, b10"):
-        syntec.hardware_basic_time_us(series)
+    assert syntec.hardware_basic_time_us(series) == 983
+
+
+def test_a_series_that_does_not_exist_has_no_time() -> None:
+    with pytest.raises(ValueError, match="series must be one of super, a10, b10, s20, s21, s6, ez"):
+        syntec.hardware_basic_time_us("s30")
 
 
 def test_the_interpolation_time_of_the_example() -> None:

@@ -11,16 +11,24 @@ DDA_LIMIT = 2047.0
 
 US_PER_MINUTE = 60e6
 
-HARDWARE_BASIC_TIMES_US = {"super": 983.0, "a10": 819.0, "b10": 819.0}
-"""Hardware basic time by Controller series; of the 20 and 21 series none is printed (page 1.4.1)."""
+PRINTED_BASIC_TIMES_US = {"super": 983.0, "a10": 819.0, "b10": 819.0}
+"""Hardware basic time by Controller series (page 1.4.1)."""
+
+WITHOUT_PRINTED_TIME = ("s20", "s21", "s6", "ez")
+"""Series of which none is printed (erratum e-3203-series)."""
 
 
 def hardware_basic_time_us(series: str) -> float:
-    """Hardware basic time in µs: 983 for super, 819 for a10 and b10 (page 1.4.1)."""
+    """Hardware basic time in µs: 983 for super, 819 for a10 and b10 (page 1.4.1).
+
+    Of the other series none is printed; they get the longest, with which the limit is lowest.
+    """
+    if series in WITHOUT_PRINTED_TIME:
+        return max(PRINTED_BASIC_TIMES_US.values())
     try:
-        return HARDWARE_BASIC_TIMES_US[series]
+        return PRINTED_BASIC_TIMES_US[series]
     except KeyError:
-        known = ", ".join(HARDWARE_BASIC_TIMES_US)
+        known = ", ".join((*PRINTED_BASIC_TIMES_US, *WITHOUT_PRINTED_TIME))
         raise ValueError(f"series must be one of {known}, not '{series}'.") from None
 
 
