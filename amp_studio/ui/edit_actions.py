@@ -215,7 +215,9 @@ class EditActions:
             self.window.say(f"Kept in {path}")
 
     def repair(self, finding: Finding) -> None:
-        """Apply the repair of a finding as one step."""
+        """Apply the repair of a finding as one step; only one that is offered now has been tried."""
+        if finding not in self._workspace().findings:
+            raise ValueError("This finding has changed or is gone: look at the findings again.")
         self._workspace().edit("Repair", {r.address: r.value for r in finding.repairs})
 
     def repair_safe(self) -> None:
