@@ -75,6 +75,8 @@ none: .nan
 quoted: "a: 'b'"
 deep: {list: [a, {b: 0x1F}], text: |-
     not a block}
+5: a key like a number
+~: {2.: a, true: b, ~: c}
 nested:
   - one   # with a remark
   - two: [3]

@@ -20,8 +20,8 @@ def refused(text: str) -> tuple[str, int | None]:
 
 
 def test_plain_values_are_what_they_look_like_and_quoted_ones_are_texts() -> None:
-    text = "a: 1\nb: 2.5\nc: true\nd: ~\ne: '1'\nf: 0x1F\ng: [yes, 1e3, -.5]\nh: {i: x}\n7: seven\n"
-    expected = {"a": 1, "b": 2.5, "c": True, "d": None, "e": "1", "f": 31, "g": ["yes", 1000.0, -0.5], "h": {"i": "x"}, 7: "seven"}  # fmt: skip
+    text = "a: 1\nb: 2.5\nc: true\nd: ~\ne: '1'\nf: 0x1F\ng: [yes, 1e3, -.5]\nh: {i: x}\n7: seven\n2.: b\n"
+    expected = {"a": 1, "b": 2.5, "c": True, "d": None, "e": "1", "f": 31, "g": ["yes", 1000.0, -0.5], "h": {"i": "x"}, "7": "seven", "2.": "b"}  # fmt: skip
     assert read_yaml(text).data == expected
 
 
