@@ -11,7 +11,7 @@ from .link import Link
 from .message import AnyMessage, Code, Message, Refusal, Refused, pack, unpack
 from .pace import Limits, Pace
 
-SLICE = 0.1  # seconds a read may block before the cancel event is looked at again
+SLICE = 0.1  # seconds a read may block before ``look`` is called again
 
 # An unnumbered refusal: the control turns the line away before it was asked anything.
 UNASKED = 0
@@ -82,6 +82,8 @@ class Conversation:
         Repeats it under the same number, waiting twice as long each time and at first ``at_least`` seconds.
         Raises Refusal when the control refuses, Silence when it never answers, LinkError.
         """
+        # Only the answer to a request that was sent once is timed (Karn): after that nobody knows which
+        # sending it answers, and a late answer to the first would make the timeouts too short for good.
         number = next(self._numbers)
         encoded = encode_frame(pack(message, number))
         for attempt in range(tries or self.pace.limits.tries):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from amp_studio.schema.visible import visible
+
 from .message import Code, Refusal
 
 # "old": what it held before this exchange; "new": the image that was sent; "": nothing was to be sent.
@@ -12,8 +14,9 @@ Held = Literal["", "old", "new", "unknown"]
 HELD_TEXT: dict[Held, str] = {
     "": "",
     "old": "nothing was replaced in the control",
-    "new": "the control holds the new image",
-    "unknown": "whether the control holds the old or the new image is not known: verify before you go on",
+    "new": "the control holds the new image, which was not read back",
+    "unknown": "whether the control holds the old or the new image is not known: verify before you go on "
+    "(amp-studio verify FILE --with ADDRESS)",
 }
 
 
@@ -25,6 +28,8 @@ class TransferError(OSError):
     """
 
     def __init__(self, what: str, held: Held = "old", kept: str | None = None) -> None:
+        # Much of it are words of the other end: what steers a terminal is shown, not obeyed.
+        what = visible(what)
         super().__init__(what)
         self.what = what
         self.held: Held = held

@@ -16,6 +16,7 @@ from typing import Literal
 
 from .errors import (
     HELD_TEXT,
+    Cancelled,
     Held,
     ImageChanged,
     KeepFailed,
@@ -69,7 +70,7 @@ class Verification:
 def upload(session: Session, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
     """Return the image the control holds; raises TransferError."""
     with _only_looking():
-        session.hello(cancel)
+        session.hello(cancel, progress)
         return session.fetch(progress, cancel)
 
 
@@ -78,7 +79,7 @@ def verify(
 ) -> Verification:
     """Read everything the control holds and compare it with an image byte for byte; raises TransferError."""
     with _only_looking():
-        session.hello(cancel)
+        session.hello(cancel, progress)
         held = session.fetch(progress, cancel, "verify")
     at = first_difference(image, held)
     return Verification(at is None, at, held)
@@ -117,7 +118,7 @@ def download(
     where its old image is.
     """
     digest = hashlib.sha256(image)
-    welcome = session.hello(cancel)
+    welcome = session.hello(cancel, progress)
     if not is_return:
         _check_signature(welcome, signature)
     _check_expected(expected, welcome.sha256)
@@ -143,6 +144,8 @@ def download(
     except TransferError as error:
         error.held, error.kept = "new", kept
         raise
+    except KeyboardInterrupt:
+        raise Cancelled("stopped", "new", kept) from None
 
 
 def first_difference(a: bytes, b: bytes) -> int | None:

@@ -12,7 +12,6 @@ from .errors import (
     Cancelled,
     ControlBusy,
     ControlSilent,
-    Held,
     LineCut,
     ProtocolMismatch,
     TransferError,
@@ -21,24 +20,40 @@ from .errors import (
 from .link import Link, LinkError
 from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, Refusal, Welcome
 from .pace import Limits
+from .progress import SILENT, Progress, Stop, quiet
 from .streaming import window_limit
 
 Result = TypeVar("Result")
+OpenLink = Callable[[Callable[[], None]], Link]
 
 PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
 LONGEST_PAUSE = 2.0  # up to this
 SLICE = 0.1  # seconds a pause may last before the cancel event is looked at again
+SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is told so
+SILENT_EVERY = 1.0  # seconds until he is told again
+LINGER = 5.0  # seconds a commit is seen through after somebody has asked to stop
+
+# Patience begins anew only with a step of so many bytes (fewer of a small image, on a slow line, or at the
+# end): a control cannot keep a client for ever by giving it a byte every few seconds.
+STEP = 1_024
+STEPS = 64
+
+
+class OutOfTime(Silence):
+    """Patience has ended, or nobody wants to wait any longer."""
 
 
 class Line:
     """Conversations with one control, one after the other; ``welcome`` is what it said last about itself.
 
-    ``cancel`` may be set from another thread; then whatever waits here raises Cancelled.
+    ``open_link`` gets a function to call at least every 0.1 s while it waits. ``cancel`` may be set from
+    another thread: then whatever waits here raises Cancelled; while ``is_committing`` it waits a little
+    longer for the answer. ``progress`` is told of silences too, and nothing it raises matters.
     """
 
     def __init__(
         self,
-        open_link: Callable[[], Link],
+        open_link: OpenLink,
         *,
         family: str,
         client: str,
@@ -49,6 +64,8 @@ class Line:
         random_bytes: Callable[[int], bytes],
     ) -> None:
         self.cancel: threading.Event | None = None
+        self.progress: Progress = quiet
+        self.is_committing = False
         self.welcome: Welcome | None = None
         self.reconnections = 0
         self.now = clock
@@ -60,7 +77,11 @@ class Line:
         self._limits = limits
         self._sleep = sleep
         self._talk: Conversation | None = None
-        self._moved_at = clock()
+        self._until: float | None = None  # when patience ends
+        self._reached = 0  # bytes of the image under way when patience last began anew
+        self._best = 0  # the most bytes of it that were ever there
+        self._moved_at = self._told_at = clock()
+        self._stopped_at: float | None = None
 
     def close(self) -> None:
         """Hang up."""
@@ -76,7 +97,12 @@ class Line:
         talk = self._talk
         if talk is None:
             first = int.from_bytes(self.random(2), "little")
-            talk = Conversation(self._open_link(), self.now, self._limits, first=first, look=self._look)
+            link = self._open_link(self._look)
+            try:
+                talk = Conversation(link, self.now, self._limits, first=first, look=self._look)
+            except BaseException:
+                link.close()
+                raise
             self._talk = talk
         nonce = self.random(4)
         welcome = talk.request(Hello(PROTOCOL_VERSION, nonce, self._client), Welcome, tries=tries)
@@ -96,16 +122,14 @@ class Line:
         self.welcome = welcome
         return welcome
 
-    def persist(
-        self, action: Callable[[Conversation], Result], held: Callable[[], Held] = lambda: "old"
-    ) -> Result:
-        """Run ``action`` to its end, on as many lines as it takes.
+    def persist(self, action: Callable[[Conversation], Result]) -> Result:
+        """Run ``action`` to its end, on as many lines as it takes, until patience ends.
 
-        ``held`` says what the control holds should no line come back. Raises Refusal, LineCut, ControlSilent,
-        ControlBusy.
+        Raises Refusal, LineCut, ControlSilent, ControlBusy, Cancelled.
         """
-        self._moved_at = self.now()
+        self.begin()
         pause = PAUSE
+        cause: Exception = Silence()
         while True:
             try:
                 if self._talk is None:
@@ -113,28 +137,62 @@ class Line:
                     self.reconnections += 1
                 assert self._talk is not None
                 return action(self._talk)
+            except OutOfTime:
+                self.close()
+                raise self._gave_up(cause) from cause
             except (LinkError, Silence) as error:
-                cause: Exception = error
+                cause = error
             except Refusal as refusal:
                 if refusal.code != Code.BUSY:
                     raise
                 cause = refusal
             self.close()
-            if self.now() - self._moved_at >= self._patience:
-                raise self._gave_up(cause, held()) from cause
-            self.pause(pause, held)
+            try:
+                self.pause(pause)
+            except OutOfTime:
+                raise self._gave_up(cause) from cause
             pause = min(pause * 1.5, LONGEST_PAUSE)
 
-    def once(self, action: Callable[[Conversation], object]) -> None:
-        """Run ``action`` if there is a line, whether or not it succeeds, and hang up."""
+    def once(self, action: Callable[[Conversation], object], seconds: float) -> None:
+        """Run ``action`` if there is a line, whether or not it succeeds, for so long, and hang up."""
+        self.begin(seconds)
         if self._talk is not None:
             with contextlib.suppress(LinkError, Silence, Refusal):
                 action(self._talk)
         self.close()
 
-    def moved(self) -> None:
-        """Something got further: patience begins anew."""
-        self._moved_at = self.now()
+    # -- patience ----------------------------------------------------------------------------------
+
+    def begin(self, seconds: float | None = None) -> None:
+        """Let patience begin, for ``seconds`` or as long as it is on this line."""
+        self.further()
+        self._until = self.now() + (self._patience if seconds is None else seconds)
+        self._reached = self._best = 0
+
+    def further(self) -> None:
+        """Something that was waited for is there: nothing is silent."""
+        was_silent = self._told_at > self._moved_at
+        self._moved_at = self._told_at = self.now()
+        if was_silent:
+            self.tell(SILENT, 0, round(self._patience))
+
+    def moved(self, done: int, total: int) -> None:
+        """``done`` of ``total`` bytes are there: after a step of some size patience begins anew."""
+        if self.is_committing:
+            return  # everything is there; only the answer to the commit counts
+        if done > self._best:
+            self._best = done
+            self.further()
+        rate = self._talk.link.bytes_per_second if self._talk is not None else None
+        step = min(STEP, total // STEPS, total if rate is None else int(rate * self._patience / 10))
+        if done >= min(total, self._reached + max(1, step)) and done > self._reached:
+            self._reached = done
+            self._until = self.now() + self._patience
+
+    def tell(self, stage: str, done: int, total: int) -> None:
+        """Tell whoever waits; that he cannot be told ends no exchange."""
+        with contextlib.suppress(Exception):
+            self.progress(stage, done, total)
 
     def sizes(self, talk: Conversation) -> tuple[int, int]:
         """Return the length of a chunk in bytes and how many may be under way."""
@@ -142,27 +200,43 @@ class Line:
         chunk = self.welcome.chunk
         return chunk, window_limit(chunk, self.welcome.window, talk.link.bytes_per_second)
 
-    def pause(self, seconds: float, held: Callable[[], Held] = lambda: "old") -> None:
-        """Wait; raises Cancelled."""
+    def pause(self, seconds: float) -> None:
+        """Wait; raises Cancelled, OutOfTime."""
         end = self.now() + seconds
         while (left := end - self.now()) > 0:
-            if self.cancel is not None and self.cancel.is_set():
-                raise Cancelled("cancelled", held())
+            self._look()
             self._sleep(min(left, SLICE))
 
     def _look(self) -> None:
+        """Be called by everything that waits, at least every 0.1 s."""
+        now = self.now()
         if self.cancel is not None and self.cancel.is_set():
-            raise Cancelled("cancelled")
+            self._stop(self.cancel, now)
+        if self._until is not None and now >= self._until:
+            raise OutOfTime
+        silent = now - self._moved_at
+        if silent >= SILENT_AFTER and now - self._told_at >= SILENT_EVERY:
+            self._told_at = now
+            left = 0.0 if self._until is None else self._until - now
+            self.tell(SILENT, round(silent), round(silent + left))
 
-    def _gave_up(self, cause: Exception, held: Held) -> TransferError:
+    def _stop(self, cancel: threading.Event, now: float) -> None:
+        if not self.is_committing:
+            raise Cancelled("stopped")
+        if self._stopped_at is None:
+            self._stopped_at = now
+        if now - self._stopped_at >= LINGER or (isinstance(cancel, Stop) and cancel.is_urgent):
+            raise OutOfTime
+
+    def _gave_up(self, cause: Exception) -> TransferError:
         waited = f"for {self._patience:g} s"
+        if self.cancel is not None and self.cancel.is_set():
+            return Cancelled("stopped before the control has answered")
         if isinstance(cause, LinkError):
-            return LineCut(
-                f"the line to the control is cut and could not be made again {waited} ({cause})", held
-            )
+            return LineCut(f"the line to the control is cut and could not be made again {waited} ({cause})")
         if isinstance(cause, Refusal):
-            return ControlBusy(f"another client has had the control {waited}", held)
-        return ControlSilent(f"the control has not answered {waited}", held)
+            return ControlBusy(f"another client has had the control {waited}")
+        return ControlSilent(f"the control has not answered {waited}")
 
 
 def _identity(welcome: Welcome) -> tuple[str, str, str]:

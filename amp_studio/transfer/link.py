@@ -6,6 +6,7 @@ off what it carries; the layers above live with that.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 from .address import Address
@@ -31,7 +32,9 @@ class Link(Protocol):
         """Return what has come, at the latest after ``timeout`` seconds (then b""); raises LinkError."""
 
     def write(self, data: bytes) -> None:
-        """Hand over all bytes; raises LinkError when the line is gone or takes nothing more."""
+        """Hand over all bytes; raises LinkError when the line is gone or takes nothing more, and what the
+        link was told to call while it waits raises.
+        """
 
     def close(self) -> None:
         """Give the line up. Closing twice is no fault."""
@@ -51,16 +54,23 @@ class Listener(Protocol):
         """Wait no longer."""
 
 
-def connect(address: Address, timeout: float = 3.0) -> Link:
-    """Open the line to a control, within ``timeout`` seconds; raises LinkError."""
+def keep_waiting() -> None:
+    """Be called by a link that waits, when nothing speaks against it."""
+
+
+def connect(address: Address, timeout: float = 3.0, look: Callable[[], None] = keep_waiting) -> Link:
+    """Open the line to a control, within ``timeout`` seconds; raises LinkError.
+
+    ``look`` is called at least every 0.1 s while opening and writing wait, and may raise to break off.
+    """
     if address.kind == "tcp":
         from .tcp import connect_tcp
 
-        return connect_tcp(address, timeout)
+        return connect_tcp(address, timeout, look)
     if address.kind == "serial":
         from .serial_line import open_port
 
-        return open_port(address)
+        return open_port(address, look)
     raise LinkError(
         address, "a pseudo terminal can only be listened on; connect to the serial: name it was given"
     )

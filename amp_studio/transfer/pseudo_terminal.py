@@ -13,6 +13,7 @@ from .link import LinkError
 
 WRITE_LIMIT = 1.0  # seconds until bytes that nobody reads are lost, as on an unplugged cable
 READ_SIZE = 65_536
+LAST_READS = 16
 
 
 class PtyLink:
@@ -83,8 +84,8 @@ class PtyListener:
         if self._link is not None and self._link.is_open:
             return None
         with contextlib.suppress(OSError):
-            while os.read(self._master, READ_SIZE):
-                pass  # what was sent while nobody listened is lost
+            for _ in range(LAST_READS):
+                os.read(self._master, READ_SIZE)  # what was sent while nobody listened is lost
         self._link = PtyLink(self.address, self._master)
         return self._link
 

@@ -7,14 +7,14 @@ import threading
 from dataclasses import dataclass
 
 from .conversation import Conversation
-from .errors import Cancelled, Held, ImageChanged, TransferError, error_of
-from .line import Line
+from .errors import Cancelled, Held, ImageChanged, ProtocolMismatch, TransferError, error_of
+from .line import STEPS, Line
 from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, Refusal
-from .progress import Progress
 from .streaming import push
 
 ATTEMPTS = 3  # how often in a row a control may lose or spoil what is staged
 COMMIT_WAIT = 2.0  # seconds a control may at least take to write an image to its memory
+COMMIT_TRIES = 2  # then the line may be the fault: the commit is asked for again on another
 ABORT_WAIT = 0.5  # seconds
 
 
@@ -29,21 +29,21 @@ class Sent:
 class Sending:
     """Sends one image under one transfer id; ``held`` is what the control holds as far as can be known."""
 
-    def __init__(self, line: Line, image: bytes, signature: str, expected: bytes, progress: Progress) -> None:
+    def __init__(self, line: Line, image: bytes, signature: str, expected: bytes) -> None:
         self._line = line
         self._image = image
         self._signature = signature
         self._expected = expected
-        self._progress = progress
         self._digest = hashlib.sha256(image).digest()
         self._transfer = line.random(16)
         self._reached = 0
-        self._cancel: threading.Event | None = None
+        self._lost = 0  # how often the control had less than it had said before
         self.held: Held = "old"
 
     def run(self, cancel: threading.Event | None) -> Sent:
         """Return what the control answered to the commit; raises TransferError."""
-        self._cancel = self._line.cancel = cancel
+        self._line.cancel = cancel
+        self._line.is_committing = False
         self._line.reconnections = 0
         try:
             return Sent(self._stage_and_commit(), self._line.reconnections)
@@ -53,16 +53,17 @@ class Sending:
             raise
         except KeyboardInterrupt:
             self._abort()
-            raise
+            raise Cancelled("stopped", self.held) from None
         finally:
             self._line.cancel = None
+            self._line.is_committing = False
 
     def _stage_and_commit(self) -> Committed:
         idle = spoilt = 0
         while True:
             before = self._reached
             try:
-                return self._line.persist(self._attempt, lambda: self.held)
+                return self._line.persist(self._attempt)
             except Refusal as refusal:
                 # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
                 # control may also have begun anew without the client's noticing; then it says how much it
@@ -70,45 +71,65 @@ class Sending:
                 if refusal.code == Code.DIGEST:
                     spoilt, self._reached = spoilt + 1, 0
                 elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):
-                    idle = idle + 1 if self._reached <= before else 0
+                    further = self._reached - before > len(self._image) // STEPS
+                    idle = 0 if further else idle + 1
                 else:
                     raise self._error(refusal) from None
                 if max(idle, spoilt) >= ATTEMPTS:
                     raise self._error(refusal) from None
-                self.held = "old"
+                self._old_holds()
 
     def _attempt(self, talk: Conversation) -> Committed:
         """Take the download up where the control says, and commit it."""
         total = len(self._image)
         opening = OpenDownload(self._transfer, total, self._digest, self._expected, self._signature)
-        if self.held == "old":
-            self._line.cancel = self._cancel
         ready = talk.request(opening, Ready)
+        if ready.offset > total:
+            raise ProtocolMismatch(f"the control has staged {ready.offset} bytes of {total}, which cannot be")
         if ready.offset < total:
             # A commit asked for on an earlier line has not happened: what it needs is no longer staged.
-            self.held = "old"
-            self._line.cancel = self._cancel
+            self._old_holds()
+        if ready.offset < self._reached:
+            self._lose(ready.offset)
 
         def done(staged: int) -> None:
-            if staged > self._reached:
-                self._reached = staged
-                self._line.moved()
-            self._progress("download", staged, total)
+            self._reached = max(self._reached, staged)
+            self._line.moved(staged, total)
+            self._line.tell("download", staged, total)
 
         done(ready.offset)
         push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
         return self._commit(talk)
 
     def _commit(self, talk: Conversation) -> Committed:
-        if self._cancel is not None and self._cancel.is_set() and self.held == "old":
-            raise Cancelled("cancelled")
-        self._line.cancel = None  # from here on the matter is seen through
+        cancel = self._line.cancel
+        if self.held == "old":
+            if cancel is not None and cancel.is_set():
+                raise Cancelled("stopped")
+            self._line.begin()  # the time for the commit counts from its first asking, over all lines
+        self._line.tell("commit", 0, 1)
+        self._line.is_committing = True  # from here on the matter is seen through
         self.held = "unknown"
-        self._progress("commit", 0, 1)
-        committed = talk.request(Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT)
+        committed = talk.request(
+            Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT, tries=COMMIT_TRIES
+        )
         self.held = "new"
-        self._progress("commit", 1, 1)
+        self._line.further()
+        self._line.tell("commit", 1, 1)
         return committed
+
+    def _old_holds(self) -> None:
+        """No commit has happened, and nothing needs to be seen through."""
+        self.held = "old"
+        self._line.is_committing = False
+
+    def _lose(self, offset: int) -> None:
+        """The control has lost some of what was staged: send it again, but not for ever."""
+        self._lost += 1
+        if self._lost > ATTEMPTS:
+            raise ProtocolMismatch("the control loses again and again what was sent to it")
+        self._reached = offset
+        self._line.begin()
 
     def _error(self, refusal: Refusal) -> TransferError:
         """Return the error of a refusal, which changes nothing: a commit that has happened is not refused.
@@ -125,8 +146,8 @@ class Sending:
     def _abort(self) -> None:
         """Have the control throw the staged bytes away; one that does not hear it keeps them for nothing."""
         self._line.cancel = None
-        if self.held != "old":
-            return
-        self._line.once(
-            lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1)
-        )
+        if self.held == "old":
+            self._line.once(
+                lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1),
+                ABORT_WAIT,
+            )

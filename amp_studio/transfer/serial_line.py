@@ -7,25 +7,27 @@ import errno
 import os
 import stat
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from .address import Address
-from .link import LinkError
+from .link import LinkError, keep_waiting
 
 SLICE = (
     0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
 )
-WRITE_LIMIT = 10.0  # seconds
+WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
 NO_PORT = "this is no serial port"
 
 
 class SerialLink:
     """One open serial port."""
 
-    def __init__(self, address: Address, port: Any) -> None:
+    def __init__(self, address: Address, port: Any, look: Callable[[], None] = keep_waiting) -> None:
         self._address = address
         self._port = port
+        self._look = look
         self.bytes_per_second: float | None = address.baud / 10.0  # start, eight data bits, stop
         self.is_open = True
 
@@ -46,10 +48,13 @@ class SerialLink:
             raise LinkError(self._address, _said(error)) from None
 
     def write(self, data: bytes) -> None:
-        try:
-            self._port.write(data)
-        except (OSError, TypeError, AttributeError) as error:
-            raise LinkError(self._address, _said(error)) from None
+        piece = max(1, self._address.baud // 100)
+        for start in range(0, len(data), piece):
+            try:
+                self._port.write(data[start : start + piece])
+            except (OSError, TypeError, AttributeError) as error:
+                raise LinkError(self._address, _said(error)) from None
+            self._look()
 
     def close(self) -> None:
         self.is_open = False
@@ -57,7 +62,7 @@ class SerialLink:
             self._port.close()
 
 
-def open_port(address: Address) -> SerialLink:
+def open_port(address: Address, look: Callable[[], None] = keep_waiting) -> SerialLink:
     """Open a serial port for this program alone; raises LinkError when it is missing or taken."""
     import serial
 
@@ -73,7 +78,7 @@ def open_port(address: Address) -> SerialLink:
         port.reset_input_buffer()
     except (OSError, ValueError) as error:
         raise LinkError(address, _said(error)) from None
-    return SerialLink(address, port)
+    return SerialLink(address, port, look)
 
 
 def _need_port(address: Address) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import threading
 import time
@@ -12,8 +13,8 @@ from .address import Address, parse_address
 from .conversation import Conversation, Silence
 from .errors import ControlSilent, NoConnection, TransferError, error_of
 from .fetching import Fetching
-from .line import PAUSE, Line
-from .link import Link, LinkError, connect
+from .line import PAUSE, Line, OpenLink, OutOfTime
+from .link import LinkError, connect
 from .message import (
     Refusal,
     Restart,
@@ -37,13 +38,15 @@ class Session:
     """An exchange with one control.
 
     ``open_link`` makes the line, and makes it again when it is cut, for up to ``patience`` seconds without
-    progress. ``family`` is the family the control must be of ("" for any). ``clock`` and ``sleep`` are in
-    seconds. A session belongs to one thread; only a cancel event may be set from another.
+    progress; while it waits, it calls the function it is given at least every 0.1 s. ``family`` is the family
+    the control must be of ("" for any). ``clock`` and ``sleep`` are in seconds. A session belongs to one
+    thread; only a cancel event may be set from another. A ``progress`` is told within 2 s when nothing is
+    answered.
     """
 
     def __init__(
         self,
-        open_link: Callable[[], Link],
+        open_link: OpenLink,
         *,
         family: str = "",
         patience: float = 20.0,
@@ -68,7 +71,7 @@ class Session:
     def at(cls, address: Address | str, *, family: str = "", patience: float = 20.0) -> Session:
         """Return a session with the control at an address; raises ValueError when it is none."""
         place = parse_address(address) if isinstance(address, str) else address
-        return cls(lambda: connect(place), family=family, patience=patience)
+        return cls(lambda look: connect(place, look=look), family=family, patience=patience)
 
     def __enter__(self) -> Session:
         return self
@@ -82,12 +85,13 @@ class Session:
 
     # -- asking ------------------------------------------------------------------------------------
 
-    def hello(self, cancel: threading.Event | None = None) -> Welcome:
+    def hello(self, cancel: threading.Event | None = None, progress: Progress = quiet) -> Welcome:
         """Return who the control is and what it holds; connects where there is no line yet.
 
         Raises NoConnection, ControlSilent, ControlBusy, WrongFamily, ProtocolMismatch, Cancelled.
         """
-        self._line.cancel = cancel
+        self._line.cancel, self._line.progress = cancel, progress
+        self._line.begin()
         try:
             return self._line.greet()
         except LinkError as error:
@@ -121,20 +125,29 @@ class Session:
 
         Raises Cancelled and what tells that another control answers.
         """
-        self._line.cancel = cancel
+        line = self._line
+        start = line.now()
+
+        def waiting(*_: object) -> None:  # the control's silence is what is waited out here
+            progress("restart", int((line.now() - start) * 10), max(1, int(seconds * 10)))
+
+        line.cancel, line.progress = cancel, waiting
         self.close()
-        start = self._line.now()
-        while (gone := self._line.now() - start) < seconds:
-            progress("restart", int(gone * 10), max(1, int(seconds * 10)))
+        line.begin(seconds)
+        while line.now() - start < seconds:
+            line.tell("restart", 0, 1)
             try:
-                welcome = self._line.greet(tries=1)
+                welcome = line.greet(tries=1)
             except (LinkError, Silence, Refusal):
                 self.close()
             else:
                 if welcome.incarnation != incarnation:
-                    progress("restart", 1, 1)
+                    line.further()
+                    line.progress = progress
+                    line.tell("restart", 1, 1)
                     return welcome
-            self._line.pause(PAUSE)
+            with contextlib.suppress(OutOfTime):
+                line.pause(PAUSE)
         return None
 
     # -- images ------------------------------------------------------------------------------------
@@ -143,8 +156,8 @@ class Session:
         self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
     ) -> bytes:
         """Return the control's active image, checked against its digest; raises TransferError."""
-        self._line.cancel = cancel
-        return Fetching(self._line, progress, stage).run()
+        self._line.cancel, self._line.progress = cancel, progress
+        return Fetching(self._line, stage).run()
 
     def send(
         self,
@@ -157,10 +170,12 @@ class Session:
     ) -> Sent:
         """Have the control replace the image whose SHA-256 is ``expected`` by ``image``, all or nothing.
 
-        Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through.
-        Raises TransferError, whose ``held`` says what the control holds.
+        Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through, for
+        up to 5 s more (not at all where the event is a Stop that was set twice). Raises TransferError, whose
+        ``held`` says what the control holds.
         """
-        return Sending(self._line, image, signature, expected, progress).run(cancel)
+        self._line.progress = progress
+        return Sending(self._line, image, signature, expected).run(cancel)
 
     def _ask(self, action: Callable[[Conversation], Result]) -> Result:
         try:

@@ -19,12 +19,18 @@ Done = Callable[[int], None]
 # and a cancel would wait behind it.
 BACKLOG = 0.3
 
+# Bytes of an image that may be under way, whatever window a control offers.
+MAX_FLYING = 1 << 16
+
 # Answers in a row that bring nothing forward: a control that gives that many does not keep to the protocol.
 USELESS = 2_000
 
 
 def window_limit(chunk: int, offered: int, bytes_per_second: float | None) -> int:
-    """Return how many pieces may be under way: what the control offers, and on a slow line fewer."""
+    """Return how many pieces may be under way: what the control offers, fewer where they are large or the line
+    is slow.
+    """
+    offered = min(offered, MAX_FLYING // chunk)
     if bytes_per_second is None:
         return max(1, offered)
     return max(1, min(offered, max(2, math.ceil(bytes_per_second * BACKLOG / chunk))))
@@ -43,7 +49,7 @@ def push(talk: Conversation, image: bytes, offset: int, chunk: int, limit: int, 
 
     def answer(number: int, message: Message) -> bool:
         nonlocal staged
-        if not isinstance(message, Ack | Gap) or not window.knows(number):
+        if not isinstance(message, Ack | Gap) or not window.knows(number) or message.next > len(image):
             return False
         new = isinstance(message, Ack) and _learn(talk, window, number)
         if isinstance(message, Gap):
@@ -101,15 +107,18 @@ def _run(
             number = send(*piece)
             window.sent(number, *piece, talk.now())
         received = talk.receive(_patience(talk, window))
+        forward = False
         if received is not None:
             number, message = received
             if isinstance(message, Refused) and window.flying(number) is not None:
                 raise Refusal(message.code, message.text)
             forward = answer(number, message)
-            missed, useless = (0, 0) if forward else (missed, useless + 1)
+            useless += 1
             if useless > USELESS:
                 raise Silence
-        elif _patience(talk, window) <= 0:
+        if forward:
+            missed = useless = 0
+        elif _patience(talk, window) <= 0:  # whatever else has come in the meantime
             missed += 1
             if missed >= talk.pace.limits.tries:
                 raise Silence

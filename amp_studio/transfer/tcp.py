@@ -3,14 +3,32 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import queue
 import select
 import socket
+import threading
+import time
+from collections.abc import Callable
 
 from .address import Address
-from .link import LinkError
+from .link import LinkError, keep_waiting
 
-WRITE_LIMIT = 10.0  # seconds the other end may take nothing before the line counts as gone
+WRITE_LIMIT = 3.0  # seconds the other end may take to make room before the line counts as gone
+SLICE = 0.1  # seconds between two looks while waiting
 READ_SIZE = 65_536
+LAST_READS = 16  # how much of what nobody will read is taken off a line that is closed
+
+# What a listening socket may say of one caller, or for the moment: it goes on listening.
+PASSING = {
+    errno.ECONNABORTED,
+    errno.ECONNRESET,
+    errno.EMFILE,
+    errno.ENFILE,
+    errno.ENOBUFS,
+    errno.ENOMEM,
+    errno.EPROTO,
+}
 
 
 class TcpLink:
@@ -18,17 +36,23 @@ class TcpLink:
 
     bytes_per_second: float | None = None
 
-    def __init__(self, address: Address, connection: socket.socket) -> None:
+    def __init__(
+        self, address: Address, connection: socket.socket, look: Callable[[], None] = keep_waiting
+    ) -> None:
         self._address = address
         self._socket = connection
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._look = look
+        connection.setblocking(False)
+        with contextlib.suppress(OSError):  # a connection that is gone already is met at the first read
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def read(self, timeout: float) -> bytes:
         try:
-            # A timeout of 0 would make the socket non-blocking, which select says more plainly.
             if not select.select([self._socket], [], [], max(0.0, timeout))[0]:
                 return b""
             data = self._socket.recv(READ_SIZE)
+        except BlockingIOError:
+            return b""
         except (OSError, ValueError) as error:
             raise LinkError(self._address, _said(error)) from None
         if not data:
@@ -36,20 +60,30 @@ class TcpLink:
         return data
 
     def write(self, data: bytes) -> None:
-        try:
-            self._socket.settimeout(WRITE_LIMIT)
-            self._socket.sendall(data)
-        except OSError as error:
-            raise LinkError(self._address, _said(error)) from None
+        rest = memoryview(data)
+        end = time.monotonic() + WRITE_LIMIT
+        while rest:
+            try:
+                if select.select([], [self._socket], [], SLICE)[1]:
+                    rest = rest[self._socket.send(rest) :]
+                    continue
+            except BlockingIOError:
+                continue
+            except (OSError, ValueError) as error:
+                raise LinkError(self._address, _said(error)) from None
+            self._look()
+            if time.monotonic() >= end:
+                raise LinkError(self._address, "the other end takes nothing more")
 
     def close(self) -> None:
         with contextlib.suppress(OSError):
             self._socket.shutdown(socket.SHUT_WR)
             # What came and was not read would make the system break the connection off, last answer and all.
-            self._socket.setblocking(False)
-            while self._socket.recv(READ_SIZE):
-                pass
-        self._socket.close()
+            for _ in range(LAST_READS):
+                if not self._socket.recv(READ_SIZE):
+                    break
+        with contextlib.suppress(OSError):
+            self._socket.close()
 
 
 class TcpListener:
@@ -78,6 +112,9 @@ class TcpListener:
                 return None
             connection, peer = self._socket.accept()
         except (OSError, ValueError) as error:
+            if isinstance(error, OSError) and error.errno in PASSING:
+                time.sleep(min(timeout, SLICE))
+                return None
             raise LinkError(self.address, _said(error)) from None
         return TcpLink(Address("tcp", host=peer[0], port=peer[1]), connection)
 
@@ -85,13 +122,52 @@ class TcpListener:
         self._socket.close()
 
 
-def connect_tcp(address: Address, timeout: float) -> TcpLink:
-    """Connect to a listening control within ``timeout`` seconds; raises LinkError."""
+def connect_tcp(address: Address, timeout: float, look: Callable[[], None] = keep_waiting) -> TcpLink:
+    """Connect to a listening control within ``timeout`` seconds; raises LinkError, and what ``look`` raises."""
+    # In a thread, because nothing ends the search for a host's address before its time.
+    attempt = _Attempt(address, timeout)
+    threading.Thread(target=attempt.run, name="connect", daemon=True).start()
+    end = time.monotonic() + timeout
     try:
-        connection = socket.create_connection((address.host, address.port), timeout=timeout)
-    except OSError as error:
-        raise LinkError(address, _said(error)) from None
-    return TcpLink(address, connection)
+        while True:
+            look()
+            left = end - time.monotonic()
+            if left <= 0:
+                raise LinkError(address, "no answer in time")
+            with contextlib.suppress(queue.Empty):
+                made = attempt.result.get(timeout=min(left, SLICE))
+                break
+    except BaseException:
+        attempt.abandon()
+        raise
+    if isinstance(made, Exception):
+        raise LinkError(address, _said(made)) from None
+    return TcpLink(address, made, look)
+
+
+class _Attempt:
+    """One connection in the making; a socket that nobody waits for any more is closed."""
+
+    def __init__(self, address: Address, timeout: float) -> None:
+        self.result: queue.SimpleQueue[socket.socket | Exception] = queue.SimpleQueue()
+        self._where = (address.host, address.port)
+        self._timeout = timeout
+        self._is_abandoned = threading.Event()
+
+    def run(self) -> None:
+        try:
+            self.result.put(socket.create_connection(self._where, timeout=self._timeout))
+        except (OSError, ValueError) as error:  # a ValueError: the name cannot be that of a host
+            self.result.put(error)
+        if self._is_abandoned.is_set():
+            self.abandon()
+
+    def abandon(self) -> None:
+        self._is_abandoned.set()
+        with contextlib.suppress(queue.Empty):
+            made = self.result.get_nowait()
+            if isinstance(made, socket.socket):
+                made.close()
 
 
 def _reuse(listening: socket.socket) -> None:
@@ -106,7 +182,7 @@ def _reuse(listening: socket.socket) -> None:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
 
 
-def _said(error: OSError | ValueError) -> str:
+def _said(error: Exception) -> str:
     if isinstance(error, TimeoutError):
         return "no answer in time"
     if isinstance(error, ConnectionRefusedError):
@@ -115,6 +191,8 @@ def _said(error: OSError | ValueError) -> str:
         return "the host is not known"
     if isinstance(error, ConnectionResetError | BrokenPipeError):
         return "the other end has broken off the connection"
+    if isinstance(error, UnicodeError):
+        return "this cannot be the name of a host"
     if isinstance(error, ValueError):
         return "the connection is closed"
-    return error.strerror or str(error)
+    return getattr(error, "strerror", None) or str(error)

@@ -27,15 +27,18 @@ class Window:
         self.size = size
         self._chunk = chunk
         self._limit = max(1, limit)
-        self._waiting = list(range(start, size, chunk))
-        self._missing = set(self._waiting)
+        # A control chooses the chunk: what is kept here grows with what is under way, not with the pieces.
+        self._floor = start  # every piece before it has arrived,
+        self._ahead: set[int] = set()  # and these beyond it
+        self._next = start  # no piece from here on was ever sent
+        self._lost: list[int] = []  # a heap of the offsets to send again
         self._flying: dict[int, Piece] = {}  # by number, in the order of sending
         self._numbers: set[int] = set()
 
     @property
     def is_done(self) -> bool:
         """Whether every piece has arrived."""
-        return not self._missing
+        return self._floor >= self.size
 
     @property
     def bytes_flying(self) -> int:
@@ -57,13 +60,22 @@ class Window:
 
     def have(self, offset: int) -> None:
         """The piece at ``offset`` is there already."""
-        self._missing.discard(offset)
+        if offset >= self._floor:
+            self._ahead.add(offset)
+        while self._floor in self._ahead:
+            self._ahead.remove(self._floor)
+            self._floor += self._chunk
 
     def next_piece(self) -> tuple[int, int] | None:
         """Return offset and length of the next piece to send, or None while the window is full."""
-        while self._waiting and len(self._flying) < self._limit:
-            offset = heapq.heappop(self._waiting)
-            if offset in self._missing:
+        while len(self._flying) < self._limit:
+            if self._lost:
+                offset = heapq.heappop(self._lost)
+            elif self._next < self.size:
+                offset, self._next = self._next, self._next + self._chunk
+            else:
+                return None
+            if self._is_missing(offset):
                 return offset, min(self._chunk, self.size - offset)
         return None
 
@@ -76,7 +88,7 @@ class Window:
         """The sending with this number has arrived; earlier ones without an answer are lost."""
         piece = self._answered(number)
         if piece is not None:
-            self._missing.discard(piece.offset)
+            self.have(piece.offset)
         return piece
 
     def refused(self, number: int) -> Piece | None:
@@ -88,8 +100,9 @@ class Window:
 
     def reached(self, offset: int) -> None:
         """Everything before ``offset`` has arrived."""
-        self._missing = {at for at in self._missing if min(at + self._chunk, self.size) > offset}
-        for number in [n for n, piece in self._flying.items() if piece.offset not in self._missing]:
+        while self._floor < self.size and min(self._floor + self._chunk, self.size) <= offset:
+            self.have(self._floor)
+        for number in [n for n, piece in self._flying.items() if not self._is_missing(piece.offset)]:
             del self._flying[number]
 
     def lose_all(self) -> None:
@@ -109,5 +122,8 @@ class Window:
         return None
 
     def _again(self, piece: Piece) -> None:
-        if piece.offset in self._missing:
-            heapq.heappush(self._waiting, piece.offset)
+        if self._is_missing(piece.offset):
+            heapq.heappush(self._lost, piece.offset)
+
+    def _is_missing(self, offset: int) -> bool:
+        return offset >= self._floor and offset not in self._ahead

@@ -64,7 +64,7 @@ class Rig:
     options: dict[str, Any] = field(default_factory=dict)
     lines_left: int = 1_000_000
 
-    def open_link(self) -> Link:
+    def open_link(self, look: Callable[[], None] = lambda: None) -> Link:
         if self.lines_left == 0:
             raise LinkError("null modem", "the cable is out")
         link = self.modem.connect()

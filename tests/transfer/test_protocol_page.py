@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
 import socket
 import struct
@@ -15,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer import conversation, emulator, line, sending
+from amp_studio.transfer import conversation, emulator, fetching, line, sending, streaming
 from amp_studio.transfer.exchange import RESTART_WAIT
 from amp_studio.transfer.frame import (
     MAX_ENCODED,
@@ -173,6 +174,10 @@ def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
         sending.COMMIT_WAIT,
         sending.ABORT_WAIT,
         patience,
+        patience,
+        line.LINGER,
+        sending.COMMIT_WAIT * (2**sending.COMMIT_TRIES - 1),
+        math.ceil(line.SILENT_AFTER),
         RESTART_WAIT,
         emulator.HELD_LINE,
     ]
@@ -184,6 +189,12 @@ def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
     assert f"no more than {MAX_ENCODED} bytes" in text
     assert f"1 to {MAX_CHUNK}" in text
     assert f"{CHUNK} and {WINDOW} are good values" in text
+    assert f"({sending.COMMIT_TRIES} of a Commit)" in text
+    assert f"at most {fetching.MAX_IMAGE >> 20} MiB, in at most {fetching.MAX_PIECES:,} pieces" in text
+    assert f"{line.STEP} bytes more" in text
+    assert f"a {line.STEPS}th of the image" in text
+    assert f"at most {streaming.MAX_FLYING:,} bytes under way" in text
+    assert f"no more than {emulator.LINES} lines open" in text
     assert conversation.UNASKED == 0
     assert Message.TYPE == 0
 
