@@ -25,7 +25,7 @@ import filelock
 
 from .memory import Memory
 from .message import Code, Commit, Committed, Flags, OpenDownload, Refusal
-from .record import Identity, StateFault, load_json, load_record, to_json, written
+from .record import Identity, StateFault, is_answer, load_json, load_record, to_json, written
 from .staging import Plan, Staging
 
 ACTIVE, PREVIOUS, OUTGOING, INTENT, LOCK = (
@@ -42,7 +42,7 @@ class Control:
     """One control with its memory in a folder.
 
     A new folder is born with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not
-    given, at first on. ``accept`` may raise ValueError for an image the control does not take. Raises
+    given, at first on. ``accept`` raises, best ValueError, for an image the control does not take. Raises
     StateFault when the folder is another control's, damaged or in use. Requests raise Refusal and then have
     changed nothing.
     """
@@ -201,10 +201,11 @@ class Control:
         if self._accept is not None and not self._record.has_held(sha256):
             try:
                 self._accept(content)
-            except ValueError as error:
+            except Exception as error:  # an image is a stranger's: whatever it upsets, it is not taken
                 self._staging.drop()
+                said = str(error) if isinstance(error, ValueError) else type(error).__name__
                 raise Refusal(
-                    Code.REJECTED, f"the control has not held this image and does not take it: {error}"
+                    Code.REJECTED, f"the control has not held this image and does not take it: {said}"
                 ) from None
 
     def _replace_active(self, plan: Plan, intent: dict[str, Any]) -> None:
@@ -254,6 +255,8 @@ class Control:
         self._record = load_record(self.memory, self.identity)
         self._record.hold(self._digest)
         intent = load_json(self.memory, INTENT)
+        if intent is not None and not (isinstance(intent.get("to"), str) and is_answer(intent.get("answer"))):
+            raise StateFault(f"{self.memory.folder / INTENT} is damaged")
         if intent is not None and intent["to"] == self._digest.hex():
             self._finish(intent)
         elif intent is not None:

@@ -7,6 +7,7 @@ nobody can talk to it.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import queue
 import stat
@@ -16,26 +17,50 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
+from amp_studio.schema.visible import visible
+
 from .address import Address, parse_address
 from .control import Control
 from .faults import Faults, FaultyLine, arm
-from .frame import FrameDecoder, encode_frame
+from .frame import encode_frame
+from .interrupts import interrupts
 from .link import Link, LinkError, Listener, listen
 from .message import Code, Flags, Refusal, Refused, pack
 from .responder import CHUNK, WINDOW, Responder
 
 RESTART_SECONDS = 0.5
 SLICE = 0.05  # seconds between two looks at the operator's commands
-HELD_LINE = 5.0  # seconds of silence after which another client may take the control over
-TURN_AWAY = 0.1  # seconds a second client has for its first word
+HELD_LINE = 5.0  # seconds without a whole frame after which another client may take the control over
+LINES = 8  # open at once; beyond them the one that was opened first and does not hold the control is cut
+PIECE = 2_048  # bytes of one client that are worked on before anybody else has a turn
+COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
+COMMANDS_A_TURN = 16
+LONGEST_COMMAND = 4_096  # bytes
+LONGEST_LINE = 300  # characters the operator is told of what somebody else has said
 
 Patch = Callable[[bytes, str, str], bytes]
 
 COMMANDS = "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
 
 
+class Caller:
+    """An open line; ``heard`` is when it brought a whole frame, at first when it was opened (seconds)."""
+
+    def __init__(self, link: Link, responder: Responder, now: float) -> None:
+        self.link = link
+        self.responder = responder
+        self.heard = now
+
+    def is_silent(self, now: float) -> bool:
+        """Whether nothing that could be understood has come for so long that another client is served."""
+        return now - self.heard > HELD_LINE
+
+
 class Emulator:
-    """Serves one client at a time until ``quit``.
+    """Serves one client at a time until ``quit`` or ``stop``.
+
+    The control is held by the client that has sent a whole frame, until another sends one after the first
+    has sent none for HELD_LINE seconds: bytes that are no frame hold nothing.
 
     ``patch`` gets the image, a key and a value and returns the changed image; it may raise ValueError with
     what the operator is to read. ``say`` gets what the operator is told, one line at a time.
@@ -52,6 +77,9 @@ class Emulator:
         window: int = WINDOW,
         chunk: int = CHUNK,
         say: Callable[[str], None] = print,
+        stop: threading.Event | None = None,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self._control = control
         self._listener = listener
@@ -62,74 +90,124 @@ class Emulator:
         self._window = window
         self._chunk = chunk
         self._say = say
-        self._commands: queue.SimpleQueue[str] = queue.SimpleQueue()
-        self._next: Link | None = None
-        self._quit = False
+        self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
+        self._callers: list[Caller] = []  # in the order in which they came
+        self._holder: Caller | None = None
+        self._has_quit = False
+        self._stop = stop or threading.Event()
         self._restart_due = False
+        self._back_at: float | None = None  # when a restart ends
+        self._clock, self._sleep = clock, sleep
         arm(control, faults)
 
     def command(self, line: str) -> None:
-        """Give an operator's command; it is done between two messages. May be called from any thread."""
+        """Give an operator's command; it is done between two messages. May be called from any other thread,
+        and waits there while too many are waiting.
+        """
         self._commands.put(line)
 
     def run(self) -> None:
-        """Serve until ``quit``; raises LinkError when nothing can be listened on any more."""
-        while not self._quit:
-            self._obey()
-            if self._restart_due:
-                self._restart()
-                continue
-            link, self._next = self._next or self._listener.accept(SLICE), None
-            if link is not None:
-                self._serve(self._line.wrap(link))
-
-    def _serve(self, link: Link) -> None:
-        """Answer one client until it hangs up, is cut off, or the control restarts."""
-        responder = Responder(self._control, window=self._window, chunk=self._chunk)
-        heard = time.monotonic()
+        """Serve until ``quit`` or ``stop``; raises LinkError when nothing can be listened on any more."""
         try:
-            while not (self._quit or self._restart_due):
-                data = link.read(SLICE)
-                if data:
-                    heard = time.monotonic()
-                    answers = responder.receive(data)
-                    self._restart_due |= responder.restart_due
-                    if answers:
-                        link.write(answers)
+            while not self._is_over():
+                self.turn()
+        finally:
+            self._hang_up()
+
+    def turn(self) -> None:
+        """Do what the operator wants, and give each client its turn; waits 0.05 s at most for something to do."""
+        self._obey()
+        if self._restart_due:
+            self._restart_due = False
+            self._back_at = self._clock() + self._restart_seconds
+        if self._back_at is not None:
+            self._stay_away(self._back_at)
+            return
+        self._admit()
+        for caller in list(self._callers):
+            self._hear(caller)
+
+    def _admit(self) -> None:
+        """Take the next line, and cut those that are in its way."""
+        link = self._listener.accept(0 if self._callers else SLICE)
+        if link is None:
+            return
+        responder = Responder(self._control, window=self._window, chunk=self._chunk)
+        newest = Caller(self._line.wrap(link), responder, self._clock())
+        others = [caller for caller in self._callers if caller is not self._holder]
+        for caller in others:
+            if caller.is_silent(self._clock()) or len(self._callers) >= LINES:
+                self._drop(caller)
+        self._callers.append(newest)
+
+    def _hear(self, caller: Caller) -> None:
+        """Answer what has come on one line; whatever goes wrong with it ends that line and nothing else."""
+        if caller not in self._callers or self._is_over() or self._restart_due:
+            return
+        waited_for = self._holder or self._callers[-1]
+        try:
+            data = caller.link.read(SLICE if caller is waited_for else 0)
+            for start in range(0, len(data), PIECE):
+                self._answer(caller, data[start : start + PIECE])
                 self._obey()
-                if not data and not self._stays(heard):
+                if self._is_over() or self._restart_due or caller not in self._callers:
                     return
         except LinkError:
-            return  # the client is gone; what it has staged stays
-        finally:
-            link.close()
+            self._drop(caller)  # the client is gone; what it has staged stays
+        except Exception as error:  # a fault of the control itself: another client may do better
+            self._drop(caller)
+            self._say(f"a client was cut off: {type(error).__name__}: {_line(str(error))}")
 
-    def _stays(self, heard: float) -> bool:
-        """Whether the client keeps the line; another one gets it only when this one has long been silent."""
-        other = self._listener.accept(0)
-        if other is None:
-            return True
-        if time.monotonic() - heard > HELD_LINE:
-            self._next = other
-            return False
-        turn_away(other)
-        return True
+    def _answer(self, caller: Caller, data: bytes) -> None:
+        for frame in caller.responder.frames(data):
+            caller.heard = now = self._clock()
+            holder = self._holder
+            if holder is not None and holder is not caller:
+                if not holder.is_silent(now):
+                    busy = Refused(Code.BUSY, "another client has the control")
+                    caller.link.write(encode_frame(pack(busy, frame.sequence)))
+                    self._drop(caller)
+                    return
+                self._drop(holder)
+            self._holder = caller
+            answer = caller.responder.answer(frame)
+            self._restart_due |= caller.responder.restart_due
+            caller.link.write(answer)
+            if self._restart_due:
+                return
 
-    def _restart(self) -> None:
-        """Be gone for a while, and come back as a new incarnation."""
-        end = time.monotonic() + self._restart_seconds
-        self._restart_due = False
-        while (left := end - time.monotonic()) > 0:
-            caller = self._listener.accept(min(left, SLICE))
-            if caller is not None:
-                caller.close()
-                time.sleep(min(left, SLICE))
-        self._tell(self._restarted)
+    def _drop(self, caller: Caller) -> None:
+        caller.link.close()
+        self._callers.remove(caller)
+        if self._holder is caller:
+            self._holder = None
+
+    def _is_over(self) -> bool:
+        return self._has_quit or self._stop.is_set()
+
+    def _hang_up(self) -> None:
+        for caller in list(self._callers):
+            self._drop(caller)
+
+    def _stay_away(self, back_at: float) -> None:
+        """Be gone until a time, and come back as a new incarnation."""
+        self._hang_up()
+        left = back_at - self._clock()
+        if left <= 0:
+            self._back_at = None
+            self._tell(self._restarted)
+            return
+        caller = self._listener.accept(min(left, SLICE))
+        if caller is not None:
+            caller.close()
+            self._sleep(min(left, SLICE))
 
     # -- the operator ------------------------------------------------------------------------------
 
     def _obey(self) -> None:
-        while not self._commands.empty():
+        for _ in range(COMMANDS_A_TURN):
+            if self._commands.empty():
+                return
             line = self._commands.get().strip()
             if line:
                 self._tell(partial(self._done, line))
@@ -139,9 +217,11 @@ class Emulator:
         try:
             self._say(action())
         except (Refusal, ValueError) as error:
-            self._say(f"refused: {error}")
+            self._say(f"refused: {_line(str(error))}")
         except OSError as error:
             self._say(f"refused: the control cannot write its memory ({error.strerror or error})")
+        except Exception as error:  # no word of an operator ends a control
+            self._say(f"refused: {type(error).__name__}: {_line(str(error))}")
 
     def _restarted(self) -> str:
         self._control.restart()
@@ -149,6 +229,8 @@ class Emulator:
 
     def _done(self, line: str) -> str:
         """Do a command and return what the operator reads."""
+        if len(line) > LONGEST_COMMAND:
+            raise ValueError(f"a command has {LONGEST_COMMAND} bytes at most")
         verb, _, rest = line.partition(" ")
         rest = rest.strip()
         match verb, rest:
@@ -162,7 +244,7 @@ class Emulator:
             case "status", "":
                 return self._status()
             case "quit", "":
-                self._quit = True
+                self._has_quit = True
                 return "bye"
             case "patch", _ if "=" in rest:
                 self._patched(*rest.split("=", 1))
@@ -194,34 +276,52 @@ def serve(
     restart_seconds: float = RESTART_SECONDS,
     commands: Iterable[str] | None = None,
     say: Callable[[str], None] | None = None,
+    stop: threading.Event | None = None,
 ) -> int:
-    """Run an emulated control until ``quit`` or an interrupt; return the exit code 0.
+    """Run an emulated control until ``quit``, an interrupt or ``stop``; return the exit code 0.
 
     Says ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those of
     standard input where that is a terminal or a pipe. Raises ValueError for an address that is none,
     LinkError for one that cannot be listened on.
     """
-    tell = say or (lambda line: print(line, flush=True))
-    listener = listen(parse_address(address) if isinstance(address, str) else address)
-    emulator = Emulator(
-        control, listener, patch=patch, faults=faults, restart_seconds=restart_seconds, say=tell
-    )
-    lines = standard_input() if commands is None else commands
+    tell = say or print_line
+    stop = stop or threading.Event()
+    with contextlib.ExitStack() as stack:
+        stack.callback(control.close)
+        stack.enter_context(interrupts(stop.set))
+        listener = listen(parse_address(address) if isinstance(address, str) else address)
+        stack.callback(listener.close)
+        emulator = Emulator(
+            control,
+            listener,
+            patch=patch,
+            faults=faults,
+            restart_seconds=restart_seconds,
+            say=tell,
+            stop=stop,
+        )
+        lines = standard_input() if commands is None else commands
 
-    def forward() -> None:
-        for line in lines:
-            emulator.command(line)
+        def forward() -> None:
+            for line in lines:
+                emulator.command(line)
 
-    threading.Thread(target=forward, name="operator", daemon=True).start()
-    tell(f"listening on {listener.address}")
-    try:
+        threading.Thread(target=forward, name="operator", daemon=True).start()
+        tell(f"listening on {listener.address}")
         emulator.run()
-    except KeyboardInterrupt:
-        tell("bye")
-    finally:
-        listener.close()
-        control.close()
+        if stop.is_set():
+            tell("bye")
     return 0
+
+
+def print_line(line: str) -> None:
+    """Print a line for the operator; where nobody reads it, the control goes on without a word."""
+    try:
+        print(line, flush=True)
+    except (OSError, ValueError):
+        # What waits to be written would fail again at the end of the program.
+        with contextlib.suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def standard_input() -> Iterator[str]:
@@ -237,18 +337,13 @@ def standard_input() -> Iterator[str]:
         while data := os.read(handle, 4_096):
             *lines, rest = (rest + data).split(b"\n")
             yield from (line.decode("utf-8", errors="replace") for line in lines)
+            rest = rest[: LONGEST_COMMAND + 1]  # enough to be refused as too long
         yield rest.decode("utf-8", errors="replace")
     except (AttributeError, OSError, ValueError):
         return
 
 
-def turn_away(link: Link) -> None:
-    """Tell a second client that the control is busy."""
-    try:
-        frames = FrameDecoder().feed(link.read(TURN_AWAY))
-        sequence = frames[0].sequence if frames else 0
-        link.write(encode_frame(pack(Refused(Code.BUSY, "another client has the control"), sequence)))
-    except LinkError:
-        return
-    finally:
-        link.close()
+def _line(text: str) -> str:
+    """Return a text, some of which may be a stranger's, as one short line that steers no terminal."""
+    shown = visible(text[: LONGEST_LINE + 1])
+    return shown if len(shown) <= LONGEST_LINE else shown[:LONGEST_LINE] + " …"

@@ -17,6 +17,7 @@ from .emulator import serve
 from .exchange import Keep, Outcome, download, upload
 from .faults import read_faults
 from .image import decode_image, encode_image, patch_image
+from .interrupts import interrupts
 from .kept import BEFORE, Copy, keep_image, open_copy
 from .record import Identity
 from .session import Progress, Session, quiet
@@ -117,12 +118,14 @@ def emulate(
     It is born with the family's printed defaults; its memory lies in ``state``, or in a temporary folder. ``faults``
     are what goes wrong, to practise with, as one JSON object.
     """
-    file = new_file(family, machine)
-    identity = Identity(family=family, signature=file.schema.signature, name="CNC_1", revision="emulated")
+    stop = threading.Event()
     with contextlib.ExitStack() as stack:
+        stack.enter_context(interrupts(stop.set))
+        file = new_file(family, machine)
+        identity = Identity(family=family, signature=file.schema.signature, name="CNC_1", revision="emulated")
         folder = state or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-control-")))
         folder.mkdir(parents=True, exist_ok=True)
         control = Control(
             folder, identity, encode_image(file), estop=estop, autostart=autostart, accept=decode_image
         )
-        return serve(listen, control, patch=patch_image, faults=read_faults(faults))
+        return serve(listen, control, patch=patch_image, faults=read_faults(faults), stop=stop)

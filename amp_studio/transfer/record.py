@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+import re
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from .memory import Memory
@@ -11,6 +12,7 @@ from .message import Committed, Flags
 
 RECORD = "control.json"
 REMEMBERED = 100  # digests of images a control has held
+LAST = (1 << 32) - 1  # the greatest number of a start that the wire can carry
 
 
 class StateFault(ValueError):
@@ -89,14 +91,35 @@ def load_record(memory: Memory, identity: Identity) -> Record:
     try:
         record = Record(**found)
     except TypeError:
-        raise StateFault(f"{memory.folder / RECORD} is not what an emulated control writes") from None
-    if not isinstance(record.images, list):
+        record = None
+    if record is None or not _is_sound(record):
         raise StateFault(f"{memory.folder / RECORD} is not what an emulated control writes")
     if record.family != identity.family:
         raise StateFault(f"{memory.folder} is the memory of a {record.family}, not of a {identity.family}")
     if record.signature != identity.signature:
         raise StateFault(f"{memory.folder} is the memory of a control with another parameter schema")
     return record
+
+
+def _is_sound(record: Record) -> bool:
+    """Whether every field has the type it is written with, and the numbers have the size of the wire."""
+    new = Record("", "")
+    for name in (each.name for each in fields(Record) if each.name != "committed"):
+        if type(getattr(record, name)) is not type(getattr(new, name)):
+            return False
+    return 0 <= record.incarnation < LAST and (record.committed is None or is_answer(record.committed))
+
+
+def is_answer(found: object) -> bool:
+    """Whether this is a Committed as ``written`` gives it."""
+    if not isinstance(found, dict) or set(found) != {each.name for each in fields(Committed)}:
+        return False
+    digits = all(
+        isinstance(found[name], str) and re.fullmatch(f"[0-9a-f]{{{length}}}", found[name])
+        for name, length in (("transfer", 32), ("sha256", 64))
+    )
+    number, restarting = found["incarnation"], found["restarting"]
+    return digits and type(number) is int and 0 <= number <= LAST and type(restarting) is bool
 
 
 def written(answer: Committed) -> dict[str, Any]:
@@ -118,7 +141,7 @@ def load_json(memory: Memory, name: str) -> dict[str, Any] | None:
         return None
     try:
         found = json.loads(content)
-    except ValueError:
+    except (ValueError, RecursionError):
         found = None
     if not isinstance(found, dict):
         raise StateFault(f"{memory.folder / name} is damaged")

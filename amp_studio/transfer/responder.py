@@ -57,11 +57,15 @@ class Responder:
 
     def receive(self, data: bytes) -> bytes:
         """Take what came on the line and return what is to be sent; damaged frames get no answer."""
-        out = bytearray()
-        for frame in self._decoder.feed(data):
-            if not self.restart_due:
-                out += encode_frame(pack(self._answer(frame), frame.sequence))
-        return bytes(out)
+        return b"".join(self.answer(frame) for frame in self.frames(data) if not self.restart_due)
+
+    def frames(self, data: bytes) -> list[Frame]:
+        """Return the whole frames that end in what came on the line."""
+        return self._decoder.feed(data)
+
+    def answer(self, frame: Frame) -> bytes:
+        """Do what a frame asks for and return what is to be sent."""
+        return encode_frame(pack(self._answer(frame), frame.sequence))
 
     def _answer(self, frame: Frame) -> Message:
         try:

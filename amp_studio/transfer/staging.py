@@ -85,7 +85,7 @@ class Staging:
                 bytes.fromhex(found["sha256"]),
                 bytes.fromhex(found["expected"]),
             )
-        except (KeyError, TypeError, ValueError):
+        except (KeyError, TypeError, ValueError, OverflowError):
             raise StateFault(f"{self._memory.folder / name} is damaged") from None
 
     def _tidy(self) -> None:

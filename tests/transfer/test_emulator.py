@@ -49,7 +49,7 @@ OPEN: list[Session] = []
 def session_at(address: str, **options: Any) -> Session:
     """Return a quick session; the test's end closes it."""
     place = parse_address(address)
-    OPEN.append(Session(lambda: connect(place), limits=QUICK, **options))
+    OPEN.append(Session(lambda look: connect(place), limits=QUICK, **options))
     return OPEN[-1]
 
 
@@ -112,7 +112,7 @@ def test_a_download_goes_on_in_a_control_that_was_killed(emulate: Callable[..., 
     emulated = [emulate(tmp_path, initial=OLD.decode())]
     staged: list[int] = []
 
-    def open_link() -> Any:
+    def open_link(look: Callable[[], None]) -> Any:
         if emulated[-1].is_dead:
             (part,) = tmp_path.glob("staged-*.part")
             staged.append(part.stat().st_size)
@@ -146,7 +146,7 @@ def test_a_control_killed_at_any_step_of_the_commit_holds_old_or_new(
             emulate(folder, initial=OLD.decode(), faults={"die_at_commit_step": step}, restart_seconds=0.0)
         ]
 
-        def open_link(emulated: list[Any] = emulated, folder: Path = folder) -> Any:
+        def open_link(look: Any, emulated: list[Any] = emulated, folder: Path = folder) -> Any:
             if emulated[-1].is_dead:
                 held = (folder / "active.img").read_bytes()
                 assert held in (OLD, NEW)
