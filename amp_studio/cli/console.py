@@ -38,19 +38,43 @@ def family(name: str) -> Schema:
 
 
 def progress() -> Callable[[str, int, int], None]:
-    """Return a progress callback: one line on standard error that counts the per cent."""
+    """Return a progress callback: one line on standard error that counts the per cent.
+
+    A terminal sees it change; elsewhere the end of each stage is a line, and what is waited for.
+    """
     last: dict[str, int] = {}
 
     def show(stage: str, done: int, total: int) -> None:
+        if stage == "silent":
+            silence(done)
+            return
         percent = 100 if total == 0 else done * 100 // total
-        if last.get(stage) != percent:
-            last[stage] = percent
-            if sys.stderr.isatty():
-                tell_over(f"{stage} {percent:3d} %", last=percent == 100)
-            elif percent == 100:
-                tell(f"{stage} 100 %")
+        if last.get(stage) == percent:
+            return
+        if sys.stderr.isatty():
+            tell_over(f"{WAITING.get(stage, stage)} {percent:3d} %", last=percent == 100)
+        elif percent == 100:
+            tell(f"{stage} 100 %")
+        elif stage in WAITING and stage not in last:
+            tell(WAITING[stage])
+        last[stage] = percent
+
+    def silence(seconds: int) -> None:
+        text = f"no answer for {seconds} s, trying again …" if seconds else "the control answers again"
+        if sys.stderr.isatty():
+            tell_over(text, last=not seconds)
+            last.clear()
+        elif not seconds or "silent" not in last:
+            tell(text)
+        last["silent"] = seconds
+        if not seconds:
+            del last["silent"]
 
     return show
+
+
+WAITING = {"restart": "waiting for the control to restart"}
+"""What the person is told while a stage waits for somebody else."""
 
 
 def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:

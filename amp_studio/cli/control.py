@@ -27,6 +27,9 @@ from .console import ask, family, note, print_json, progress
 from .errors import UsageFault
 from .files import difference_json, print_comparison, print_difference
 from .output import check_new, write_new
+from .program import AT_CONTROL, CHANGED, FAULT
+from .screen import end_results, flush_results
+from .stopping import asked_politely
 
 
 def emulate_verb(options: argparse.Namespace) -> int:
@@ -37,20 +40,20 @@ def emulate_verb(options: argparse.Namespace) -> int:
 
 
 def download_verb(options: argparse.Namespace) -> int:
-    """Send a file to a control; 1 where it does not hold it afterwards."""
+    """Send a file to a control; 3 where that is not proved afterwards, 4 where it is not known what it holds."""
     file, path = open_file(options.path).file, options.path
     errors = _note_errors(file, path)
     if errors and not options.accept_errors:
         raise UsageFault(f"{path} has {errors}: nothing was sent (--accept-errors sends it all the same)")
-    return _told(
-        download_file(
-            file, options.to, options.keep or path.parent, path.stem, progress(), expected=options.expect
+    with asked_politely() as stop:
+        keep = options.keep or path.parent
+        return _told(
+            download_file(file, options.to, keep, path.stem, progress(), stop, expected=options.expect)
         )
-    )
 
 
 def restore_verb(options: argparse.Namespace) -> int:
-    """Put back what a control has held; 1 where it does not hold it afterwards."""
+    """Put back what a control has held; codes as of a download."""
     path = options.copy
     copy = open_copy(path)
     if not copy.is_checked:
@@ -64,11 +67,11 @@ def restore_verb(options: argparse.Namespace) -> int:
                 "(download --accept-errors sends it all the same)"
             )
         note(f"{path} goes back with {errors}, as the control held it")
-    return _told(
-        restore_copy(
-            copy, options.to, options.keep or path.parent, path.stem, progress(), expected=options.expect
+    with asked_politely() as stop:
+        keep = options.keep or path.parent
+        return _told(
+            restore_copy(copy, options.to, keep, path.stem, progress(), stop, expected=options.expect)
         )
-    )
 
 
 def _note_errors(file: ParameterFile, path: Path) -> str:
@@ -84,10 +87,18 @@ def _note_errors(file: ParameterFile, path: Path) -> str:
 
 
 def _told(outcome: Outcome) -> int:
+    """Print how an exchange ended and return the exit code; where nobody reads it, that is no full success."""
     print(outcome.text)
     if outcome.verified:
         print(f"sha256 {outcome.sha256}")
-    return 0 if outcome.verified else 1
+    code = 0 if outcome.verified else AT_CONTROL[outcome.held]
+    try:
+        flush_results()
+    except (OSError, ValueError):
+        end_results()
+        note(f"amp-studio: the result cannot be printed; {outcome.text}")
+        code = max(code, CHANGED if outcome.written else FAULT)
+    return code
 
 
 def upload_verb(options: argparse.Namespace) -> int:

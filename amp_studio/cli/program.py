@@ -16,7 +16,9 @@ from .stopping import answer_once, no_more, was_asked
 if TYPE_CHECKING:
     from .outcome import Target
 
-FAULT, CHANGED = 2, 3
+FAULT, CHANGED, UNKNOWN = 2, 3, 4
+AT_CONTROL = {"old": FAULT, "new": CHANGED, "unknown": UNKNOWN}
+"""The exit code of an exchange by what the control holds after it."""
 
 
 def start(arguments: Sequence[str] | None) -> NoReturn:
@@ -43,6 +45,10 @@ def run_verb(arguments: Sequence[str]) -> int:
     try:
         return _run(arguments, replaced)
     except KeyboardInterrupt:  # also one that came while another refusal was put into words
+        if (
+            arguments[0] == "emulate"
+        ):  # an emulated control that has not begun yet: there is no other way to end it
+            return _leave()
         return _refuse("stopped", replaced)
 
 
@@ -71,7 +77,7 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     except BaseException as error:  # a panic of the rule engine is no Exception
         if was_asked():  # what was interrupted may end in any error
             raise KeyboardInterrupt from None
-        return _refuse(_sentence(error), replaced)
+        return _refuse(_sentence(error), replaced, AT_CONTROL.get(getattr(error, "held", ""), FAULT))
     return code
 
 
@@ -89,12 +95,23 @@ def _sentence(error: BaseException) -> str:
     return keep_details(error)
 
 
-def _refuse(text: str, replaced: Sequence[Target], *, quiet: bool = False) -> int:
-    """Say in one line what went wrong and what holds now, and return the exit code; ``quiet`` where nothing has changed."""
+def _leave() -> int:
+    print("bye")
+    from .screen import end_results
+
+    end_results()
+    return 0
+
+
+def _refuse(text: str, replaced: Sequence[Target], code: int = FAULT, *, quiet: bool = False) -> int:
+    """Say in one line what went wrong and what holds now, and return the exit code; ``quiet`` where nothing has changed.
+
+    ``code`` is that of what holds at a control.
+    """
     from .screen import end_results, tell
 
     end_results()
     now = "; ".join(filter(None, (target.sentence() for target in replaced)))
     if now or not quiet:
         tell(f"amp-studio: {' '.join(text.split())}{f'; {now}' if now else ''}")
-    return CHANGED if now else FAULT
+    return max(code, CHANGED) if now else code

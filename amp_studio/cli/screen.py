@@ -13,14 +13,18 @@ from typing import TextIO
 class Screen(io.TextIOWrapper):
     """A standard stream that shows steering signs instead of passing them on; only line ends and tabs pass."""
 
+    overwritten = False
+    """Whether the present line of the terminal is one that the next replaces."""
+
     def write(self, text: str) -> int:
         """Write a text with its steering signs made visible."""
         return super().write(_shown(text))
 
-    def overwrite(self, text: str) -> None:
+    def overwrite(self, text: str, *, last: bool) -> None:
         """Write over the present line of a terminal."""
-        super().write("\r" + _shown(text) + "\x1b[K")
+        super().write("\r" + _shown(text) + "\x1b[K" + ("\n" if last else ""))
         self.flush()
+        self.overwritten = not last
 
 
 def _shown(text: str) -> str:
@@ -66,8 +70,12 @@ def end_results() -> None:
 
 def tell(text: str, end: str = "\n") -> None:
     """Print a line on standard error; where nobody can read it the work goes on all the same."""
+    stream = sys.stderr
     try:
-        print(text, end=end, file=sys.stderr, flush=True)
+        if isinstance(stream, Screen) and stream.overwritten:
+            stream.overwrite("", last=False)
+            stream.overwritten = False
+        print(text, end=end, file=stream, flush=True)
     except (OSError, ValueError):
         abandon(sys.stderr)
 
@@ -77,9 +85,7 @@ def tell_over(text: str, *, last: bool) -> None:
     stream = sys.stderr
     try:
         if isinstance(stream, Screen) and stream.isatty():
-            stream.overwrite(text)
-            if last:
-                stream.write("\n")
+            stream.overwrite(text, last=last)
     except (OSError, ValueError):
         abandon(stream)
 

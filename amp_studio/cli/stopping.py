@@ -7,9 +7,14 @@ expression calls): ``was_asked`` remembers it.
 
 from __future__ import annotations
 
+import contextlib
 import signal
 import sys
-from typing import Any, NoReturn
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NoReturn
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.progress import Stop
 
 _asked: list[int] = []
 
@@ -28,6 +33,21 @@ def no_more() -> None:
 def was_asked() -> bool:
     """Return whether Ctrl-C has come, also where nothing was raised by it in the end."""
     return bool(_asked)
+
+
+@contextlib.contextmanager
+def asked_politely() -> Iterator[Stop]:
+    """Give the event that Ctrl-C or a kill sets inside, for what must end with the truth of another place.
+
+    What comes later is not heard: the verb knows its result and says it.
+    """
+    from amp_studio.transfer.interrupts import interrupts
+    from amp_studio.transfer.progress import Stop
+
+    stop = Stop()
+    is_program = signal.getsignal(signal.SIGINT) is _stop
+    with interrupts(stop.set, after=signal.SIG_IGN if is_program else None):
+        yield stop
 
 
 def _stop(number: int, _frame: object) -> NoReturn:

@@ -16,6 +16,8 @@ Result = TypeVar("Result")
 PATIENCE_MS = 300
 """How long a short piece of work may last before the window says what it waits for."""
 
+STOPPING = "Stopping at the next safe point …"
+
 
 class Task(QThread):
     """Runs ``work(progress, cancel)`` and gives its result or its error as a signal.
@@ -84,7 +86,8 @@ class ProgressDialog(QDialog):
         self._result: Any = None
         self._error: Exception | None = None
         self._over = False
-        self.text = QLabel(hint or title)
+        self._stage = hint or title
+        self.text = QLabel(self._stage)
         self.text.setWordWrap(True)
         self.bar = QProgressBar()
         self.bar.setRange(0, 0)
@@ -125,10 +128,20 @@ class ProgressDialog(QDialog):
         loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
 
     def _progress(self, stage: str, done: int, total: int) -> None:
+        if stage == "silent":
+            self._silence(done)
+            return
+        self._stage = self._stages.get(stage, stage)
         if not self.task.cancelled.is_set():
-            self.text.setText(self._stages.get(stage, stage))
+            self.text.setText(self._stage)
         self.bar.setRange(0, max(total, 0))
         self.bar.setValue(done)
+
+    def _silence(self, seconds: int) -> None:
+        """Nobody has answered for so long; 0 when somebody answers again."""
+        waiting = f"\nNo answer for {seconds} s, trying again …" if seconds else ""
+        doing = STOPPING if self.task.cancelled.is_set() else self._stage
+        self.text.setText(doing + waiting)
 
     def _done(self, result: object) -> None:
         self._result = result
@@ -144,7 +157,7 @@ class ProgressDialog(QDialog):
         """Escape and the window's close button cancel the task; the dialog closes when it has ended."""
         if self._cancellable:
             self.task.cancelled.set()
-            self.text.setText("Stopping at the next safe point …")
+            self.text.setText(STOPPING)
             self.buttons.setEnabled(False)
 
 

@@ -129,6 +129,34 @@ def test_escape_cancels_a_task_and_waits_for_its_end(window: MainWindow) -> None
     assert not Task.running
 
 
+def test_a_silence_is_shown_below_what_is_waited_for_and_goes(window: MainWindow) -> None:
+    texts: list[str] = []
+
+    def work(progress, cancel):  # type: ignore[no-untyped-def]
+        progress("keep", 1, 2)
+        progress("silent", 2, 20)
+        assert cancel.wait(20)
+        progress("silent", 3, 20)
+        progress("silent", 0, 20)
+
+    dialog = ProgressDialog("Work", work, window, "Waiting …", {"keep": "Reading …"})
+
+    def note(*_: object) -> None:
+        texts.append(dialog.text.text())
+        if len(texts) == 2:
+            dialog.reject()
+
+    dialog.task.progressed.connect(note)
+    dialog.run()
+    assert texts == [
+        "Reading …",
+        "Reading …\nNo answer for 2 s, trying again …",
+        "Stopping at the next safe point …\nNo answer for 3 s, trying again …",
+        "Stopping at the next safe point …",
+    ]
+    assert (dialog.bar.value(), dialog.bar.maximum()) == (1, 2), "the bar stands where it was"
+
+
 def test_what_goes_wrong_in_a_task_is_raised_to_whoever_waits(window: MainWindow, person: Person) -> None:
     def work(progress, cancel):  # type: ignore[no-untyped-def]
         raise OSError("the disk is on fire")

@@ -1,0 +1,92 @@
+"""Real programs and real signals: whatever is stopped and when, the exit code and the sentence are the truth."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from . import stopped_exchanges as campaign
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
+
+
+def test_a_download_stopped_at_any_moment_ends_with_the_truth(mill: Path, tmp_path: Path) -> None:
+    assert campaign.download_while_stopped(mill, tmp_path, seed=3, rounds=5) == []
+
+
+def test_an_emulated_control_stopped_at_any_moment_says_goodbye(tmp_path: Path) -> None:
+    assert campaign.control_while_stopped(tmp_path, seed=2, rounds=6) == []
+
+
+def test_ctrl_c_while_the_control_is_silent_stops_at_once_and_the_silence_was_shown(
+    mill: Path, tmp_path: Path
+) -> None:
+    with campaign.emulated(tmp_path / "control", silent=True) as (_, address):
+        program = _start("download", mill, "--to", address, "--accept-errors")
+        assert program.stderr is not None
+        assert "no answer for 2 s, trying again …\n" in program.stderr, "it reads as far as that line"
+        program.send_signal(signal.SIGINT)
+        begun = time.monotonic()
+        _, err = program.communicate(timeout=20)
+    assert (program.returncode, err) == (2, "amp-studio: stopped; nothing was replaced in the control\n")
+    assert time.monotonic() - begun < 3
+
+
+def test_ctrl_c_twice_while_a_commit_is_not_answered_ends_at_once_with_not_known(
+    mill: Path, tmp_path: Path
+) -> None:
+    subprocess.run(campaign._command("set", mill, "1300=1.5"), check=True, capture_output=True)
+    with campaign.emulated(tmp_path / "control", die_at_commit_step=3) as (control, address):
+        program = _start("download", mill, "--to", address, "--accept-errors")
+        control.wait(30)  # it has died in the middle of the commit
+        program.send_signal(signal.SIGINT)
+        time.sleep(0.3)
+        program.send_signal(signal.SIGINT)
+        begun = time.monotonic()
+        _, err = program.communicate(timeout=30)
+    assert program.returncode == 4, err
+    assert time.monotonic() - begun < 4
+    said = err.splitlines()[-1]
+    assert "stopped before the control has answered" in said
+    assert "amp-studio verify FILE --with ADDRESS" in said
+    assert "kept in" in said
+
+
+def test_an_emulated_control_whose_output_nobody_reads_serves_on_and_ends_well(
+    mill: Path, tmp_path: Path
+) -> None:
+    """Its first line is read, then the reader is gone."""
+    with campaign.emulated(tmp_path / "control") as (control, address):
+        assert control.stdout is not None
+        assert control.stdin is not None
+        control.stdout.close()
+        control.stdin.write("estop off\nestop on\n" * 20)
+        control.stdin.flush()
+        done = subprocess.run(
+            campaign._command("verify", mill, "--with", address), capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 1, done.stderr
+        control.send_signal(signal.SIGINT)
+        assert control.wait(20) == 0
+
+
+def test_the_result_of_a_download_that_cannot_be_printed_is_told_and_is_no_full_success(
+    mill: Path, tmp_path: Path
+) -> None:
+    subprocess.run(campaign._command("set", mill, "1300=2.5"), check=True, capture_output=True)
+    with campaign.emulated(tmp_path / "control") as (_, address), Path("/dev/full").open("w") as full:
+        command = campaign._command("download", mill, "--to", address, "--accept-errors")
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 3
+    assert "the result cannot be printed; Download complete and read back equal" in done.stderr
+
+
+def _start(*arguments: object) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        campaign._command(*arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
