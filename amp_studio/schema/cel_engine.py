@@ -46,6 +46,10 @@ LANGUAGE_FUNCTIONS = frozenset(
 """Functions of the language itself; those of dates are left out, no parameter is one."""
 
 
+_WIDEST = 64
+"""Bits of the widest field: a number of 10^10 bits would take all memory."""
+
+
 def _bit(word: float | None, n: float) -> bool | None:
     """Tell whether a bit of a word is set; null of an unset word, which ends an expression like any other null."""
     return None if word is None else int(word) >> int(n) & 1 == 1
@@ -53,6 +57,8 @@ def _bit(word: float | None, n: float) -> bool | None:
 
 def _field(word: float | None, n: float, width: float) -> float | None:
     """Return the number in the bits of a word that begin at ``n``; null of an unset word."""
+    if not 0 <= width <= _WIDEST:
+        raise ValueError(f"a word has no field of {width} bits")
     return None if word is None else float(int(word) >> int(n) & (1 << int(width)) - 1)
 
 

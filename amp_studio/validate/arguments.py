@@ -23,8 +23,13 @@ def not_negative(what: str, value: float) -> float:
     return value
 
 
-def whole(what: str, value: float, least: int = 1) -> int:
-    """A whole number of at least ``least``; doubles that hold one are welcome, CEL knows no others."""
+def whole(what: str, value: float, least: int = 1, most: int | None = None) -> int:
+    """A whole number of at least ``least``; doubles that hold one are welcome, CEL knows no others.
+
+    ``most`` bounds what would be reckoned with without end (a power of two with a billion digits).
+    """
+    if most is not None and value > most:
+        raise ValueError(f"{what} must be at most {most}, not {value!r}.")
     if not (math.isfinite(value) and value >= least and value == int(value)):
         raise ValueError(f"{what} must be a whole number of at least {least}, not {value!r}.")
     return int(value)

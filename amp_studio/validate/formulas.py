@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import math
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Callable, Mapping
+from functools import cache, wraps
 from importlib import import_module
 from typing import Any
 
@@ -18,6 +19,10 @@ FAMILY_MODULES = {
     "num": "num",
     "syntec": "syntec",
 }
+
+
+NUMBER_ANNOTATIONS = frozenset(("float", "int", "float | None", inspect.Parameter.empty))
+"""How functions for rules say that an argument is a number; built-in ones say nothing."""
 
 
 def _mod(a: float, b: float) -> float:
@@ -65,6 +70,33 @@ def formulas(family: str) -> dict[str, Callable[..., Any]]:
     return {name: getattr(module, name) for name in module.__all__ if name.islower()}
 
 
-def rule_functions(family: str) -> dict[str, Callable[..., Any]]:
+@cache
+def rule_functions(family: str) -> Mapping[str, Callable[..., Any]]:
     """Return every function a rule of the family may call."""
-    return GENERAL | formulas(family)
+    return {name: _guarded(function) for name, function in (GENERAL | formulas(family)).items()}
+
+
+def _guarded(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that takes for numbers nothing but doubles.
+
+    A rule may hand over anything: Python would repeat a text a billion times for a whole number, and reckon a power of
+    ten with a billion digits.
+    """
+    places = inspect.signature(function).parameters.values()
+    wants_number = [parameter.annotation in NUMBER_ANNOTATIONS for parameter in places]
+
+    @wraps(function)
+    def called(*arguments: Any) -> Any:
+        for argument, is_number in zip(arguments, wants_number, strict=False):
+            if is_number and type(argument) in (str, list, dict):
+                raise TypeError(f"{argument!r:.20} is no number")
+        return function(*map(_with_doubles, arguments))
+
+    return called
+
+
+def _with_doubles(argument: Any) -> Any:
+    kind = type(argument)
+    if kind is int:
+        return float(argument)
+    return [float(item) if type(item) is int else item for item in argument] if kind is list else argument

@@ -76,7 +76,7 @@ def combined_ratio(bits: float, periods: float, interpolation: float = 1.0) -> t
     that is 1 / 5 (the manual prints 8 / 40, which is the same).
     """
     increments = 4 * whole("The number of periods", periods) * whole("The interpolation", interpolation)
-    return _lowest(2 ** whole("The number of bits", bits), increments)
+    return _lowest(2 ** whole("The number of bits", bits, most=64), increments)
 
 
 def signal_fault(axis: float) -> int:
