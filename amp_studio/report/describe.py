@@ -133,7 +133,7 @@ def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
 def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding in a line or two for the terminal."""
     names = ", ".join(_named(file, a) for a in finding.addresses[:8])
-    page = f" (page {finding.page})" if finding.page else ""
+    page = f" ({finding.cited})" if finding.page else ""
     lines = [f"{finding.severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
     for what, settings in (("the control uses", finding.effective), ("repair", finding.repairs)):
         if settings:

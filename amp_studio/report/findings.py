@@ -49,6 +49,7 @@ def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> No
         message=same[0].message + (f" The control uses {used}." if used else ""),
         repair="; ".join(_settings(file, repairs)),
         page=same[0].page or "",
+        is_own=same[0].is_own,
     )
 
 

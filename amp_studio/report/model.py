@@ -183,6 +183,13 @@ class Note:
     message: str
     repair: str
     page: str
+    is_own: bool = False
+    """It is of a builder's rule: ``page`` is where he wrote it down."""
+
+    @property
+    def cited(self) -> str:
+        """The page as a sentence says it."""
+        return self.page if self.is_own else f"page {self.page}"
 
 
 @dataclass(frozen=True, slots=True)

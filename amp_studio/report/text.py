@@ -76,7 +76,7 @@ def _findings(report: Report) -> Iterator[str]:
 
 
 def _finding(note: Note) -> Iterator[str]:
-    page = f" (page {note.page})" if note.page else ""
+    page = f" ({note.cited})" if note.page else ""
     yield from _wrapped((f"{note.place}: " if note.place else "") + note.message + page, "  - ")
     if note.about:
         yield from _wrapped(", ".join(label for _, label in note.about), "    about  ")

@@ -38,8 +38,8 @@ def why_parts(
         yield "Reads", f"and {len(why.seen) - _MANY} more", None
     for erratum in why.errata:
         yield "Contradiction", erratum_text(file.schema.errata[erratum]), None
-    if finding.page:
-        yield "Source", f"{file.schema.family.title}, page {finding.page}", None
+    if why.source:
+        yield "Source", why.source, None
 
 
 def why_text(file: ParameterFile, finding: Finding, why: Explanation) -> str:

@@ -8,7 +8,7 @@ from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, p
 from .conditions import IN_FORCE, Reading, StateInfo, program
 from .constraint import Limits, bounding, clip, fault, limits
 from .file_error import FileError
-from .load import DatabaseFault, UnknownFamilyError, database_folder, family_ids, read_entries
+from .load import DatabaseFault, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
 from .model import (
     AxisProfile,
     BuilderRule,
@@ -49,6 +49,7 @@ __all__ = [
     "Choice",
     "Condition",
     "DatabaseFault",
+    "Entry",
     "Erratum",
     "FileError",
     "Group",

@@ -8,8 +8,9 @@ the models. A fault in a fact is told with file and line.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
-from functools import cache
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -116,36 +117,42 @@ def _of(family: Family, folder: Path) -> list[Path]:
     return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
 
 
-def read_entries(
-    path: Path, models: Mapping[str, type[Model]]
-) -> tuple[list[tuple[Model, int | None]], list[DatabaseFault]]:
-    """Read a file of named lists entry by entry: those that can be used, with their lines, and what is wrong with the others.
+@dataclass(frozen=True)
+class Entry:
+    """One item of a named list of a file, as it stands there."""
 
-    ``models`` says which lists there may be, and of what.
-    """
+    kind: str
+    """The list."""
+    data: Any
+    line: Callable[[Place], int]
+    """Return the line of a place in it."""
+
+
+def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[DatabaseFault]]:
+    """Read a file of named lists: every item that stands in one, and what is wrong with the lists."""
     try:
         document = read_yaml_file(path, DatabaseFault, most=_MOST_RULES)
     except DatabaseFault as fault:
         return [], [fault]
     data = document.data
     if not isinstance(data, dict):
-        return [], [] if data is None else [DatabaseFault(path, 1, f"holds no {' and no '.join(models)}")]
-    entries: list[tuple[Model, int | None]] = []
+        return [], [] if data is None else [DatabaseFault(path, 1, f"holds no {' and no '.join(kinds)}")]
+    entries: list[Entry] = []
     faults: list[DatabaseFault] = []
     for key, listed in data.items():
-        if key not in models or not isinstance(listed, list):
+        if key in kinds and isinstance(listed, list):
+            entries += [
+                Entry(key, item, partial(_line_of, document, (key, n))) for n, item in enumerate(listed)
+            ]
+        elif listed is not None or key not in kinds:
             name = short(str(key))
-            said = f"{name}: is no list" if key in models else f"{name}: here stand {', '.join(models)}"
+            said = f"{name}: is no list" if key in kinds else f"{name}: here stand {', '.join(kinds)}"
             faults.append(DatabaseFault(path, document.line((key,)), said))
-            continue
-        for n, entry in enumerate(listed):
-            try:
-                entries.append(
-                    (_valid(path, document, entry, models[key], (key, n)), document.line((key, n)))
-                )
-            except DatabaseFault as fault:
-                faults.append(fault)
     return entries, faults
+
+
+def _line_of(document: Document, entry: Place, place: Place) -> int:
+    return document.line((*entry, *place))
 
 
 def _read(path: Path, model: type[T]) -> T:

@@ -460,10 +460,15 @@ class Rule(Model):
     """The same for what it is compared with. All other single values it speaks of follow, unless ``blames`` names them."""
     page: Page
 
+    @property
+    def cited(self) -> str:
+        """Where it stands, as a sentence says it."""
+        return f"page {self.page}"
+
     @field_validator("blames", "compares", mode="before")
     @classmethod
     def _each_name(cls, names: object) -> object:
-        if isinstance(names, (list, tuple)):
+        if isinstance(names, (list, tuple)) and all(isinstance(name, str) for name in names):
             return dict.fromkeys(names, "true")
         if isinstance(names, dict):
             return {name: text for several, text in names.items() for name in str(several).split(", ")}
@@ -491,6 +496,11 @@ class BuilderRule(Rule):
     """The control family it is for, where files of several lie side by side."""
     page: str = ""
     """Where it is written, in the builder's own words."""
+
+    @property
+    def cited(self) -> str:
+        """Where it stands, as a sentence says it; empty where the builder does not say."""
+        return self.page
 
 
 class Suppression(Model):

@@ -174,9 +174,10 @@ class DetailPanel(QWidget):
         for rule in self._workspace.validator.rules_of(address):
             names = ", ".join(f"{n} = {link(schema, read_address(t)[0])}" for n, t in rule.reads.items())
             mark = "✗" if rule.id in broken else "✓"
+            cited = ", ".join(filter(None, (rule.severity, html.escape(rule.cited))))
             when = f" where {html.escape(rule.when)}" if rule.when != "true" else ""
             lines.append(
-                f"<p>{mark} <b>{html.escape(rule.title)}</b> <small>({rule.severity}, page {rule.page})</small><br>"
+                f"<p>{mark} <b>{html.escape(rule.title)}</b> <small>({cited})</small><br>"
                 f"<code>{html.escape(rule.check)}</code>{when}<br><small>{names}</small></p>"
             )
         return "".join(lines) or "<p>No rule reads this parameter.</p>"

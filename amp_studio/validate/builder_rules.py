@@ -7,9 +7,9 @@ and keeps nothing else from being checked.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from functools import lru_cache, partial
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cache, lru_cache, partial
 from io import StringIO
 from pathlib import Path
 
@@ -18,24 +18,40 @@ from pydantic import ValidationError
 from amp_studio.files import is_there, real_path, write_atomic
 from amp_studio.files.atomic import digest_of
 from amp_studio.schema import (
+    Address,
     BuilderRule,
     DatabaseFault,
+    Entry,
     Rule,
     Schema,
     Situation,
     Suppression,
     family_ids,
+    load_schema,
+    read_address,
     read_entries,
 )
 from amp_studio.schema.regular_file import read_file
 
+from .expression_tree import shown
 from .expressions import RuleFault
 from .finding import Finding
+from .nearest import did_you_mean
 from .plan import checks_of
+from .rule_entry import Place, Slip, entry_model
+from .rule_review import MOST_STEPS, review
 
 RULES_FILE = "rules.yaml"
 OWN_FAULT = "rules.unusable"
 """The rule that findings about the rules themselves belong to."""
+GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown")
+"""Findings of every family that are of no rule of its own."""
+MOST_RULES = 2000
+MOST_SUPPRESSIONS = 10_000
+MOST_FAULTS = 200
+"""Of a file: what it has beyond them is told in one finding."""
+MOST_STEPS_OF_A_FILE = 3 * MOST_STEPS
+"""Of all its rules together."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +62,8 @@ class BuilderRules:
     suppressions: tuple[Suppression, ...] = ()
     faults: tuple[Finding, ...] = ()
     """What is wrong with the rules themselves."""
+    places: Mapping[str, str] = field(default_factory=dict)
+    """Id of a rule -> file and line where it stands."""
 
 
 NO_RULES = BuilderRules()
@@ -68,42 +86,159 @@ def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
 
 @lru_cache(maxsize=32)  # it lies beside many files
 def _read(path: Path, _digest: str | None, schema: Schema) -> BuilderRules:
-    entries, faults = read_entries(path, {"rules": BuilderRule, "suppressions": Suppression})
-    rules: list[BuilderRule] = []
-    suppressions: list[Suppression] = []
-    known = {rule.id for rule in schema.rules}
-    for entry, line in entries:
-        if isinstance(entry, BuilderRule) and entry.family in ("", schema.family.family):
-            try:
-                _try(entry, schema, known)
-            except RuleFault as fault:
-                faults.append(DatabaseFault(path, line, str(fault)))
+    return _Reading(path, schema).read()
+
+
+class _Reading:
+    """What is found in one file of rules for one family."""
+
+    def __init__(self, path: Path, schema: Schema) -> None:
+        self._path, self._schema = path, schema
+        self._rules: dict[str, BuilderRule] = {}
+        self._places: dict[str, str] = {}
+        self._lines: dict[str, int | None] = {}
+        """Id of every rule of the file, usable or not, of this family or another -> its line."""
+        self._families = family_ids()
+        self._cost = 0
+        self._faults: list[DatabaseFault] = []
+
+    def read(self) -> BuilderRules:
+        entries, self._faults = read_entries(self._path, ("rules", "suppressions"))
+        for kind, most in (("rules", MOST_RULES), ("suppressions", MOST_SUPPRESSIONS)):
+            of_kind = [entry for entry in entries if entry.kind == kind]
+            for entry in of_kind[most : most + 1]:
+                self._fault(
+                    entry,
+                    (),
+                    f"there are {len(of_kind):,} {kind}, and {most:,} are the most; the rest is not used",
+                )
+            for entry in of_kind[:most]:
+                if kind == "rules":
+                    self._rule(entry)
+        suppressions = [e for e in entries if e.kind == "suppressions"][:MOST_SUPPRESSIONS]
+        used = tuple(found for entry in suppressions if (found := self._suppression(entry)) is not None)
+        return BuilderRules(tuple(self._rules.values()), used, tuple(self._findings()), self._places)
+
+    def _fault(self, entry: Entry, place: Place, what: str) -> None:
+        steps = " ".join(str(step + 1) if isinstance(step, int) else shown(step)[1:-1] for step in place)
+        words = [word for word in (_named(entry.data), steps) if word]
+        self._faults.append(DatabaseFault(self._path, entry.line(place), ": ".join([*words, what])))
+
+    def _findings(self) -> Iterator[Finding]:
+        shown_faults = sorted(self._faults, key=lambda fault: fault.line or 0)[:MOST_FAULTS]
+        for fault in shown_faults:
+            yield _finding(self._path, fault)
+        if more := len(self._faults) - len(shown_faults):
+            yield Finding(OWN_FAULT, "error", (), f"{self._path.name}: {more:,} more entries cannot be used.")
+
+    # -- rules -----------------------------------------------------------------
+
+    def _rule(self, entry: Entry) -> None:
+        rule, slips = entry_model(entry.data, BuilderRule)
+        family = rule.family if rule else ""
+        if family and family not in self._families:
+            slips.append((("family",), f"{shown(family)} is no family{did_you_mean(family, self._families)}"))
+        if rule and entry.data.get("id") == rule.id:
+            slips += self._same_id(entry, rule)
+        if rule and family in ("", self._schema.family.family):
+            found = review(rule, self._schema, any_family=not family)
+            slips += _further(found.slips, slips)
+            if not slips and found.is_ours:
+                slips += self._try(rule, found.cost)
+            if not slips and found.is_ours:
+                self._rules[rule.id] = rule
+                self._places[rule.id] = f"{self._path.name}, line {entry.line(())}"
+        for place, what in slips:
+            self._fault(entry, place, what)
+
+    def _same_id(self, entry: Entry, rule: BuilderRule) -> list[Slip]:
+        line = self._lines.setdefault(rule.id, entry.line(()))
+        if rule.id in _ids(self._schema):
+            return [(("id",), f"a rule of {self._schema.family.family} has this id already")]
+        if line != entry.line(()):
+            return [(("id",), f"the rule in line {line} has this id already")]
+        return []
+
+    def _try(self, rule: BuilderRule, cost: int) -> list[Slip]:
+        """See whether a rule can be used on every machine type, and is not one too many."""
+        if self._cost + cost > MOST_STEPS_OF_A_FILE:
+            return [
+                ((), "with those before it the rules can take too many steps: let them go over fewer lists")
+            ]
+        try:
+            for machine in self._schema.family.machines:
+                checks_of(Situation(self._schema, lambda _: None, partial(str, machine.key)), (rule,))
+        except RuleFault as fault:
+            return [(("reads",), fault.what)]
+        self._cost += cost
+        return []
+
+    # -- suppressions ----------------------------------------------------------
+
+    def _suppression(self, entry: Entry) -> Suppression | None:
+        """Return a suppression that is about this family."""
+        found, slips = entry_model(entry.data, Suppression)
+        if found and not slips:
+            others = {*self._families} - {self._schema.family.family}
+            if found.rule in self._rules or found.rule in _ids(self._schema):
+                slips += self._unknown_params(found)
+            elif found.rule in GENERAL_RULES:
+                if found.params and all(_is_elsewhere(text, self._schema) for text in found.params):
+                    return None
+                slips += self._unknown_params(found)
+            elif found.rule in self._lines or found.rule.partition(".")[0] in others:
+                return None
             else:
-                known.add(entry.id)
-                rules.append(entry)
-        elif isinstance(entry, BuilderRule):
-            known.add(entry.id)
-    others = {*family_ids()} - {schema.family.family}
-    for entry, line in entries:
-        if isinstance(entry, Suppression) and entry.rule.partition(".")[0] not in others:
-            if entry.rule in known or entry.rule.startswith("schema."):
-                suppressions.append(entry)
-            else:
-                faults.append(DatabaseFault(path, line, f"suppresses '{entry.rule}', which is no rule"))
-    findings = tuple(_finding(path, fault) for fault in faults)
-    return BuilderRules(tuple(rules), tuple(suppressions), findings)
+                near = did_you_mean(found.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
+                slips.append((("rule",), f"{shown(found.rule)} is no rule{near}"))
+        for place, what in slips:
+            self._fault(entry, place, what)
+        return None if slips else found
+
+    def _unknown_params(self, suppression: Suppression) -> Iterator[Slip]:
+        for n, text in enumerate(suppression.params):
+            if not _is_known(text, self._schema) and not _is_elsewhere(text, self._schema):
+                near = did_you_mean(text.partition("@")[0], self._schema.parameters)
+                yield ("params", n), f"{shown(text)} is no parameter of {self._schema.family.family}{near}"
+
+
+def _further(found: list[Slip], before: list[Slip]) -> list[Slip]:
+    """Return what is wrong besides what is known to be: a key that cannot be used is not looked at again."""
+    wrong = {place[0] for place, _ in before if place}
+    return [(place, what) for place, what in found if (place[:1] or ("",))[0] not in wrong]
+
+
+def _named(data: object) -> str:
+    """Return the id of a rule, as messages show it."""
+    name = data.get("id") if isinstance(data, dict) else None
+    return shown(name)[1:-1] if isinstance(name, str) and name else ""
+
+
+@cache
+def _ids(schema: Schema) -> frozenset[str]:
+    return frozenset(rule.id for rule in schema.rules)
+
+
+@lru_cache(maxsize=4096)
+def _is_known(text: str, schema: Schema) -> bool:
+    """Tell whether a family has what a suppression names, on whatever machine type."""
+    parameter_id, which = read_address(text)
+    if parameter_id in schema.parameters:
+        parameter = schema.parameters[parameter_id]
+        return not which or any(which in schema.instances(parameter, m.key) for m in schema.family.machines)
+    return any(schema.addressed_by(text, machine.key) for machine in schema.family.machines)
+
+
+@lru_cache(maxsize=4096)
+def _is_elsewhere(text: str, schema: Schema) -> bool:
+    """Tell whether another family has what a suppression names, and this one has not."""
+    return not _is_known(text, schema) and any(
+        _is_known(text, load_schema(family)) for family in family_ids() if family != schema.family.family
+    )
 
 
 def _finding(path: Path, fault: DatabaseFault) -> Finding:
     return Finding(OWN_FAULT, "error", (), f"{_told(path, fault)}.")
-
-
-def _try(rule: BuilderRule, schema: Schema, known: set[str]) -> None:
-    """See whether a rule can be used on every machine type; raises RuleFault."""
-    if rule.id in known:
-        raise RuleFault(rule.id, "there are two rules of this name")
-    for machine in schema.family.machines:
-        checks_of(Situation(schema, lambda _: None, partial(str, machine.key)), (rule,))
 
 
 def _told(path: Path, fault: DatabaseFault) -> str:
@@ -149,15 +284,18 @@ def sort_out(
     findings: tuple[Finding, ...], suppressions: tuple[Suppression, ...], situation: Situation
 ) -> tuple[tuple[Finding, ...], tuple[Suppressed, ...], tuple[Suppression, ...]]:
     """Return the findings that stay, those that are suppressed, and the suppressions that meet nothing any more."""
-    meant = [(s, [set(_addresses(situation, text)) for text in s.params]) for s in suppressions]
+    by_rule: dict[str, list[tuple[Suppression, list[set[Address]]]]] = {}
+    for s in suppressions:
+        meant = [set(_addresses(situation, text)) for text in s.params]
+        by_rule.setdefault(s.rule, []).append((s, meant))
     stay: list[Finding] = []
     left: list[Suppressed] = []
     for finding in findings:
         by = next(
             (
                 s
-                for s, every in meant
-                if s.rule == finding.rule and not any(named.isdisjoint(finding.addresses) for named in every)
+                for s, every in by_rule.get(finding.rule, ())
+                if not any(named.isdisjoint(finding.addresses) for named in every)
             ),
             None,
         )
@@ -166,7 +304,7 @@ def sort_out(
         else:
             left.append(Suppressed(finding, by))
     used = {id(suppressed.suppression) for suppressed in left}
-    return tuple(stay), tuple(left), tuple(s for s, _ in meant if id(s) not in used)
+    return tuple(stay), tuple(left), tuple(s for s in suppressions if id(s) not in used)
 
 
 def _addresses(situation: Situation, text: str) -> Iterator[tuple[str, str]]:

@@ -48,6 +48,8 @@ class Explanation:
     seen: tuple[Seen, ...]
     errata: tuple[str, ...]
     """Of the parameters it hangs on, where the manual contradicts itself."""
+    source: str = ""
+    """Where it is written: a page of the manual, or what a builder says of his own rule."""
 
 
 def explain(validator: Validator, finding: Finding) -> Explanation:
@@ -69,7 +71,14 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
         () if any(_is_secret(validator, address) for _, address in named) else tuple(_sides(rule, context)),
         seen,
         _errata(validator, {address[0] for _, address in named}),
+        _source(validator, finding),
     )
+
+
+def _source(validator: Validator, finding: Finding) -> str:
+    if finding.is_own:
+        return "; ".join(filter(None, (finding.page, validator.own.places.get(finding.rule, ""))))
+    return f"{validator.file.schema.family.title}, page {finding.page}" if finding.page else ""
 
 
 def _of_a_value(validator: Validator, finding: Finding) -> Explanation:
@@ -101,6 +110,7 @@ def _of_a_value(validator: Validator, finding: Finding) -> Explanation:
         (),
         seen,
         _errata(validator, {a[0] for a in every}),
+        _source(validator, finding),
     )
 
 

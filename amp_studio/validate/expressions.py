@@ -25,7 +25,7 @@ AT_HAND = ("it", "at")
 EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
 """What CEL raises for a value of a kind that an expression does not speak of."""
 
-_TYPES = {
+TYPES = {
     "int",
     "uint",
     "double",
@@ -46,7 +46,7 @@ class RuleFault(ValueError):
     """A rule that cannot be used: its id and what is wrong with it."""
 
     def __init__(self, rule: str, what: str) -> None:
-        self.rule = rule
+        self.rule, self.what = rule, what
         super().__init__(f"rule {rule}: {what}")
 
 
@@ -82,7 +82,7 @@ def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
     for place, text in _texts(rule):
         compiled = _compiled(rule, place, text)
         found = set(compiled.references()["variables"]) - set(_OVER_A_LIST.findall(text))
-        variables = found - _TYPES
+        variables = found - TYPES
         known = {*rule.reads, *ALWAYS_THERE, *(AT_HAND if place.startswith(("blames", "compares")) else ())}
         for name in sorted(variables - known):
             raise RuleFault(rule.id, f"{place} speaks of '{name}', which it does not read")

@@ -37,6 +37,8 @@ class Finding:
     """What the causes were compared with: they need not be wrong themselves."""
     instance: str | None = None
     """The instance a rule was broken for; None where no rule was."""
+    is_own: bool = False
+    """It is of a builder's rule: ``page`` is where he wrote it down, not a page of the manual."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:
@@ -47,3 +49,8 @@ class Finding:
     def key(self) -> tuple[str, str | tuple[Address, ...]]:
         """What stays the same while it is the same finding, of other values: which are wrong may change."""
         return self.rule, self.causes if self.instance is None else self.instance
+
+    @property
+    def cited(self) -> str:
+        """Where it stands, as a sentence says it: ``page 7-20``, or a builder's own words; empty where it says nothing."""
+        return f"page {self.page}" if self.page and not self.is_own else self.page or ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from operator import is_
 from typing import Any
@@ -12,6 +12,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     MASKED,
     Address,
+    BuilderRule,
     Value,
     canonical_unit,
     canonical_value,
@@ -26,6 +27,7 @@ from amp_studio.schema.conditions import Canonical, same_values
 from amp_studio.schema.units import angular
 
 from .blame import about
+from .expression_worth import LONGEST_TEXT
 from .expressions import EVALUATION_FAULTS
 from .finding import Finding, Setting
 from .formulas import rule_functions
@@ -81,6 +83,8 @@ class RuleChecks:
 
     def _broken_by(self, check: RuleCheck, values: list[Any]) -> bool:
         """Tell whether a rule is broken by values; what it came to for equal ones before is remembered."""
+        if isinstance(check.rule, BuilderRule) and _too_long(values):
+            return False
         expressions = check.expressions
         key = same_values(values[: len(check.singles)])
         if check.lists:
@@ -177,7 +181,8 @@ class RuleChecks:
         for single in check.singles:
             texts[single.name] = self._shown(single.address)
         for name, listed in check.lists:
-            texts[name] = ", ".join(map(self._shown, listed.addresses))
+            if f"{{{name}}}" in rule.message:
+                texts[name] = ", ".join(map(self._shown, listed.addresses))
         own = [single.address for single in check.singles]
         turns = any(situation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
@@ -204,6 +209,7 @@ class RuleChecks:
             tuple(self._set(check, given, check.expressions.effective)),
             compared,
             check.instance,
+            isinstance(rule, BuilderRule),
         )
 
     def _reads_secret(self, check: RuleCheck) -> bool:
@@ -281,3 +287,11 @@ class RuleChecks:
         if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
             number = round(number, parameter.decimals)
         return Value(int(number) if parameter.type in ("integer", "bits") else number, unit)
+
+
+def _too_long(values: Iterable[Any]) -> bool:
+    """Tell whether a text is longer than a builder's rule was found to bear; its own check says that it is too long."""
+    return any(
+        len(value) > LONGEST_TEXT if type(value) is str else type(value) is list and _too_long(value)
+        for value in values
+    )

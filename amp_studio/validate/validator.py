@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule
@@ -37,6 +37,8 @@ class Validator:
         self._unset_advice: list[tuple[_Order, Finding]] | None = None
         """What is said of them, until they change."""
         self._filed: dict[Place, tuple[_Order, Finding]] = {}
+        self._checks_of: dict[Hashable, RuleCheck] | None = None
+        """Key of a finding -> the check it is of, until the findings change."""
         self._prepare()
 
     def _prepare(self) -> None:
@@ -96,10 +98,10 @@ class Validator:
 
     def check_of(self, finding: Finding) -> RuleCheck | None:
         """Return the rule and the instance that a present finding is of; None for a range, a choice and the like."""
-        for place, (_, filed) in self._filed.items():
-            if isinstance(place, int) and self._trials.offered(place, filed, self._filed) == finding:
-                return self._plan.checks[place]
-        return None
+        if self._checks_of is None:
+            places = (place for place in self._filed if isinstance(place, int))
+            self._checks_of = {self._filed[place][1].key: self._plan.checks[place] for place in places}
+        return self._checks_of.get(finding.key)
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see."""
@@ -109,6 +111,7 @@ class Validator:
 
     def _check(self, addresses: Iterable[Address], checks: Iterable[RuleCheck]) -> None:
         self._checks.look_again()
+        self._checks_of = None
         for address in addresses:
             finding = self._check_address(address)
             if finding is not None:

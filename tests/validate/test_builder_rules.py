@@ -9,8 +9,17 @@ from textwrap import dedent
 import pytest
 
 from amp_studio.files import ParameterFile
+from amp_studio.report import finding_text, why_text
 from amp_studio.schema import Value, load_schema
-from amp_studio.validate import Finding, Setting, Validator, read_builder_rules, rules_beside, suppress
+from amp_studio.validate import (
+    Finding,
+    Setting,
+    Validator,
+    explain,
+    read_builder_rules,
+    rules_beside,
+    suppress,
+)
 
 RAPID = ("feedrate.rapid", "1")
 OWN_RULE = """
@@ -66,30 +75,93 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("severity: warning", "severity: fatal", "line 5: builder.rapid: severity: Input should be"),
-        ("check: ", "chek: ", "line 3: builder.rapid: check: Field required"),
-        ("title: Rapid of this machine", "title: 1", "line 4: builder.rapid: title: Input should be a valid str"),
-        ("rules:", "rules: [", "line 3: is not readable: did not find expected"),
-        ("rules:", "rule:", "line 2: rule: here stand rules, suppressions"),
-        ("feedrate.rapid}", "feedrate.rapids}", "line 3: rule builder.rapid: reads 'feedrate.rapids', which the"),
-        ("<= 10000.0", "<=", "line 3: rule builder.rapid: check: "),
-        ("id: builder.rapid", "id: 9pc.feedrate.rapid-zero", ""),
-        ("rules:", "suppressions: [{rule: builder.rapid, by: me}]\nrules:", "line 2: reason: Field required"),
+        ("severity: warning", "severity: fatal", "line 5: builder.rapid: severity: 'fatal' is not 'error', 'warning' or 'advice'."),
+        ("severity: warning", "severity: waring", "line 5: builder.rapid: severity: 'waring' is not 'error', 'warning' or 'advice', did you mean 'warning'?."),
+        ("check: ", "chek: ", "line 7: builder.rapid: chek: there is no such key, did you mean 'check'?."),
+        ("    check: rapid <= 10000.0\n", "", "line 3: builder.rapid: check: is missing."),
+        ("title: Rapid of this machine", "title: 1", "line 4: builder.rapid: title: must be a text: put '1' in quotes."),
+        ("id: builder.rapid", "id: Builder rapid", "line 3: Builder rapid: id: 'Builder rapid' is no id: small letters"),
+        ("rules:", "rules: [", "line 3: "),
+        ("rules:", "rule:", "line 2: rule: here stand rules, suppressions."),
+        ("feedrate.rapid}", "feedrate.rapids}", "line 6: builder.rapid: reads rapid: 'feedrate.rapids' is no parameter of 9pc, did you mean 'feedrate.rapid'?."),
+        ("severity:", "family: 9pc\n    severity:", ""),
+        ("severity:", "family: 9PC\n    severity:", "line 5: builder.rapid: family: '9PC' is no family"),
+        ("feedrate.rapid}", "feedrate.rapid@9}", "line 6: builder.rapid: reads rapid: Rapid Feedrate for Positioning has no instance '9'; it has 1, 2, 3, 4, 5, 6, 7, 8."),
+        ("{rapid: feedrate", "{loop: axis.type, rapid: feedrate", "line 6: builder.rapid: reads loop: 'loop' is a word of the language and can be no name."),
+        ("<= 10000.0", "<=", "line 7: builder.rapid: check: a value is missing behind '<=' at the end."),
+        ("<= 10000.0", "= 10000.0", "line 7: builder.rapid: check: '=' is no operator: write '=='."),
+        ("check: rapid", "check: rapit", "line 7: builder.rapid: check: 'rapit' is not read: add it under reads, or did you mean 'rapid'?."),
+        ("<= 10000.0", "* 2 <= 10000.0", "line 7: builder.rapid: check: 'rapid * 2' mixes a whole number with a decimal one: write 2.0."),
+        ("check: rapid <=", "check: maxi(rapid, 1.0) <=", "line 7: builder.rapid: check: 'maxi' is no function, did you mean 'max'?."),
+        ("check: rapid <=", "check: max(rapid) <=", "line 7: builder.rapid: check: max takes 2 values, not 1."),
+        (" <= 10000.0", "", "line 7: builder.rapid: check: it does not give true or false."),
+        ("Rapid {rapid} is", "Rapid {rapit} is", "line 8: builder.rapid: message: {rapit} is neither read nor among its values, did you mean 'rapid'?."),
+        ("Rapid {rapid} is", "Rapid {rapid:>1000000000} is", "line 8: builder.rapid: message: {rapid} is shown as it is: leave out what stands behind the name."),
+        ("{set: rapid,", "{set: rapt,", "line 10: builder.rapid: fix 1 set: 'rapt' is not read, did you mean 'rapid'?."),
+        ('value: "10000.0"', "value: 10000.0", "line 10: builder.rapid: fix 1 value: must be a text: put '10000.0' in quotes."),
+        ('value: "10000.0"', "value: \"'fast'\"", "line 10: builder.rapid: fix 1 value: it does not give a number for Rapid Feedrate for Positioning."),
+        ("id: builder.rapid", "id: 9pc.axis.consecutive", "line 3: 9pc.axis.consecutive: id: a rule of 9pc has this id already."),
+        ("rules:", "suppressions: [{rule: builder.rapid, by: me}]\nrules:", "line 2: reason: is missing."),
         ("rules:", "suppressions: [{rule: builder.rapids, by: me, reason: why}]\nrules:",
-         "line 2: suppresses 'builder.rapids', which is no rule"),
+         "line 2: rule: 'builder.rapids' is no rule, did you mean 'builder.rapid'?."),
+        ("rules:", "suppressions: [{rule: builder.rapid, params: [feedrate.rapit], by: me, reason: why}]\nrules:",
+         "line 2: params 1: 'feedrate.rapit' is no parameter of 9pc, did you mean 'feedrate.rapid'?."),
     ],
 )  # fmt: skip
-def test_what_cannot_be_used_is_a_finding_with_file_and_line(
+def test_what_cannot_be_used_is_a_finding_with_file_and_the_line_of_the_field(
     mill, path: Path, old: str, new: str, said: str
 ) -> None:
     assert old in OWN_RULE
-    if not said:
-        new, said = (
-            f"id: {mill.schema.rules[0].id}",
-            f"line 3: rule {mill.schema.rules[0].id}: there are two rules",
-        )
-    (told,) = faults(path, OWN_RULE.replace(old, new), mill)
-    assert told.startswith(f"rules.yaml, {said}")
+    told = faults(path, OWN_RULE.replace(old, new), mill)
+    assert [one.startswith(f"rules.yaml, {said}") for one in told] == ([True] if said else [])
+
+
+def test_all_slips_of_an_entry_are_told_at_once(mill, path: Path) -> None:
+    wrong = OWN_RULE.replace("warning", "fatal").replace("<= 10000.0", "<= rapit && rapid == 'fast'")
+    wrong = wrong.replace("{rapid} is", "{rapit} is").replace('"10000.0"', "7")
+    assert [told.split(": ")[0] + ": " + told.split(": ")[2] for told in faults(path, wrong, mill)] == [
+        "rules.yaml, line 5: severity",
+        "rules.yaml, line 7: check",
+        "rules.yaml, line 7: check",
+        "rules.yaml, line 8: message",
+        "rules.yaml, line 10: fix 1 value",
+    ]
+
+
+CHOICE = """
+rules:
+  - id: works.choice
+    title: A choice
+    severity: advice
+    reads: {baud: servo.sercos_baud, type: axis.type, types: axis.type@*}
+    check: CHECK
+    message: no
+"""
+
+
+@pytest.mark.parametrize(
+    ("check", "said"),
+    [
+        ("baud == '4 MHz'", "'baud' is never '4 MHz': write the key 'mhz4'"),
+        ("'4 mhz' != baud", "'baud' is never '4 mhz': write the key 'mhz4'"),
+        ("baud in ['mhz2', 'mhz5']", "'baud' is never 'mhz5': write a key, did you mean 'mhz4'?"),
+        ("types.exists(t, t == 'Linear')", "'t' is never 'Linear': write the key 'linear'"),
+        ("types[0] == 'rotery'", "'types[0]' is never 'rotery': write a key, did you mean 'rotary'?"),
+        ("'lineal' in types", "'types' is never 'lineal': write a key, did you mean 'linear'?"),
+        ("type == (machine == 'mill' ? 'linear' : 'round')", "'type' is never 'round': its keys are linear, rotary, spindle, unfitted"),
+        ("machine == 'Mill'", "'machine' is never 'Mill': write the key 'mill'"),
+        ("{'linear': 1, 'roundish': 2}[type] == 1", "'type' is never 'roundish': its keys are linear, rotary, spindle, unfitted"),
+        ("type == 3.0", "'type' is a text and never equals '3.0', a number"),
+        ("type == true", "'type' is a text and never equals 'true', true or false: compare it with true or false"),
+        ("type == baud", "'type' and 'baud' have no choice in common"),
+        ("type == 'rotary' || baud != 'mhz4' || type in ['linear', 'spindle'] || type == null", ""),
+        ("type + 'x' == 'anything'", ""),
+    ],
+)  # fmt: skip
+def test_a_choice_is_compared_with_its_keys_only(mill, path: Path, check: str, said: str) -> None:
+    """A comparison with anything else is silently false, so the rule would never be broken."""
+    told = faults(path, CHOICE.replace("CHECK", f'"{check}"'), mill)
+    assert told == ([f"rules.yaml, line 7: works.choice: check: {said}."] if said else [])
 
 
 def test_one_wrong_rule_hides_neither_the_others_nor_the_family_s(mill, path: Path) -> None:
@@ -116,6 +188,59 @@ def test_a_rule_for_another_family_is_left_to_it(mill, path: Path) -> None:
     other += "suppressions:\n  - {rule: num.axes.anything, reason: looked at, by: J. Doe}\n"
     assert faults(path, other, mill) == []
     assert Validator(mill, read_builder_rules(path, mill.schema)).run() == ()
+
+
+def test_a_rule_without_a_family_applies_where_its_parameters_exist(mill, path: Path) -> None:
+    other = OWN_RULE.replace("builder.rapid", "builder.num").replace("feedrate.rapid", "travel.limit_min")
+    path.write_text(OWN_RULE + other.removeprefix("\nrules:\n"), encoding="utf-8")
+    num = load_schema("num")
+    for schema, used in ((mill.schema, ["builder.rapid"]), (num, ["builder.num"])):
+        own = read_builder_rules(path, schema)
+        assert ([rule.id for rule in own.rules], own.faults) == (used, ())
+
+
+def test_a_rule_of_a_family_that_reads_another_s_parameter_says_whose_it_is(mill, path: Path) -> None:
+    parameter = next(p for p in load_schema("num").parameters if p not in mill.schema.parameters)
+    text = OWN_RULE.replace("severity:", "family: 9pc\n    severity:").replace("feedrate.rapid", parameter)
+    (told,) = faults(path, text, mill)
+    assert told.endswith(f"reads rapid: '{parameter}' is a parameter of num, not of 9pc.")
+
+
+def test_a_suppression_of_one_family_is_not_unused_in_a_file_of_another(mill, path: Path) -> None:
+    path.write_text(
+        """
+rules:
+  - {id: works.num, family: num, title: T, severity: advice, reads: {}, check: "true", message: no}
+suppressions:
+  - {rule: works.num, reason: looked at, by: J. Doe}
+  - {rule: num.axes.anything, reason: looked at, by: J. Doe}
+  - {rule: schema.range, params: [P21N3], reason: looked at, by: J. Doe}
+""",
+        encoding="utf-8",
+    )
+    assert Validator(mill, read_builder_rules(path, mill.schema)).run() == ()
+
+
+def test_a_suppression_of_a_rule_that_cannot_be_used_is_no_second_finding(mill, path: Path) -> None:
+    text = OWN_RULE.replace("<= 10000.0", "<=")
+    text += "suppressions:\n  - {rule: builder.rapid, reason: looked at, by: J. Doe}\n"
+    assert len(faults(path, text, mill)) == 1
+
+
+def test_two_rules_of_one_id_are_told_with_the_line_of_the_first(mill, path: Path) -> None:
+    (told,) = faults(path, OWN_RULE + OWN_RULE.removeprefix("\nrules:\n"), mill)
+    assert told == "rules.yaml, line 11: builder.rapid: id: the rule in line 3 has this id already."
+
+
+@pytest.mark.parametrize("page", ["works standard 4711, sheet 2", ""])
+def test_a_builder_s_rule_is_cited_with_his_own_page(mill, path: Path, page: str) -> None:
+    path.write_text(OWN_RULE + (f"    page: {page}\n" if page else ""), encoding="utf-8")
+    validator = Validator(mill, read_builder_rules(path, mill.schema))
+    finding = of(validator.run(), "builder.rapid")[0]
+    text = why_text(mill, finding, explain(validator, finding))
+    assert "; ".join(filter(None, (page, "rules.yaml, line 3"))) in text.splitlines()[-1]
+    assert "Manual" not in text.splitlines()[-1]
+    assert finding_text(mill, finding).splitlines()[0].endswith(f" ({page})" if page else "bear.")
 
 
 @pytest.mark.parametrize(

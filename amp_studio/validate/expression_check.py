@@ -1,0 +1,323 @@
+"""What an expression of a builder's rule gives and costs, worked out before it ever runs.
+
+The language has no loops but those over lists, so the largest size of every value and the most steps it takes follow
+from the text and from how many instances the parameters have. The engine itself has no bounds: an expression that
+doubles a list thirty times would take all memory. The same walk tells what can never be meant: a choice compared with a
+text that is none of its keys, a number with a text, a whole number added to a decimal one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+
+from .expression_tree import Node, shown
+from .expression_worth import (
+    ANY,
+    DECIMAL,
+    LARGEST,
+    WHOLE,
+    YES_NO,
+    Choices,
+    Signature,
+    Worth,
+    any_of,
+    list_worth,
+    text_worth,
+)
+from .nearest import did_you_mean
+
+_STEP = 3
+"""Cost of a step; one is the copying of a number, some 50 ns."""
+_CALL = 30
+"""Cost of a call out of the engine."""
+_PATTERN_SIGN = 200
+"""Cost of a sign of a pattern: it is compiled at each call."""
+
+_CALLED = {
+    "decimal": "a number",
+    "whole": "a whole number",
+    "text": "a text",
+    "yes/no": "true or false",
+    "list": "a list",
+    "table": "a table",
+    "null": "null",
+}
+_NUMBERS = ("decimal", "whole")
+
+
+class ExpressionCheck:
+    """Walks one expression: ``slips`` are what can never be meant, ``cost`` is what one evaluation costs at most."""
+
+    def __init__(self, names: Mapping[str, Worth], functions: Mapping[str, Signature]) -> None:
+        self._names, self._functions = dict(names), functions
+        self._bound: set[str] = set()
+        self.slips: list[str] = []
+        self.cost = 0
+
+    def worth(self, node: Node) -> Worth:
+        """Return what a tree gives; adds to ``slips`` and ``cost``."""
+        found, self.cost = self._worth(node)
+        return found
+
+    def _slip(self, what: str) -> None:
+        if what not in self.slips:
+            self.slips.append(what)
+
+    def _worth(self, node: Node) -> tuple[Worth, int]:
+        if node.kind == "over":
+            found, cost = self._over(node)
+        else:
+            parts = [self._worth(part) for part in node.parts]
+            worths = [worth for worth, _ in parts]
+            found, own = self._of(node, worths)
+            cost = own + sum(cost for _, cost in parts)
+        return found, min(cost + _STEP + found.size, LARGEST)
+
+    def _of(self, node: Node, parts: list[Worth]) -> tuple[Worth, int]:
+        """Return what a part gives, and what it costs besides its step, its operands and its result."""
+        match node.kind:
+            case "value":
+                return _literal(node), 0
+            case "name":
+                return self._named(node), 0
+            case "list":
+                return replace(list_worth(len(parts), any_of(parts)), is_closed=True), 0
+            case "table":
+                return self._table(parts), 0
+            case "index":
+                return self._indexed(node, *parts), 0
+            case "call":
+                return self._called(node, parts)
+            case "?:":
+                self._demand_yes_no(node.parts[0], parts[0])
+                return any_of(parts[1:]), 0
+            case "!" | "&&" | "||":
+                for part, worth in zip(node.parts, parts, strict=True):
+                    self._demand_yes_no(part, worth)
+                return YES_NO, 0
+            case "==" | "!=" | "in" | "<" | "<=" | ">" | ">=":
+                self._compare(node, *parts)
+                return YES_NO, sum(part.size for part in parts)
+            case _:
+                return self._arithmetic(node, parts), 0
+
+    # -- names, lists and functions --------------------------------------------
+
+    def _named(self, node: Node) -> Worth:
+        name = str(node.value)
+        found = self._names.get(name)
+        if found is None:
+            near = did_you_mean(name, self._names)
+            self._slip(f"'{name}' is not read: add it under reads{near.replace('did', 'or did', 1)}")
+            return ANY
+        return found
+
+    def _table(self, parts: list[Worth]) -> Worth:
+        keys, values = any_of(parts[::2]), any_of(parts[1::2])
+        item = replace(values, size=values.size + keys.size)
+        return replace(list_worth(len(parts) // 2, item), kind="table", literals=keys.literals)
+
+    def _indexed(self, node: Node, of: Worth, index: Worth) -> Worth:
+        if of.kind not in ("list", "table", "any"):
+            self._slip(
+                f"{shown(node.parts[0].text)} is {_CALLED[of.kind]} and has no items: take the brackets away"
+            )
+        elif of.kind == "list" and index.kind in ("decimal", "text", "yes/no"):
+            self._slip(
+                f"{shown(node.parts[1].text)} is {_CALLED[index.kind]}, and items are counted by whole numbers"
+                + (f": write int({node.parts[1].text})" if index.kind == "decimal" else "")
+            )
+        elif of.kind == "table":
+            self._compare_choice(node.parts[1], index, of.literals)
+        return of.item or ANY
+
+    def _called(self, node: Node, given: list[Worth]) -> tuple[Worth, int]:
+        name = str(node.value)
+        signature = self._functions.get(name)
+        cost = _CALL + 2 * sum(worth.size for worth in given)
+        if signature is None:
+            self._slip(f"'{name}' is no function{did_you_mean(name, self._functions)}")
+            return ANY, cost
+        if not signature.fewest <= len(given) <= signature.most:
+            count = f"{signature.fewest}" + (
+                f" to {signature.most}" if signature.most > signature.fewest else ""
+            )
+            self._slip(f"{name} takes {count} value{'s' if count != '1' else ''}, not {len(given)}")
+            return signature.gives, cost
+        for place in sorted(signature.numbers):
+            if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
+                self._slip(
+                    f"{name} takes a number, not {shown(node.parts[place].text)}, {_CALLED[given[place].kind]}"
+                )
+        if name == "matches":
+            cost += self._pattern(node.parts[1], given)
+        gives = signature.gives
+        if gives.item or gives.kind == "text":  # a formula may give back as much as it is given
+            length = gives.length + sum(worth.length for worth in given)
+            gives = list_worth(length, gives.item) if gives.item else text_worth(length)
+        return gives, cost
+
+    def _pattern(self, node: Node, given: list[Worth]) -> int:
+        """Return what a pattern costs; one that is worked out could be any."""
+        if node.kind != "value" or not isinstance(node.value, str):
+            self._slip(f"the pattern of matches must be written out, not {shown(node.text)}")
+            return 0
+        if re.search(r"\(\?(?!:|i\))", node.value):
+            self._slip("a pattern may begin groups with '(?:' and '(?i)' and no other '(?'")
+        states = 1 + len(node.value)
+        for _, least, most in re.findall(r"(\{)\s*(\d+)\s*,?\s*(\d*)", node.value):
+            states = min(states * max(1, int(least[:9]), int(most[:9] or 0)), LARGEST)
+        return min(_PATTERN_SIGN * states, LARGEST) + given[0].length
+
+    def _over(self, node: Node) -> tuple[Worth, int]:
+        """Return what a macro over a list gives and costs: its body once for each item."""
+        of, cost = self._worth(node.parts[0])
+        macro, name = str(node.value), node.bound
+        if of.kind not in ("list", "any"):
+            self._slip(f"'{macro}' goes over a list, and {shown(node.parts[0].text)} is {_CALLED[of.kind]}")
+        hidden, self._names[name] = self._names.get(name), of.item or ANY
+        bodies = [self._worth(part) for part in node.parts[1:]]
+        if hidden is None:
+            del self._names[name]
+        else:
+            self._names[name] = hidden
+        tests = bodies[:-1] if macro == "map" else bodies
+        for part, (worth, _) in zip(node.parts[1:], tests, strict=False):
+            self._demand_yes_no(part, worth)
+        given: Worth = YES_NO
+        if macro in ("map", "filter"):
+            given = list_worth(of.length, bodies[-1][0] if macro == "map" else of.item or ANY)
+        # What map and filter have so far is copied for each item.
+        each = sum(c for _, c in bodies) + 3 * _STEP + (given.size // 2 if given.kind == "list" else 0)
+        return given, cost + of.size + of.length * each
+
+    # -- operators -------------------------------------------------------------
+
+    def _demand_yes_no(self, node: Node, worth: Worth) -> None:
+        if worth.kind not in ("yes/no", "any"):
+            self._slip(f"{shown(node.text)} is {_CALLED[worth.kind]}, where true or false is wanted")
+
+    def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
+        kinds = {part.kind for part in parts} - {"any", "null"}
+        sign = "-" if node.kind == "negative" else node.kind
+        if sign == "+" and kinds == {"list"}:
+            return list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
+        if sign == "+" and kinds == {"text"}:
+            return text_worth(sum(p.length for p in parts))
+        if kinds == {"decimal", "whole"}:
+            self._slip(f"{shown(node.text)} {_mixed(node, parts)}")
+        elif sign == "%" and "decimal" in kinds:
+            self._slip(f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})")
+        elif len(kinds) > 1 or not kinds <= {"decimal", "whole"}:
+            odd = next(
+                (n, p)
+                for n, p in zip(node.parts, parts, strict=True)
+                if p.kind not in (*_NUMBERS, "any", "null")
+            )
+            hint = (
+                ": write string(...) around the number"
+                if kinds & {*_NUMBERS} and odd[1].kind == "text"
+                else ""
+            )
+            self._slip(
+                f"{shown(odd[0].text)} is {_CALLED[odd[1].kind]}, and '{sign}' cannot use it here{hint}"
+            )
+        if kinds == {"whole"}:
+            return WHOLE
+        sizes = list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
+        return (
+            DECIMAL
+            if kinds <= {"decimal", "whole"} and "any" not in {p.kind for p in parts}
+            else replace(sizes, kind="any")
+        )
+
+    def _compare(self, node: Node, left: Worth, right: Worth) -> None:
+        one, other = node.parts
+        if node.kind == "in":
+            if right.kind not in ("list", "table", "any"):
+                self._slip(f"'in' wants a list, and {shown(other.text)} is {_CALLED[right.kind]}")
+                return
+            if right.kind == "table":
+                self._compare_choice(one, left, right.literals)
+                return
+            right = right.item or ANY
+        self._compare_kinds(node, left, right)
+        if node.kind in ("==", "!=", "in"):
+            self._compare_choice(one, left, right.literals)
+            self._compare_choice(other, right, left.literals)
+            self._compare_choices(node, left, right)
+
+    def _compare_kinds(self, node: Node, left: Worth, right: Worth) -> None:
+        kinds = {left.kind, right.kind} - {"any", "null"}
+        if len(kinds) < 2 or kinds == {*_NUMBERS}:
+            return
+        one, other = node.parts
+        how = "never equals" if node.kind in ("==", "!=", "in") else "cannot be compared with"
+        there = "what is in " if node.kind == "in" else ""
+        hint = ": compare it with true or false" if "yes/no" in kinds and "text" in kinds else ""
+        self._slip(
+            f"{shown(one.text)} is {_CALLED[left.kind]} and {how} {there}{shown(other.text)}, {_CALLED[right.kind]}{hint}"
+        )
+
+    def _compare_choice(self, node: Node, worth: Worth, literals: tuple[str, ...]) -> None:
+        """See that what a choice is compared with are keys of it."""
+        for text in literals if worth.choices and worth.is_closed else ():
+            if worth.choices and not worth.choices.holds(text) and text not in worth.literals:
+                self._slip(f"{shown(node.text)} is never {shown(text)}: {meant(text, worth.choices)}")
+
+    def _compare_choices(self, node: Node, left: Worth, right: Worth) -> None:
+        if (
+            not (left.choices and right.choices and left.is_closed and right.is_closed)
+            or left.literals + right.literals
+        ):
+            return
+        if not any(right.choices.holds(key) for key in left.choices.keys):
+            one, other = node.parts
+            self._slip(f"{shown(one.text)} and {shown(other.text)} have no choice in common")
+
+
+def meant(text: str, choices: Choices) -> str:
+    """Return which key was meant by a text that is none, in words."""
+    same = [
+        key
+        for key, label in choices.keys.items()
+        if _folded(label) == _folded(text) or _folded(key) == _folded(text)
+    ]
+    if len(same) == 1:
+        return f"write the key '{same[0]}'"
+    labels = {_folded(label): key for key, label in choices.keys.items()}
+    near = did_you_mean(
+        _folded(text), [*map(_folded, choices.keys), *labels], found=lambda n: labels.get(n, n)
+    )
+    if near:
+        return f"write a key{near}"
+    keys = list(choices.keys)
+    return f"its keys are {', '.join(keys[:12])}{' and others' if len(keys) > 12 else ''}"
+
+
+def _folded(text: str) -> str:
+    return " ".join(text.casefold().split())
+
+
+def _literal(node: Node) -> Worth:
+    match node.value:
+        case None:
+            return Worth("null")
+        case bool():
+            return YES_NO
+        case str() as text:
+            return replace(text_worth(len(text)), literals=(text,), is_closed=True)
+        case int():
+            return WHOLE
+        case _:
+            return DECIMAL
+
+
+def _mixed(node: Node, parts: list[Worth]) -> str:
+    whole = next(n for n, p in zip(node.parts, parts, strict=True) if p.kind == "whole")
+    better = (
+        f"{whole.text}.0" if whole.kind == "value" and whole.text.isdecimal() else f"double({whole.text})"
+    )
+    return f"mixes a whole number with a decimal one: write {better}"

@@ -1,0 +1,145 @@
+"""What the parts of an expression can give at most: their kinds, sizes, and which choices and texts they can be."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from amp_studio.schema import Parameter
+
+from .formulas import NUMBER_ANNOTATIONS
+
+LONGEST_TEXT = 4000
+"""Characters of a text that a builder's rule sees; it does not run where a longer one stands."""
+_TEXT_SIZE, _LIST_SIZE = 6, 4
+"""What a copy of an empty one costs; that of a number costs 1, some 50 ns."""
+LARGEST = 10**15
+"""Of sizes and costs; beyond it figures need not be exact."""
+
+Kind = Literal["decimal", "whole", "text", "yes/no", "null", "list", "table", "any"]
+
+
+@dataclass(frozen=True, slots=True)
+class Choices:
+    """What a value that is a choice can be."""
+
+    keys: Mapping[str, str]
+    """Key -> label."""
+    open: bool = False
+    """``raw:`` and a code may stand too."""
+
+    def holds(self, text: str) -> bool:
+        return text in self.keys or (self.open and text.startswith("raw:"))
+
+
+@dataclass(frozen=True, slots=True)
+class Worth:
+    """What a part of an expression can give: its kind, and how large it can be."""
+
+    kind: Kind
+    length: int = 0
+    """Of a text or a list, at most."""
+    item: Worth | None = None
+    """What a list holds."""
+    choices: Choices | None = None
+    """Where it comes from a parameter that is a choice."""
+    literals: tuple[str, ...] = ()
+    """The texts it can be, where they are written in the expression."""
+    is_closed: bool = False
+    """It can be nothing but its choices and literals."""
+    size: int = 1
+    """What a copy of it costs."""
+
+
+DECIMAL, WHOLE, YES_NO, ANY = Worth("decimal"), Worth("whole"), Worth("yes/no"), Worth("any")
+
+
+def text_worth(length: int = LONGEST_TEXT) -> Worth:
+    """Return a text of at most so many characters."""
+    return Worth("text", length, size=_TEXT_SIZE + length // 100)
+
+
+def list_worth(length: int, item: Worth) -> Worth:
+    """Return a list of at most so many items."""
+    return Worth("list", length, item, size=min(_LIST_SIZE + length * item.size, LARGEST))
+
+
+_GIVEN = {
+    "float": DECIMAL,
+    "int": WHOLE,
+    "bool": YES_NO,
+    "str": text_worth(100),
+    str(inspect.Signature.empty): DECIMAL,
+}
+_SEVERAL = list_worth(32, ANY)
+
+
+def choice_worth(parameter: Parameter) -> Worth:
+    """Return what the value of a choice parameter is."""
+    keys = {choice.key: choice.label for choice in parameter.choices or ()}
+    return replace(text_worth(100), choices=Choices(keys, parameter.more_codes), is_closed=True)
+
+
+def one_of(keys: Mapping[str, str]) -> Worth:
+    """Return a text that is one of some keys."""
+    return replace(text_worth(100), choices=Choices(keys), is_closed=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """How a function offered to rules is called."""
+
+    fewest: int
+    most: int
+    gives: Worth
+    numbers: frozenset[int] = frozenset()
+    """Places of the arguments that must be numbers."""
+
+
+def signature_of(function: Callable[..., Any]) -> Signature:
+    """Return how a formula is called, from its annotations."""
+    parameters = list(inspect.signature(function).parameters.values())
+    needed = sum(p.default is p.empty for p in parameters)
+    numbers = (n for n, p in enumerate(parameters) if p.annotation in NUMBER_ANNOTATIONS)
+    gives = str(inspect.signature(function).return_annotation).removesuffix(" | None")
+    return Signature(needed, len(parameters), _GIVEN.get(gives, _SEVERAL), frozenset(numbers))
+
+
+LANGUAGE: dict[str, Signature] = {
+    "size": Signature(1, 1, WHOLE),
+    "contains": Signature(2, 2, YES_NO),
+    "startsWith": Signature(2, 2, YES_NO),
+    "endsWith": Signature(2, 2, YES_NO),
+    "matches": Signature(2, 2, YES_NO),
+    "int": Signature(1, 1, WHOLE),
+    "double": Signature(1, 1, DECIMAL),
+    "string": Signature(1, 1, text_worth()),
+    "type": Signature(1, 1, ANY),
+}
+"""Functions of the language that a builder's rule may call: none of dates and bytes, no parameter is one."""
+
+
+def any_of(worths: list[Worth]) -> Worth:
+    """Return what is one of several: as large as the largest."""
+    known = [worth for worth in worths if worth.kind != "null"]
+    if not known:
+        return worths[0] if worths else ANY
+    first = known[0]
+    if all(worth == first for worth in known):
+        return first
+    kinds = {worth.kind for worth in known}
+    items = [worth.item for worth in known if worth.item]
+    keys: dict[str, str] = {}
+    for worth in known:
+        keys |= worth.choices.keys if worth.choices else {}
+    return Worth(
+        kinds.pop() if len(kinds) == 1 else "any",
+        max(worth.length for worth in known),
+        any_of(items) if items else None,
+        Choices(keys, any(w.choices.open for w in known if w.choices)) if keys else None,
+        tuple(dict.fromkeys(text for worth in known for text in worth.literals)),
+        all(worth.is_closed for worth in known),
+        max(worth.size for worth in known),
+    )

@@ -1,0 +1,284 @@
+"""All that is wrong with a builder's rule, each with its place in the entry, and what the rule costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from string import Formatter
+
+from amp_studio.schema import Parameter, Rule, Schema, family_ids, load_schema, read_address
+from amp_studio.schema.units import UNITS
+
+from .expression_check import ExpressionCheck, meant
+from .expression_tree import RESERVED, ExpressionError, read_expression, shown
+from .expression_worth import (
+    ANY,
+    DECIMAL,
+    LANGUAGE,
+    LONGEST_TEXT,
+    WHOLE,
+    YES_NO,
+    Signature,
+    Worth,
+    choice_worth,
+    list_worth,
+    one_of,
+    signature_of,
+    text_worth,
+)
+from .expressions import ALWAYS_THERE, TYPES
+from .formulas import rule_functions
+from .nearest import did_you_mean
+
+Place = tuple[str | int, ...]
+
+MOST_STEPS = 10_000_000
+"""Of one rule over a whole file: about half a second."""
+_SHOWN = 100
+"""Cost of a value in a message."""
+_EACH_RUN = 50
+"""Cost of a run besides its expressions."""
+_LISTS = ("*", "<", ">", ".")
+
+
+@dataclass
+class Review:
+    """What is wrong with a rule, and what it costs; ``is_ours`` where it speaks of parameters of this family."""
+
+    slips: list[tuple[Place, str]] = field(default_factory=list)
+    cost: int = 0
+    is_ours: bool = True
+
+
+def review(rule: Rule, schema: Schema, *, any_family: bool) -> Review:
+    """Return what there is to say of a rule; with ``any_family`` it may be about parameters of another one."""
+    found = Review()
+    unknown = {n: i for n, (i, _) in _read(rule).items() if i not in schema.parameters}
+    if unknown:
+        every = {parameter_id for parameter_id, _ in _read(rule).values()}
+        others = [
+            f for f in family_ids() if f != schema.family.family and every <= load_schema(f).parameters.keys()
+        ]
+        found.is_ours = not (any_family and others)
+        if not found.is_ours:
+            return found
+    found.slips += _reads_slips(rule, schema)
+    found.slips += _name_slips(rule)
+    found.slips += _message_slips(rule)
+    found.cost = _expressions(rule, schema, found)
+    if found.cost > MOST_STEPS:
+        steps = f"{found.cost:,}" if found.cost < 10**12 else "far too many"
+        said = f"the rule can take {steps} steps in a file, and {MOST_STEPS:,} are the most: let it go over fewer lists"
+        found.slips.append((("check",), said))
+    return found
+
+
+def _read(rule: Rule) -> dict[str, tuple[str, str]]:
+    return {name: read_address(text) for name, text in rule.reads.items()}
+
+
+# -- what it reads -------------------------------------------------------------
+
+
+def _reads_slips(rule: Rule, schema: Schema) -> Iterator[tuple[Place, str]]:
+    for name, (parameter_id, which) in _read(rule).items():
+        place: Place = ("reads", name)
+        parameter = schema.parameters.get(parameter_id)
+        if name in RESERVED:
+            yield place, f"'{name}' is a word of the language and can be no name"
+        if parameter is None:
+            yield place, _unknown(parameter_id, schema)
+            continue
+        offered = _instances(schema, parameter)
+        if which not in ("", *_LISTS, *offered):
+            there = ", ".join(i for i in offered[:8] if i) or "none: it is one for the whole control"
+            more = ", ..." if len(offered) > 8 else ""
+            yield place, f"{parameter.name} has no instance {shown(which)}; it has {there}{more}"
+
+
+def _unknown(parameter_id: str, schema: Schema) -> str:
+    others = [
+        f for f in family_ids() if f != schema.family.family and parameter_id in load_schema(f).parameters
+    ]
+    if others:
+        return (
+            f"{shown(parameter_id)} is a parameter of {' and '.join(others)}, not of {schema.family.family}"
+        )
+    near = did_you_mean(parameter_id, schema.parameters)
+    return f"{shown(parameter_id)} is no parameter of {schema.family.family}{near}"
+
+
+def _instances(schema: Schema, parameter: Parameter) -> list[str]:
+    every = (i for machine in schema.family.machines for i in schema.instances(parameter, machine.key))
+    return list(dict.fromkeys(every))
+
+
+# -- names outside expressions -------------------------------------------------
+
+
+def _name_slips(rule: Rule) -> Iterator[tuple[Place, str]]:
+    for key, names in (("optional", rule.optional), ("any_state", rule.any_state)):
+        for n, name in enumerate(names):
+            if name not in rule.reads:
+                yield (key, n), f"{shown(name)} is not read{did_you_mean(name, rule.reads)}"
+    for key, conditions in (("blames", rule.blames), ("compares", rule.compares)):
+        for name in conditions:
+            if name not in rule.reads:
+                yield (key, name), f"{shown(name)} is not read{did_you_mean(name, rule.reads)}"
+    singles = [name for name, (_, which) in _read(rule).items() if which not in _LISTS]
+    for key, assignments in (("fix", rule.fix), ("effective", rule.effective)):
+        for n, assignment in enumerate(assignments):
+            if assignment.set in rule.reads and assignment.set not in singles:
+                yield (
+                    (key, n, "set"),
+                    f"{shown(assignment.set)} is a list, and only a single value can be set",
+                )
+            elif assignment.set not in rule.reads:
+                yield (
+                    (key, n, "set"),
+                    f"{shown(assignment.set)} is not read{did_you_mean(assignment.set, singles)}",
+                )
+    for name in rule.values:
+        if name in rule.reads or name in ALWAYS_THERE:
+            yield ("values", name), f"{shown(name)} is the name of something else already"
+    for name, unit in rule.units.items():
+        if name not in rule.values:
+            yield ("units", name), f"{shown(name)} is none of its values{did_you_mean(name, rule.values)}"
+        if unit not in UNITS:
+            yield ("units", name), f"{shown(unit)} is no unit{did_you_mean(unit, UNITS)}"
+
+
+def _message_slips(rule: Rule) -> Iterator[tuple[Place, str]]:
+    known = [*rule.reads, *rule.values, *ALWAYS_THERE]
+    try:
+        fields = [field for field in Formatter().parse(rule.message) if field[1] is not None]
+    except ValueError as error:
+        yield ("message",), f"a brace is not closed or stands alone ({error}); write {{{{ and }}}} for braces"
+        return
+    for _, name, form, how in fields:
+        if form or how:
+            yield ("message",), f"{{{name}}} is shown as it is: leave out what stands behind the name"
+        elif name not in known:
+            wanted = f"{{{name}}}" if name and len(name) < 60 else "{}"
+            near = did_you_mean(str(name), known)
+            yield ("message",), f"{wanted} is neither read nor among its values{near}"
+
+
+# -- expressions ---------------------------------------------------------------
+
+
+def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
+    """Check every expression; returns what the rule costs in a file at most."""
+    names, functions = _names(rule, schema), _functions(schema.family.family)
+    once = (
+        _EACH_RUN
+        + len(rule.reads)
+        + sum(4 * worth.length for worth in names.values() if worth.kind == "list")
+    )
+    for place, text, wanted in _texts(rule, schema):
+        times = 1
+        if place[0] in ("blames", "compares"):
+            value = names.get(str(place[1]), ANY)
+            times = value.length if value.kind == "list" else 1
+            names |= {"it": (value.item or ANY) if value.kind == "list" else value, "at": WHOLE}
+        check = ExpressionCheck(names, functions)
+        try:
+            worth = check.worth(read_expression(text))
+        except ExpressionError as error:
+            found.slips.append((place, str(error)))
+            continue
+        found.slips += [(place, slip) for slip in check.slips]
+        if slip := _unfit(worth, wanted):
+            found.slips.append((place, slip))
+        once += times * check.cost
+    for name in {name for _, name, _, _ in _fields(rule.message) if name in names}:
+        once += (
+            _SHOWN * max(1, names[name].length if names[name].kind == "list" else 1) * rule.message.count("{")
+        )
+    return once * _runs(rule, schema)
+
+
+def _fields(message: str) -> list[tuple[str, str | None, str | None, str | None]]:
+    try:
+        return list(Formatter().parse(message))
+    except ValueError:
+        return []
+
+
+def _texts(rule: Rule, schema: Schema) -> Iterator[tuple[Place, str, Parameter | bool | None]]:
+    """Yield place, text and what is wanted: true or false, a value of a parameter, or anything."""
+    yield ("when",), rule.when, True
+    yield ("check",), rule.check, True
+    for name, text in rule.values.items():
+        yield ("values", name), text, None
+    for key, assignments in (("fix", rule.fix), ("effective", rule.effective)):
+        for n, assignment in enumerate(assignments):
+            parameter_id, _ = read_address(rule.reads.get(assignment.set, ""))
+            yield (key, n, "value"), assignment.value, schema.parameters.get(parameter_id)
+    for key, conditions in (
+        ("blames", rule.blames),
+        ("compares", rule.compares),
+    ):  # last: they know further names
+        for name, text in conditions.items():
+            yield (key, name), text, True
+
+
+_WANTED = {"choice": "text", "boolean": "yes/no", "text": "text", "format": "text"}
+_IN_WORDS = {"text": "a text in quotes", "yes/no": "true or false", "decimal": "a number"}
+
+
+def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
+    """Return why something cannot be the result of an expression."""
+    if wanted is None or worth.kind in ("any", "null"):
+        return ""
+    kind = "yes/no" if isinstance(wanted, bool) else _WANTED.get(wanted.type, "decimal")
+    if worth.kind != kind and not (kind == "decimal" and worth.kind == "whole"):
+        whose = "" if isinstance(wanted, bool) else f" for {wanted.name}"
+        return f"it does not give {_IN_WORDS[kind]}{whose}"
+    if not isinstance(wanted, bool) and wanted.type == "choice":
+        choices = choice_worth(wanted).choices
+        for text in worth.literals:
+            if choices and not choices.holds(text):
+                return f"{wanted.name} is never {shown(text)}: {meant(text, choices)}"
+    return ""
+
+
+def _names(rule: Rule, schema: Schema) -> dict[str, Worth]:
+    """Return what every name of a rule stands for."""
+    family = schema.family
+    names = dict.fromkeys(TYPES, ANY)
+    names |= {
+        "machine": one_of({m.key: m.name for m in family.machines}),
+        "application": one_of({a: a for a in family.applications}) if family.applications else text_worth(),
+        "instance": text_worth(100),
+        "part": DECIMAL,
+    }
+    for name, (parameter_id, which) in _read(rule).items():
+        parameter = schema.parameters.get(parameter_id)
+        worth = _value(parameter) if parameter else ANY
+        length = len(_instances(schema, parameter)) if parameter else 0
+        names[name] = list_worth(length, worth) if which in _LISTS else worth
+    return names
+
+
+def _value(parameter: Parameter) -> Worth:
+    if parameter.type == "choice":
+        return choice_worth(parameter)
+    if parameter.type == "boolean":
+        return YES_NO
+    return text_worth(LONGEST_TEXT) if parameter.type in ("text", "format") else DECIMAL
+
+
+@cache
+def _functions(family: str) -> dict[str, Signature]:
+    return LANGUAGE | {name: signature_of(function) for name, function in rule_functions(family).items()}
+
+
+def _runs(rule: Rule, schema: Schema) -> int:
+    """Return for how many instances a rule runs at most."""
+    own: Iterable[str] = (
+        p for p, which in _read(rule).values() if which in ("", "<", ">") and p in schema.parameters
+    )
+    every = {i for parameter_id in own for i in _instances(schema, schema.parameters[parameter_id])}
+    return max(1, len(every))

@@ -1,0 +1,153 @@
+"""A file of a builder's rules costs in proportion to its length, and no rule in it can take the program down."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Value
+from amp_studio.validate import Finding, Validator, builder_rules, explain, read_builder_rules
+from amp_studio.validate.builder_rules import MOST_FAULTS
+
+
+@pytest.fixture
+def mill(machine) -> ParameterFile:
+    """Return a sound mill of its own, whose rapid is 12000 mm/min on seven axes."""
+    return machine("mill")
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    """Return where the rules of a builder lie."""
+    return tmp_path / "rules.yaml"
+
+
+def rule(n: int, check: str = "rapid <= 10000.0", reads: str = "rapid: feedrate.rapid") -> str:
+    """Return one rule."""
+    return f"""
+  - id: works.rule{n}
+    title: Rule {n}
+    severity: warning
+    reads: {{{reads}, rapids: feedrate.rapid@*, name: axis.name}}
+    check: {json.dumps(check)}
+    message: "{{rapid}}"
+"""
+
+
+def findings(path: Path, text: str, file: ParameterFile) -> list[Finding]:
+    """Return what rules say of a file, with the reason of each."""
+    path.write_text("rules:\n" + text, encoding="utf-8")
+    validator = Validator(file, read_builder_rules(path, file.schema))
+    found = [f for f in validator.run() if f.rule.startswith(("rules.", "works."))]
+    for finding in found:
+        explain(validator, finding)
+    return found
+
+
+@pytest.mark.parametrize(
+    "check",
+    [
+        " + ".join(["1.0"] * 20_000) + " > rapid",
+        "(" * 100_000 + "true" + ")" * 100_000,
+        "size([1, 2]" + ".map(x, [x, x])" * 30 + ") > 0",
+        "size([name]" + ".map(x, x + x)" * 40 + "[0]) > 0",
+        "rapids.all(a, " * 9 + "true" + ")" * 9,
+        r"name.matches('((\w{100}){100}){100}')",
+        "rapid < 1e400",
+        "a" + ".a" * 500,
+        "true ? " * 300 + "true" + " : false" * 300,
+    ],
+    ids=range(9),
+)
+def test_a_rule_beyond_its_budget_is_one_finding_and_the_others_run(mill, path: Path, check: str) -> None:
+    found = findings(path, rule(1, check) + rule(2), mill)
+    assert [f.rule for f in found] == ["rules.unusable"] + 7 * ["works.rule2"]
+    assert found[0].message.startswith("rules.yaml, line 7: works.rule1: check: ")
+    assert len(found[0].message) < 200
+
+
+@pytest.mark.parametrize(
+    "check",
+    [
+        "field(rapid, 0.0, 1e10) > 0.0",
+        "round(rapid, 1e300) > 0.0",
+        "1 / 0 > 0",
+        "9223372036854775807 + 1 > 0",
+        "rapids[int(rapid * 1e300)] > 0.0",
+        "rapids[-1] > 0.0",
+        "int(string(rapid) + '9') > 0",
+        "double(name) > 0.0",
+        "[null][0] < 1.0",
+    ],
+)
+def test_what_makes_no_sense_of_its_values_is_not_broken(mill, path: Path, check: str) -> None:
+    assert {f.rule for f in findings(path, rule(1, check) + rule(2), mill)} == {"works.rule2"}
+
+
+def test_rules_that_together_take_too_long_are_left_out_one_by_one(mill, path: Path) -> None:
+    heavy = "rapids.all(a, rapids.all(b, rapids.all(c, rapids.all(d, a >= 0.0))))"
+    found = findings(path, "".join(rule(n, heavy) for n in range(60)) + rule(99), mill)
+    unusable = [f for f in found if f.rule == "rules.unusable"]
+    assert 20 < len(unusable) < 59
+    assert "with those before it the rules can take too many steps" in unusable[0].message
+    assert unusable[-1].message.startswith("rules.yaml, line ")
+
+
+def test_a_text_of_any_length_in_the_file_costs_a_rule_nothing(mill, path: Path) -> None:
+    """The budget reckons with 4000 characters; a longer value is an error by itself."""
+    text = rule(1, "size(name + name) < 0") + rule(2)
+    assert len([f for f in findings(path, text, mill) if f.rule == "works.rule1"]) == 7
+    mill.set(("axis.name", "1"), Value("x" * 5000))
+    assert len([f for f in findings(path, text, mill) if f.rule == "works.rule1"]) == 6
+
+
+@pytest.mark.parametrize("key", ["id", "title", "message", "page", "family"])
+def test_a_text_of_a_megabyte_is_told_in_a_line(mill, path: Path, key: str) -> None:
+    lines = [line for line in rule(1).splitlines(keepends=True) if f" {key}:" not in line]
+    text = "".join(lines).replace("    title", "  - title", key == "id") + f"    {key}: a.{'b' * 1_000_000}\n"
+    found = findings(path, text + rule(2), mill)
+    assert [f.rule for f in found] == ["rules.unusable"] + 7 * ["works.rule2"]
+    assert f"{key}: is too long: 1,000,002, and " in found[0].message
+    assert len(found[0].message) < 250
+
+
+def test_names_by_the_thousand_are_refused(mill, path: Path) -> None:
+    names = ", ".join(f"n{n}: feedrate.rapid@*" for n in range(5000))
+    found = findings(path, rule(1, reads=f"rapid: feedrate.rapid, {names}") + rule(2), mill)
+    assert (
+        found[0].message
+        == "rules.yaml, line 6: works.rule1: reads: is too long: 5,003, and 100 are the most."
+    )
+    assert len(found) == 8
+
+
+def test_of_slips_without_end_the_first_are_told(mill, path: Path) -> None:
+    found = findings(path, "".join(rule(n, "rapid <") for n in range(MOST_FAULTS + 50)), mill)
+    assert len(found) == MOST_FAULTS + 1
+    assert found[-1].message == "rules.yaml: 50 more entries cannot be used."
+
+
+def test_rules_without_end_are_told(mill, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(builder_rules, "MOST_RULES", 5)
+    found = findings(path, "".join(rule(n, "rapid > 0.0") for n in range(9)), mill)
+    assert [f.message for f in found] == [
+        "rules.yaml, line 38: works.rule5: there are 9 rules, and 5 are the most; the rest is not used."
+    ]
+
+
+def test_the_time_grows_with_the_number_of_rules_and_not_with_its_square(mill, path: Path) -> None:
+    def seconds(count: int) -> float:
+        path.write_text(
+            "rules:\n" + "".join(rule(n, f"rapid <= {count}{n}.0") for n in range(count)), encoding="utf-8"
+        )
+        start = time.process_time()
+        own = read_builder_rules(path, mill.schema)
+        assert (len(own.rules), own.faults) == (count, ())
+        return time.process_time() - start
+
+    seconds(10)
+    assert seconds(400) < 9 * seconds(100) + 0.1, "four times as many take four times as long, not sixteen"
