@@ -50,7 +50,7 @@ MOST_RULES = 2000
 MOST_SUPPRESSIONS = 10_000
 MOST_FAULTS = 200
 """Of a file: what it has beyond them is told in one finding."""
-MOST_STEPS_OF_A_FILE = 3 * MOST_STEPS
+MOST_STEPS_OF_A_FILE = 4 * MOST_STEPS
 """Of all its rules together."""
 
 
@@ -64,6 +64,8 @@ class BuilderRules:
     """What is wrong with the rules themselves."""
     places: Mapping[str, str] = field(default_factory=dict)
     """Id of a rule -> file and line where it stands."""
+    costs: Mapping[str, int] = field(default_factory=dict)
+    """Id of a rule -> the steps it takes at most, each time."""
 
 
 NO_RULES = BuilderRules()
@@ -96,6 +98,7 @@ class _Reading:
         self._path, self._schema = path, schema
         self._rules: dict[str, BuilderRule] = {}
         self._places: dict[str, str] = {}
+        self._costs: dict[str, int] = {}
         self._lines: dict[str, int | None] = {}
         """Id of every rule of the file, usable or not, of this family or another -> its line."""
         self._families = family_ids()
@@ -117,7 +120,9 @@ class _Reading:
                     self._rule(entry)
         suppressions = [e for e in entries if e.kind == "suppressions"][:MOST_SUPPRESSIONS]
         used = tuple(found for entry in suppressions if (found := self._suppression(entry)) is not None)
-        return BuilderRules(tuple(self._rules.values()), used, tuple(self._findings()), self._places)
+        return BuilderRules(
+            tuple(self._rules.values()), used, tuple(self._findings()), self._places, self._costs
+        )
 
     def _fault(self, entry: Entry, place: Place, what: str) -> None:
         steps = " ".join(str(step + 1) if isinstance(step, int) else shown(step)[1:-1] for step in place)
@@ -146,7 +151,7 @@ class _Reading:
             if not slips and found.is_ours:
                 slips += self._try(rule, found.cost)
             if not slips and found.is_ours:
-                self._rules[rule.id] = rule
+                self._rules[rule.id], self._costs[rule.id] = rule, found.once
                 self._places[rule.id] = f"{self._path.name}, line {entry.line(())}"
         for place, what in slips:
             self._fault(entry, place, what)

@@ -18,6 +18,11 @@ from .checks import Checks
 from .finding import SEVERITIES, Finding
 from .plan import Plan, RuleCheck, make_plan
 
+MOST_STEPS = 20_000_000
+"""That a builder's rules may take in all trials of a file: about a second."""
+_ASKED = 1000
+"""Steps that it takes to ask a rule at all."""
+
 Place = Address | int
 """Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
 
@@ -68,6 +73,27 @@ class Trials:
         if tried is None:
             tried = self._tried[place] = self._try(place, finding, filed)
         return finding if tried.is_good else replace(finding, repairs=(), safe=False)
+
+    def too_many(self, filed: Mapping[Place, tuple[object, Finding]]) -> frozenset[Place]:
+        """Return the findings that have a fix too many: trying it would ask a builder's rules for too long.
+
+        Those of the manual's rules come first, then a builder's in the order of his file.
+        """
+        if not self._own.rules:
+            return frozenset()
+        steps, beyond = 0, set()
+        wanting = [place for place, (_, finding) in filed.items() if finding.repairs]
+        for place in sorted(wanting, key=lambda place: (isinstance(place, int), place)):
+            if steps <= MOST_STEPS:
+                steps += sum(map(self._steps, self._asked(r.address for r in filed[place][1].repairs)))
+            if steps > MOST_STEPS:
+                beyond.add(place)
+        return frozenset(beyond)
+
+    def _steps(self, place: Place) -> int:
+        """Return what a check of a builder's rule costs; those of the manual's are not counted."""
+        cost = self._own.costs.get(self._check(place).rule.id) if isinstance(place, int) else None
+        return 0 if cost is None else _ASKED + cost
 
     def _try(self, place: Place, finding: Finding, filed: Mapping[Place, tuple[object, Finding]]) -> _Tried:
         file = self._file

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator
+from dataclasses import replace
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule
@@ -138,8 +139,12 @@ class Validator:
 
     def _offered(self) -> Iterator[tuple[_Order, Finding]]:
         """Yield what is filed, each finding with its fix only where a trial of it came out well."""
+        too_many = self._trials.too_many(self._filed)
         for place, (order, finding) in self._filed.items():
-            yield order, self._trials.offered(place, finding, self._filed)
+            if place in too_many:
+                yield order, replace(finding, repairs=(), safe=False)
+            else:
+                yield order, self._trials.offered(place, finding, self._filed)
 
     def _order(self, finding: Finding, place: int = -1) -> _Order:
         order, last = self._plan.order, len(self._plan.order)

@@ -163,8 +163,8 @@ def test_rules_of_one_s_own_are_checked_too(amp, plain: Path, tmp_path: Path) ->
     ("old", "new", "said"),
     [
         ("severity: error", "severity: fatal", "ours.yaml, line 4: ours.one: severity: "),
-        ("zone.group_count", "zone.nothing", "ours.yaml, line 2: rule ours.one: reads 'zone.nothing'"),
-        ("groups > 5.0", "groups >", "ours.yaml, line 2: rule ours.one: check: "),
+        ("zone.group_count", "zone.nothing", "ours.yaml, line 5: ours.one: reads groups: 'zone.nothing' is"),
+        ("groups > 5.0", "groups >", "ours.yaml, line 6: ours.one: check: a value is missing behind '>'"),
         ("rules:", "rules: [", "ours.yaml, line 2: "),
     ],
 )

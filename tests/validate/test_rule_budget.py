@@ -10,7 +10,7 @@ import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.validate import Finding, Validator, builder_rules, explain, read_builder_rules
+from amp_studio.validate import Finding, Validator, builder_rules, explain, read_builder_rules, trial
 from amp_studio.validate.builder_rules import MOST_FAULTS
 
 
@@ -35,6 +35,7 @@ def rule(n: int, check: str = "rapid <= 10000.0", reads: str = "rapid: feedrate.
     reads: {{{reads}, rapids: feedrate.rapid@*, name: axis.name}}
     check: {json.dumps(check)}
     message: "{{rapid}}"
+    fix: [{{set: rapid, value: "{9000 + n}.0"}}]
 """
 
 
@@ -97,6 +98,20 @@ def test_rules_that_together_take_too_long_are_left_out_one_by_one(mill, path: P
     assert unusable[-1].message.startswith("rules.yaml, line ")
 
 
+def test_of_very_many_fixes_the_first_are_tried_and_the_others_when_these_are_made(
+    mill, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each trial asks all rules that read the value, so trying them all would take the square of their number."""
+    monkeypatch.setattr(trial, "MOST_STEPS", 300_000)
+    path.write_text("rules:\n" + "".join(rule(n) for n in range(10)), encoding="utf-8")
+    validator = Validator(mill, read_builder_rules(path, mill.schema))
+    found = [f for f in validator.run() if f.rule.startswith("works.")]
+    offered = [f.rule for f in found if f.repairs]
+    assert (len(found), 0 < len(offered) < 10, set(offered)) == (70, True, {"works.rule0"})
+    mill.set(("feedrate.rapid", "1"), Value(9000.0, "mm/min"))
+    assert validator.update([("feedrate.rapid", "1")]) == Validator(mill, validator.own).run()
+
+
 def test_a_text_of_any_length_in_the_file_costs_a_rule_nothing(mill, path: Path) -> None:
     """The budget reckons with 4000 characters; a longer value is an error by itself."""
     text = rule(1, "size(name + name) < 0") + rule(2)
@@ -135,7 +150,7 @@ def test_rules_without_end_are_told(mill, path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(builder_rules, "MOST_RULES", 5)
     found = findings(path, "".join(rule(n, "rapid > 0.0") for n in range(9)), mill)
     assert [f.message for f in found] == [
-        "rules.yaml, line 38: works.rule5: there are 9 rules, and 5 are the most; the rest is not used."
+        "rules.yaml, line 43: works.rule5: there are 9 rules, and 5 are the most; the rest is not used."
     ]
 
 
