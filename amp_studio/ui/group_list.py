@@ -126,7 +126,7 @@ class GroupList(QWidget):
         schema = self._workspace.file.schema
         found = []
         for finding in self._workspace.findings:
-            ids = {a[0] for a in finding.addresses}
+            ids = {a[0] for a in finding.causes}
             steps = {key for key, params in self._steps.items() if not params.isdisjoint(ids)}
             found.append((finding.severity, {schema.group_of[name].key for name in ids} | steps))
         for item in self._items:

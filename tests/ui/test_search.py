@@ -94,7 +94,7 @@ def test_a_group_counts_its_findings_once(workspace: Workspace, groups: GroupLis
     servo = next(i for i in groups._items if i.text(0) == "Servo")
     keys = {g.key for g in schema.groups if g.name == "Servo Parameters"}
     found = [f for f in workspace.findings if f.severity == "error"]
-    count = sum(any(schema.group_of[a[0]].key in keys for a in f.addresses) for f in found)
+    count = sum(any(schema.group_of[a[0]].key in keys for a in f.causes) for f in found)
     assert servo.text(1) == str(count)
     assert count >= 1
 

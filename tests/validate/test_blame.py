@@ -12,7 +12,7 @@ from amp_studio.report import finding_json
 from amp_studio.schema import Rule, Value, load_schema
 from amp_studio.validate import BuilderRules, Finding, RuleFault, Validator
 
-MOTIONLESS = {
+ALWAYS_SO = {
     ("57c422b.command.leds-twice", "leds", False),  # there are two axes, and both are at fault
     ("57c422b.control.geared-to-each-other", "modes", False),
 }
@@ -220,4 +220,4 @@ def test_every_condition_is_met_by_one_value_of_the_cases_and_missed_by_another(
                 ]:
                     seen[case.rule, name].update(address in about for address in addresses)
     missing = {(*at, wanted) for at in conditions for wanted in (True, False) if wanted not in seen[at]}
-    assert missing - MOTIONLESS == set()
+    assert missing - ALWAYS_SO == set()
