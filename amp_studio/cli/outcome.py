@@ -6,8 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-Mark = tuple[int, int, int, int] | None
-"""What tells one state of a file from another: device, number, size and time; None where there is no file."""
+Mark = tuple[int, int, int, int] | str | None
+"""What tells one state of a file from another: device, number, size and time; None where there is no file.
+
+A text says why it cannot be looked at.
+"""
 
 
 @dataclass(frozen=True)
@@ -24,6 +27,8 @@ class Target:
         now = _mark(self.path)
         if now == self.mark:
             return ""
+        if isinstance(now, str):
+            return f"{self.path} cannot be looked at ({now}): it may have been changed"
         if now is None:
             return f"{self.path} is no longer there"
         if self.mark is None:
@@ -55,6 +60,8 @@ def _backup(path: Path) -> Path:
 def _mark(path: Path) -> Mark:
     try:
         found = path.stat()
-    except (OSError, ValueError):
+    except (FileNotFoundError, NotADirectoryError, ValueError):
         return None
+    except OSError as error:
+        return error.strerror or str(error)
     return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns

@@ -260,6 +260,8 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
         return None
     known = document.data | _extra(text, document.data)
     wanted = wanted | {"values": _as_spelled(file, wanted["values"], known.get("values"))}
+    marked = {written(read_address(key)): key for key in known.get("forced") or ()}
+    wanted |= {"forced": {marked.get(name, name): why for name, why in wanted["forced"].items()}}
     if "units" not in known and wanted.get("units") == Header.units:
         del wanted["units"]  # what goes without saying is not added to what a person wrote
     for key in _SECTIONS + _HEADER:

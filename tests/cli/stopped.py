@@ -13,6 +13,16 @@ LONGEST = 0.8
 """Seconds after the start within which it is stopped; a verb takes about as long."""
 
 
+PROGRAM = """
+import _signal
+_signal.signal(_signal.SIGINT, _signal.SIG_DFL)
+print("started", flush=True)
+from amp_studio.cli import main
+main()
+"""
+"""The program from its first statement on: what Python says of a Ctrl-C while it starts itself is not the program's."""
+
+
 def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
     """Change a value again and again and stop each change; return what was not true of it."""
     chance = random.Random(seed)
@@ -22,7 +32,7 @@ def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
         again = chance.random() < 0.3
         code, said = _stopped(path, f"1300={number + 1}.125", delay, again)
         changed = path.read_bytes() != before
-        # Python itself ends by the signal (-2) where it comes before the program has begun.
+        # By the signal itself (-2) where it comes before anything is loaded.
         fits = {0: changed, 2: not changed, 3: changed, -signal.SIGINT: not changed}.get(code, False)
         if (
             not fits
@@ -37,8 +47,10 @@ def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
 
 
 def _stopped(path: Path, assignment: str, delay: float, again: bool) -> tuple[int, str]:
-    command = [sys.executable, "-m", "amp_studio.cli", "set", str(path), assignment]
+    command = [sys.executable, "-c", PROGRAM, "set", str(path), assignment]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+        assert program.stdout is not None
+        program.stdout.readline()
         time.sleep(delay)
         program.send_signal(signal.SIGINT)
         if again:

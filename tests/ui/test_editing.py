@@ -110,6 +110,26 @@ def test_an_operation_that_fails_in_the_middle_changes_nothing(workspace: Worksp
     assert workspace.undo_stack.count() == 0
 
 
+def test_an_operation_that_fails_puts_marks_and_facts_back(workspace: Workspace, whole: Whole) -> None:
+    forced(workspace)
+    before = whole()
+    assert workspace.file.forced == {CALIBRATION: "on a day"}
+
+    def fail() -> None:
+        workspace.file.set_many({CALIBRATION: Value(1.0, "mm"), EXCESS: Value(-1e9, "mm")}, force="later")
+        workspace.file.header.notes = "half done"
+        assert workspace.file.forced == {EXCESS: "later"}
+        raise ValueError("no")
+
+    with pytest.raises(ValueError, match="no"):
+        workspace.do("fails", fail)
+
+    assert whole() == before
+    workspace.undo_stack.undo()
+    workspace.undo_stack.redo()
+    assert whole() == before
+
+
 def test_what_changes_nothing_is_no_step(workspace: Workspace) -> None:
     assert not workspace.edit("same", {EXCESS: workspace.file.get(EXCESS)})
     assert workspace.undo_stack.count() == 0

@@ -16,7 +16,7 @@ from amp_studio.schema.register_words import WordFault, is_low_first, read_word,
 
 from .basic_text import Line, Statement, read_lines
 from .kept_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
-from .registers import Held, Meaning, Registers, Written, held_by
+from .registers import Held, Meaning, Registers, Written, held_by, registers_of
 from .text_format import FormatFault, TextFormat, TextRead
 
 FAMILIES = ("57c422b",)
@@ -60,7 +60,7 @@ def _is_table(text: str) -> bool:
 
 
 def _write_table(file: ParameterFile) -> str:
-    registers = Registers(file.schema, file.machine)
+    registers = registers_of(file.schema, file.machine)
     rows: dict[int, str] = {}
     for key, text in file.unknown.items():
         if re.fullmatch(r"R[0-9]{1,9}", key):
@@ -80,7 +80,7 @@ def _write_table(file: ParameterFile) -> str:
 
 def _read_table(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     machine = schema.family.default_machine
-    meaning = Meaning(Registers(schema, machine), keep_unknown)
+    meaning = Meaning(registers_of(schema, machine), keep_unknown)
     for n, line in enumerate(_lines(text), 1):
         if not line.strip() or line.lstrip().startswith("!"):
             continue
@@ -159,7 +159,7 @@ def _is_task(text: str) -> bool:
 
 
 def _write_task(file: ParameterFile) -> str:
-    registers, variables = Registers(file.schema, file.machine), Variables(file.schema)
+    registers, variables = registers_of(file.schema, file.machine), Variables(file.schema)
     settings = [one for one in held_by(file, registers) if len(one.words) <= 2]
     statements = {one.register: _assignment(registers, variables, one) for one in settings}
     layout = kept(file, _KIND)
@@ -236,7 +236,7 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     if keep_unknown:  # which of several values holds, the run of the task decides
         counts = Counter(one.register for one in settings.values())
         settings = {key: one for key, one in settings.items() if counts[one.register] == 1}
-    meaning = Meaning(Registers(schema, machine), keep_unknown)
+    meaning = Meaning(registers_of(schema, machine), keep_unknown)
     for one in settings.values():
         meaning.take(one)
     meaning.settle()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import Address, Parameter, Schema, Value, written
@@ -80,6 +81,12 @@ class Registers:
         """Return ``Proportional Gain (Y axis)``."""
         instance = self.schema.instance_label(address, self.machine)
         return f"{self.parameter(address).name} ({instance})" if instance else self.parameter(address).name
+
+
+@lru_cache(maxsize=8)
+def registers_of(schema: Schema, machine: str) -> Registers:
+    """Return the registers of a family on one machine type: thousands of them, worked out once for all its files."""
+    return Registers(schema, machine)
 
 
 # -- values to registers -------------------------------------------------------------------------------------------

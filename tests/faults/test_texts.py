@@ -1,4 +1,4 @@
-"""A few hundred damaged texts for every reader; ``text_mutations`` makes as many as are wanted."""
+"""A few hundred damaged texts for every reader; ``texts`` makes as many as are wanted."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import text_mutations as damaged
+from tests.faults import texts as damaged
 
 
 @pytest.mark.parametrize("seed", [1, 2])

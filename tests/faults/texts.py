@@ -38,7 +38,7 @@ from amp_studio.transfer.formats import FormatFault, export_file, formats_of, im
 
 SLOWEST = 5.0
 """Seconds for one damaged text."""
-REPOSITORY = Path(__file__).resolve().parent.parent
+REPOSITORY = Path(__file__).resolve().parents[2]
 
 TOKENS = (
     "<<: 5", "foo: 2001-99-99", "foo: 2001-12-14T21:59:43.10-05:00", "...", "---", "s: !!int", "!!python/object:os.system x",
@@ -165,7 +165,7 @@ def fuzz_yaml(seed: int, count: int) -> list[str]:
 def fuzz_parameter_files(seed: int, count: int) -> list[str]:
     """Open damaged parameter files; what opens is saved with a change, which is all that differs afterwards."""
     return violations(
-        mutants([SMALL, SMALL, *examples("*/*.amp")], seed, count), _open_and_save, (FileFault,)
+        mutants([*[SMALL] * 60, *examples("*/*.amp")], seed, count), _open_and_save, (FileFault,)
     )
 
 

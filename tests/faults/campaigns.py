@@ -1,0 +1,121 @@
+"""The fault campaigns: each does a thing many times under faults that a seed chooses, and names every violation.
+
+``make faults`` runs them whole and prints one table; the tests run a short part of each.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import fix_campaign
+
+from amp_studio import cli
+from amp_studio.files import new_file
+from amp_studio.transfer.image import encode_image
+from tests.cli.stopped import set_while_stopped
+from tests.cli.stopped_exchanges import control_while_stopped, download_while_stopped
+from tests.transfer import image_mutations
+from tests.transfer.hostile_clients import clients_beside_hostile_ones
+from tests.transfer.hostile_controls import exchange_with_hostile_control
+from tests.ui.killed import kill_editor
+
+from . import texts
+from .lines import download_over_bad_lines
+from .verbs import VERBS, fail_calls
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """One kind of fault.
+
+    ``run`` gets a seed, how many runs it is to make, and an empty folder; it returns one sentence a violation.
+    ``whole`` and ``short`` are the runs of ``make faults`` and of the tests, ``at_once`` those made with one seed.
+    """
+
+    name: str
+    run: Callable[[int, int, Path], list[str]]
+    whole: int
+    short: int
+    at_once: int
+
+
+def _stopped(seed: int, runs: int, folder: Path) -> list[str]:
+    path = folder / "mill.amp"
+    cli.run(["new", "9pc", str(path), "--machine", "mill"])
+    return set_while_stopped(path, seed=seed, rounds=runs)
+
+
+def _killed(seed: int, runs: int, folder: Path) -> list[str]:
+    path = folder / "mill.amp"
+    shutil.copy(EXAMPLE, path)
+    return [fault for n in range(runs) for fault in kill_editor(path, seed=seed * 1_000 + n)]
+
+
+def _images(seed: int, runs: int, folder: Path) -> list[str]:
+    file = new_file("9pc", "mill", ["X"])
+    for address in list(file.values)[60:]:
+        del file.values[address]
+    file.situation.forget()
+    damaged = image_mutations.mutants(encode_image(file), seed, runs)
+    return texts.violations(damaged, image_mutations.fault_of, ())
+
+
+def _damaged(fuzz: Callable[[int, int], list[str]], seed: int, runs: int, folder: Path) -> list[str]:
+    return fuzz(seed, runs)
+
+
+def _damaged_in(fuzz: Callable[[Path, int, int], list[str]], seed: int, runs: int, folder: Path) -> list[str]:
+    return fuzz(folder, seed, runs)
+
+
+def _stopped_downloads(seed: int, runs: int, folder: Path) -> list[str]:
+    path = folder / "mill.amp"
+    shutil.copy(EXAMPLE, path)
+    return download_while_stopped(path, folder, seed=seed, rounds=runs)
+
+
+def _stopped_controls(seed: int, runs: int, folder: Path) -> list[str]:
+    return control_while_stopped(folder, seed=seed, rounds=runs)
+
+
+def _fixes(seed: int, runs: int, folder: Path) -> list[str]:
+    return fix_campaign.campaign(seed * 10_000, runs)[1]
+
+
+def _hostile(exchange: Callable[[int, Path], list[str]], seed: int, runs: int, folder: Path) -> list[str]:
+    found = []
+    for n in range(runs):
+        place = folder / str(n)
+        place.mkdir()
+        found += exchange(seed * 1_000 + n, place)
+        shutil.rmtree(place)
+    return found
+
+
+MANY = 100_000
+
+CAMPAIGNS = (
+    Campaign("a call of the system that fails, in every verb", fail_calls, len(VERBS), 4, len(VERBS)),
+    Campaign("Ctrl-C at any moment of a change", _stopped, 400, 4, 20),
+    Campaign("kill -9 of the editor", _killed, 60, 1, 5),
+    Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 1, 5),
+    Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 1, 10),
+    Campaign("download over a bad line, TCP and pty", download_over_bad_lines, 300, 1, 10),
+    Campaign("hostile control", partial(_hostile, exchange_with_hostile_control), 1_000, 10, 50),
+    Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 5, 50),
+    Campaign("damaged YAML", partial(_damaged, texts.fuzz_yaml), MANY, 100, 5_000),
+    Campaign("damaged parameter file", partial(_damaged, texts.fuzz_parameter_files), MANY, 30, 2_000),
+    Campaign("damaged project.yaml", partial(_damaged_in, texts.fuzz_projects), MANY, 30, 2_000),
+    Campaign("damaged rules.yaml", partial(_damaged_in, texts.fuzz_rules), MANY, 30, 5_000),
+    Campaign("damaged journal and history", partial(_damaged_in, texts.fuzz_journals), MANY, 30, 2_000),
+    Campaign("damaged texts of controls", partial(_damaged_in, texts.fuzz_imports), MANY, 50, 2_000),
+    Campaign("odd values", partial(_damaged, texts.fuzz_entries), MANY, 50, 5_000),
+    Campaign("damaged control image", _images, MANY, 100, 5_000),
+    Campaign("every offered fix, machines of random values", _fixes, 1_000, 2, 50),
+)

@@ -1,0 +1,55 @@
+"""Runs the fault campaigns whole and prints one table: ``make faults``, ``make faults FAULTS="--only journal --share 0.1"``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import resource
+import sys
+import tempfile
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+from .campaigns import CAMPAIGNS
+
+MEMORY = 4 << 30
+"""Bytes that one process may take: a content that asks for more is a violation."""
+
+
+def _start() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def _part(number: int, seed: int, runs: int) -> list[str]:
+    with tempfile.TemporaryDirectory(prefix="amp-studio-faults-") as folder:
+        os.environ["XDG_CONFIG_HOME"] = os.environ["XDG_STATE_HOME"] = folder
+        return CAMPAIGNS[number].run(seed, runs, Path(folder))
+
+
+def main() -> int:
+    """Run what is asked for; 1 where anything was violated."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="campaigns whose name holds this")
+    parser.add_argument("--share", type=float, default=1.0, help="of the whole number of runs")
+    parser.add_argument("--processes", type=int, default=os.cpu_count())
+    options = parser.parse_args()
+    violations: list[str] = []
+    print(f"{'campaign':44} {'runs':>9} {'violations':>11} {'seconds':>9}")
+    with ProcessPoolExecutor(options.processes, initializer=_start) as pool:
+        for number, campaign in enumerate(CAMPAIGNS):
+            if options.only.casefold() not in campaign.name.casefold():
+                continue
+            began, runs = time.monotonic(), max(1, round(campaign.whole * options.share))
+            sizes = [min(campaign.at_once, runs - done) for done in range(0, runs, campaign.at_once)]
+            parts = [pool.submit(_part, number, options.seed + n, size) for n, size in enumerate(sizes)]
+            found = [fault for part in parts for fault in part.result()]
+            violations += [f"{campaign.name}: {fault}" for fault in found]
+            print(f"{campaign.name:44} {runs:9} {len(found):11} {time.monotonic() - began:9.0f}", flush=True)
+    print(*violations, sep="\n")
+    return int(bool(violations))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

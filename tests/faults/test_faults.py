@@ -1,0 +1,17 @@
+"""A short part of each fault campaign; ``make faults`` runs them whole."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from .campaigns import CAMPAIGNS, Campaign
+from .verbs import compiler, fail_calls
+
+
+@pytest.mark.parametrize("campaign", CAMPAIGNS, ids=lambda campaign: campaign.name)
+def test_no_fault_is_answered_otherwise_than_promised(campaign: Campaign, tmp_path: Path) -> None:
+    if campaign.run is fail_calls and compiler() is None:
+        pytest.skip("the failing calls are made with a C compiler, and there is none")
+    assert campaign.run(1, campaign.short, tmp_path) == []

@@ -1,0 +1,188 @@
+"""Fails every call of the system that a writing verb makes in its folder, one run a call, and looks what it left behind."""
+
+from __future__ import annotations
+
+import errno
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from tempfile import gettempdir
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+ERRORS = (errno.ENOSPC, errno.EIO, errno.EACCES, errno.EDQUOT, errno.EROFS)
+
+VERBS: tuple[tuple[str, ...], ...] = (
+    ("set", "mill.amp", "1350=7 ipm"),
+    ("new", "9pc", "new.amp", "--axes", "X,Y"),
+    ("fix", "lathe.amp"),
+    ("merge", "mill.amp", "mill.amp", "ours.amp", "-o", "merged.amp"),
+    ("import", "values.csv", "-o", "imported.amp", "--family", "9pc"),
+    ("export", "mill.amp", "-o", "out.csv"),
+    ("report", "mill.amp", "-o", "report.txt"),
+    ("report", "mill.amp", "-o", "report.html"),
+    ("report", "mill.amp", "-o", "report.pdf"),
+    ("simulate", "mill.amp", "step", "--axis", "1", "-o", "step.csv"),
+    ("simulate", "mill.amp", "step", "--axis", "1", "-o", "step.svg"),
+)
+"""Every verb that writes files and needs no control."""
+
+
+def compiler() -> str | None:
+    """Return the C compiler that the failing calls are made with; None where there is none."""
+    return shutil.which("cc") if sys.platform == "linux" else None
+
+
+@cache
+def _library() -> str:
+    source = Path(__file__).with_name("failing_calls.c")
+    library = Path(gettempdir()) / f"amp-studio-failing-calls-{os.getpid()}.so"
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
+    return str(library)
+
+
+def fail_each_call(
+    verb: tuple[str, ...], seed: int, folder: Path, most: int | None = None
+) -> tuple[int, list[str]]:
+    """Run a verb with its first call failing, its second, and so on; returns how many runs, and what was not true of them.
+
+    The error and whether all later calls fail too are chosen by the seed; ``most`` ends it earlier.
+    """
+    chance, found, at = random.Random(f"{seed} {verb}"), [], 0
+    wanted = _wanted(verb, folder / "whole")
+    while most is None or at < most:
+        at += 1
+        work = folder / f"run-{at}"
+        _lay_out(work)
+        number, for_ever = chance.choice(ERRORS), chance.random() < 0.3
+        log = folder / f"log-{at}"
+        env = {"LD_PRELOAD": _library(), "FAULT_FOLDER": str(work), "FAULT_AT": str(at), "FAULT_ERRNO": str(number),
+               "FAULT_LOG": str(log)} | ({"FAULT_FOREVER": "1"} if for_ever else {})  # fmt: skip
+        before = _contents(work)
+        code, said = _run(verb, work, env)
+        failed = log.read_text(encoding="utf-8").split() if log.exists() else []
+        how = f"{' '.join(verb)}, seed {seed}, call {at} ({failed[1:2]}, {os.strerror(number)}, for ever: {for_ever})"
+        found += [
+            f"{how}: {what}"
+            for what in _violations(code, said, before, _contents(work), wanted, failed[1::2])
+        ]
+        shutil.rmtree(work)
+        if not failed:
+            return at, found
+    return at, found
+
+
+def _lay_out(work: Path) -> None:
+    """Make the folder in which a verb works."""
+    work.mkdir(parents=True)
+    source = _prepared()
+    for path in source.iterdir():
+        shutil.copy(path, work / path.name)
+
+
+@cache
+def _prepared() -> Path:
+    folder = Path(gettempdir()) / f"amp-studio-faults-prepared-{os.getpid()}"
+    folder.mkdir(exist_ok=True)
+    shutil.copy(EXAMPLES / "mill-1394" / "MILL_1394.amp", folder / "mill.amp")
+    shutil.copy(folder / "mill.amp", folder / "ours.amp")
+    for verb in (
+        ("set", "ours.amp", "1300=3"),
+        ("new", "9pc", "lathe.amp"),
+        ("export", "mill.amp", "-o", "values.csv"),
+    ):
+        assert _run(verb, folder, {})[0] == 0
+    for name in ("ours.amp.bak", "ours.amp.history"):
+        (folder / name).unlink()
+    return folder
+
+
+def _run(verb: tuple[str, ...], work: Path, env: dict[str, str]) -> tuple[int, str]:
+    ended = subprocess.run(
+        [sys.executable, "-m", "amp_studio.cli", verb[0],
+         *(str(work / word) if re.fullmatch(r"[a-z]+\.[a-z]+", word) else word for word in verb[1:])],
+        capture_output=True, text=True, check=False, env=os.environ | env, timeout=120,
+    )  # fmt: skip
+    return ended.returncode, ended.stderr
+
+
+def _contents(work: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in work.iterdir() if path.is_file()}
+
+
+def _wanted(verb: tuple[str, ...], work: Path) -> dict[str, bytes]:
+    """Return what the folder holds after the verb when nothing fails."""
+    _lay_out(work)
+    code, said = _run(verb, work, {})
+    assert code in (0, 1), said
+    return _contents(work)
+
+
+def _violations(
+    code: int,
+    said: str,
+    before: dict[str, bytes],
+    after: dict[str, bytes],
+    wanted: dict[str, bytes],
+    failed: list[str],
+) -> Iterator[str]:
+    """Yield what is not as promised."""
+    target = next(
+        name
+        for name in wanted
+        if wanted[name] != before.get(name) and not name.endswith((".bak", ".history"))
+    )
+    if "Traceback" in said or "ignored" in said:
+        yield said
+    changed = after.get(target) != before.get(target)
+    # A report says so where the rules of the builder beside the file cannot be read.
+    said_so = b"rules.yaml" in after.get(target, b"")
+    if changed and not said_so and not _alike(after.get(target, b""), wanted[target]):
+        yield f"{target} is neither the old nor the new one"
+    if code == 2 and changed:
+        yield f"exit 2, and {target} was changed: {said}"
+    if code in (0, 1) and not changed:
+        yield f"exit {code}, and {target} was not changed"
+    if code not in (0, 1, 2, 3):
+        yield f"exit {code}: {said}"
+    if code in (2, 3) and len(said.strip().splitlines()) != 1:
+        yield f"not one line: {said!r}"
+    for name, content in before.items():
+        if name != target and after.get(name) != content:
+            yield f"{name} was changed"
+    kept = after.get(f"{target}.bak")
+    if changed and target in before and kept is not None and kept != before[target]:
+        yield "the backup is not the previous file"
+    left = [n for n in after if n not in before and n not in wanted and n != f"{target}.bak"]
+    if left and "unlink" not in failed:
+        yield f"left behind: {left}"
+
+
+def _alike(a: bytes, b: bytes) -> bool:
+    """Return whether two contents are the same but for times and the names of folders in them."""
+    return _timeless(a) == _timeless(b)
+
+
+def _timeless(content: bytes) -> bytes:
+    content = re.sub(rb"20\d\d-\d\d-\d\d[T ]\d\d:\d\d(:\d\d)?([+-]\d\d:\d\d|Z)?", b"", content)
+    content = re.sub(rb"/[^\s<\"]*/(whole|run-\d+)/", b"", content)
+    return b"%PDF" if content.startswith(b"%PDF") and content.rstrip().endswith(b"%%EOF") else content
+
+
+def fail_calls(seed: int, runs: int, folder: Path) -> list[str]:
+    """Fail the calls of the writing verbs; ``runs`` under the number of verbs: the first few calls of one of them."""
+    if compiler() is None:
+        return []
+    if runs < len(VERBS):
+        return fail_each_call(VERBS[0], seed, folder, runs)[1]
+    found = []
+    for number, verb in enumerate(VERBS):
+        tried, violations = fail_each_call(verb, seed, folder / str(number))
+        found += violations
+        print(f"  {' '.join(verb)}: {tried} calls, {len(violations)} violations", file=sys.stderr)
+    return found
