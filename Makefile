@@ -29,6 +29,9 @@ mutants: setup ## change every rule and what it tells in every way, one at a tim
 campaign: setup ## write anything whatever into machines of every family, thousands of times
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py
 
+faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"
+	@PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
+
 check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check
 	@$(BIN)/ruff check

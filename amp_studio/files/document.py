@@ -18,7 +18,7 @@ from amp_studio.schema.regular_file import read_file
 from .atomic import append_line, digest_of, write_atomic
 from .lock import EditLock, InUse, now, user
 from .parameter_file import Change, ParameterFile
-from .paths import backup_path, hidden_path, history_path, is_there, real_path
+from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
 from .storage import open_file, read_content, read_stored, save_file
 
 _TYPED = ("name", "application", "revision", "notes")
@@ -161,7 +161,7 @@ class Document:
     def save_as(self, path: Path) -> Document:
         """Save under a new name and return that document; the original stays as it is on disk."""
         twin = self.file.copy()
-        twin.header.name = path.stem
+        twin.header.name = text_of_name(path.stem)
         return Document.create(twin, path)
 
     def changed_on_disk(self) -> bool:
