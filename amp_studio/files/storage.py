@@ -80,16 +80,19 @@ def file_content(path: Path) -> bytes:
         raise FileFault(path, None, f"cannot be read: {error.strerror}") from None
 
 
-def read_content(path: Path, content: bytes) -> ParameterFile:
-    """Read the content of a parameter file; ``path`` is for messages. Raises FileFault."""
-    return _Reader(path, text_of(path, content, FileFault)).read()
+def read_content(path: Path, content: bytes, schema: Schema | None = None) -> ParameterFile:
+    """Read the content of a parameter file; ``path`` is for messages. Raises FileFault.
+
+    With the ``schema`` of a family its id need not be looked up.
+    """
+    return _Reader(path, text_of(path, content, FileFault), schema).read()
 
 
 class _Reader:
     """Reads the text of one parameter file."""
 
-    def __init__(self, path: Path, text: str) -> None:
-        self.path, self.text = path, text
+    def __init__(self, path: Path, text: str, schema: Schema | None) -> None:
+        self.path, self.text, self.schema = path, text, schema
         self.data: dict[str, Any] = {}
 
     def read(self) -> ParameterFile:
@@ -136,6 +139,8 @@ class _Reader:
         family = self.data.get("family")
         if not isinstance(family, str):
             raise self._fault("names no control family", *(["family"] if "family" in self.data else []))
+        if self.schema is not None and self.schema.family.family == family:
+            return self.schema
         try:
             return load_schema(family)
         except UnknownFamilyError as error:
@@ -313,7 +318,7 @@ def readable_content(file: ParameterFile, path: Path, previous: bytes | None = N
     """Return a file's content that has been read back and means what the file does; raises SaveFault."""
     try:
         content = content_of(file, previous)
-        found = _difference(file, read_content(path, content))
+        found = _difference(file, read_content(path, content, file.schema))
     except UnicodeEncodeError as error:
         found = f"the sign U+{ord(error.object[error.start]):04X} is in no file"
     except FileFault as error:

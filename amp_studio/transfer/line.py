@@ -118,7 +118,7 @@ class Line:
             raise ProtocolMismatch(f"another control answers on this line than before: '{welcome.name}'")
         if self._family and welcome.family != self._family:
             self.close()
-            raise WrongFamily(f"the control is a {welcome.family}, not a {self._family}")
+            raise WrongFamily(f"the control is of the family {welcome.family}, not {self._family}")
         self.welcome = welcome
         return welcome
 

@@ -243,7 +243,7 @@ def test_a_history_is_kept_of_what_was_set(amp, mill: Path) -> None:
             ["1300=2", "1020=perhaps"],
             "'perhaps' is not a choice of Software Overtravel Used: True (a), False (b)",
         ),
-        (["1300=2", "1320=-1"], "outside 0 to 2540000 mm (set by 1330 Negative Software Overtravel)"),
+        (["1300=2", "1320=-1"], "outside 0 to 2540000 mm (set by 1330 Negative Software Overtravel, 0 mm)"),
         (["1300=2", "2300"], "'2300' is not PARAM=VALUE"),
         (["1300=2", "=5"], "'=5' is not PARAM=VALUE"),
         (["1300=2", "1020.3=1"], "'1020.3' is no parameter"),

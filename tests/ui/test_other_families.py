@@ -81,6 +81,4 @@ def test_a_control_of_another_family_is_refused(
     control = start_control()
     person.types(control.address)
     action(wide, "Verify With Control").trigger()
-    assert (
-        person.reads() == "The control holds a file for Allen-Bradley 9/PC AMP, this one is for Wide control."
-    )
+    assert person.reads() == "the control is of the family 9pc, not wide"
