@@ -200,7 +200,8 @@ def _place(data: object, fault: ErrorDetails) -> str:
 
 def _content_key(files: list[Path]) -> str:
     digest = hashlib.sha256()
-    own = (Path(__file__).with_name(name) for name in ("model.py", "compiled_cache.py"))
+    here = Path(__file__).parent
+    own = (*sorted((here / "model").glob("*.py")), here / "compiled_cache.py")
     for path in [*own, *files]:
         content = path.read_bytes()
         digest.update(f"{path.name}:{len(content)}:".encode())

@@ -1,0 +1,114 @@
+"""The words the parameter database is written in.
+
+Every YAML file under ``parameter_db`` is read into these models, and into
+nothing else: what a family can say is exactly what stands here. A model
+forbids unknown keys, so a typing error in a fact cannot hide.
+
+``docs/schema.md`` explains the same words to somebody who writes YAML.
+"""
+
+from .documents import (
+    Errata,
+    Erratum,
+    Guide,
+    Guides,
+    GuideStep,
+    Reading,
+    Table,
+    Tables,
+)
+from .family import (
+    AxisProfile,
+    Condition,
+    Family,
+    Machine,
+    ScopeInfo,
+)
+from .parameter import (
+    Bit,
+    Bound,
+    BoundRef,
+    Choice,
+    Default,
+    Effect,
+    Group,
+    Help,
+    Layout,
+    Need,
+    Numbers,
+    Parameter,
+    Quantity,
+    Range,
+    RangeVariant,
+    State,
+    StateRule,
+    Storage,
+    ValueType,
+)
+from .record import (
+    Instances,
+    Key,
+    Model,
+    Page,
+    ParameterId,
+    Scope,
+    Unit,
+)
+from .rule import (
+    Assignment,
+    BuilderRule,
+    Fix,
+    Rule,
+    Rules,
+    Severity,
+    Suppression,
+)
+
+__all__ = [
+    "Assignment",
+    "AxisProfile",
+    "Bit",
+    "Bound",
+    "BoundRef",
+    "BuilderRule",
+    "Choice",
+    "Condition",
+    "Default",
+    "Effect",
+    "Errata",
+    "Erratum",
+    "Family",
+    "Fix",
+    "Group",
+    "Guide",
+    "GuideStep",
+    "Guides",
+    "Help",
+    "Instances",
+    "Key",
+    "Layout",
+    "Machine",
+    "Model",
+    "Need",
+    "Numbers",
+    "Page",
+    "Parameter",
+    "ParameterId",
+    "Quantity",
+    "Range",
+    "RangeVariant",
+    "Reading",
+    "Rule",
+    "Rules",
+    "Scope",
+    "ScopeInfo",
+    "Severity",
+    "State",
+    "StateRule",
+    "Storage",
+    "Suppression",
+    "Table",
+    "Tables",
+    "Unit",
+    "ValueType",
+]

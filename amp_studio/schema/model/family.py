@@ -1,0 +1,86 @@
+"""What a family is: identity, scopes, units, conditions and the order of its groups."""
+
+from __future__ import annotations
+
+from pydantic import model_validator
+
+from .parameter import Effect
+from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
+
+
+class Condition(Model):
+    """A named condition on the values of one machine, in CEL."""
+
+    reads: dict[str, str] = {}
+    when: str
+    why: str
+    """What a person is told when the condition puts a parameter out of force."""
+    page: Page | None = None
+
+
+class ScopeInfo(Model):
+    """The instances a scope has in this family."""
+
+    instances: Instances
+    label: str
+    """``Axis {i}``."""
+    of: Scope | None = None
+    """The scope whose instances these are parts of: register ``X.3`` belongs to axis ``X``, and reads what is its."""
+
+
+class Machine(Model):
+    """A machine type the family can be told to be."""
+
+    key: Key
+    name: str
+
+
+class AxisProfile(Model):
+    """Which parameters the axis operations of the files room act on."""
+
+    name: ParameterId
+    type: ParameterId
+    unfitted: Key | None = None
+    """Type of an axis that is not there; None where no type says so, and ``fitted_by`` does."""
+    fitted_by: ParameterId | None = None
+    """A number that is 0 for an axis that is not there (its port), where that is no matter of the type."""
+    usual_type: Key
+    """Type of an axis that is only named."""
+    types: dict[str, Key] = {}
+    """Types that go with a name (``S`` with spindle)."""
+    hardware: ParameterId | None = None
+    loop: ParameterId | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> AxisProfile:
+        if (self.unfitted is None) == (self.fitted_by is None):
+            raise ValueError(
+                "an axis is left out either by its type ('unfitted') or by a number ('fitted_by')"
+            )
+        return self
+
+
+class Family(Model):
+    """``family.yaml``: identity, scopes, units and the order of the groups."""
+
+    family: Key
+    name: str
+    document: str
+    title: str
+    applications: tuple[str, ...] = ()
+    machines: tuple[Machine, ...]
+    default_machine: Key
+    machine_parameter: ParameterId | None = None
+    """The parameter whose choice keys are the machine types, where there is one."""
+    revisions: tuple[str, ...] = ()
+    scopes: dict[Scope, ScopeInfo]
+    units: dict[str, dict[str, Unit]]
+    """Per unit system (``metric``, ``inch``) the unit of each quantity."""
+    unit_parameter: ParameterId | None = None
+    """The parameter whose choice keys are the unit systems, where the control keeps bare figures in the chosen one."""
+    angular_when: str | None = None
+    """Condition under which length-like quantities of an axis are entered in degrees."""
+    axes: AxisProfile | None = None
+    effect: Effect
+    groups: tuple[str, ...]
+    conditions: dict[str, Condition] = {}

@@ -1,0 +1,275 @@
+"""What a parameter is: numbers, values, ranges, states, storage."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import model_validator
+
+from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
+
+ValueType = Literal["integer", "real", "choice", "boolean", "bits", "text", "format"]
+State = Literal["in-force", "ignored", "unusable", "hidden"]
+Quantity = Literal[
+    "",
+    "length",
+    "angle",
+    "velocity",
+    "acceleration",
+    "acceleration-per-minute",
+    "jerk",
+    "time",
+    "percent",
+    "voltage",
+    "current",
+    "frequency",
+    "rotation",
+    "counts",
+    "counts-per-length",
+    "power",
+    "register",
+]
+
+
+class BoundRef(Model):
+    """A bound that is the value of another parameter of the same instance."""
+
+    param: ParameterId
+
+
+Bound = float | BoundRef | None
+Range = tuple[Bound, Bound]
+
+
+class RangeVariant(Model):
+    """Ranges that hold instead of the plain ones while a condition is true."""
+
+    when: str
+    ranges: dict[Unit, Range]
+
+
+class Choice(Model):
+    """One of the fixed values of a choice or a yes/no parameter."""
+
+    key: Key
+    label: str
+    code: str | None = None
+    """The letter the manual prints before the choice; the order of the letters is not that of the codes."""
+    raw: int | None = None
+    """What the control stores; None where no code is printed."""
+    note: str | None = None
+
+
+class Bit(Model):
+    """One bit, or a field of several bits, of a packed word."""
+
+    bit: int
+    width: int = 1
+    label: str
+    choices: tuple[Choice, ...] | None = None
+    signed: bool = False
+    """A field of several bits that holds a number with its sign (two's complement)."""
+    unknown: bool = False
+    """The manual's figure is lost: the bit is kept and shown raw."""
+
+
+class Storage(Model):
+    """How the control itself holds the value."""
+
+    unit: Unit | None = None
+    decimals: int | None = None
+    scale: float = 1.0
+    """Stored number per unit of ``unit`` (65.536 for counts/s in a 1.25 ms scan)."""
+    bits: int | None = None
+    signed: bool = True
+    notation: Literal["decimal", "hex", "binary", "ascii"] = "decimal"
+    words: int = 1
+    word_order: Literal["high-first", "low-first"] = "high-first"
+    code: int | None = None
+    """The control's own code of the type of word, which its files name (NUM: 6 for 32 bits in hexadecimal)."""
+    command: str | None = None
+    """The command that sets it: ``{i}`` is the instance, ``{n}`` its place from 0, ``{v}`` the value, ``{other.id}`` that of another.
+
+    A command of several values stands the same at each of them: ``NOTCH {i}({notch.frequency}, {notch.width})``.
+    """
+
+
+class Numbers(Model):
+    """By which numbers people and controls address the instances of a parameter.
+
+    Instance number k (counting from 0) has number ``start + k * step`` written
+    through ``format``; ``listed`` names instances one by one instead, and ``starts``
+    gives the first number of each array of parts.
+    """
+
+    start: int | None = None
+    step: int = 0
+    format: str = "{n}"
+    """``{n}`` is the number, ``{i}`` the instance (``P21N{i}``, ``Pr{n}``, ``R{n}``)."""
+    listed: dict[str, str] | None = None
+    starts: dict[str, int] | None = None
+    """What stands before the point of an instance -> number of its part 0; the parts follow ``step`` by ``step``."""
+    disputed: bool = False
+    """The manual prints this number for another parameter too, and that other one is right."""
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Numbers:
+        ways = [self.start, self.listed, self.starts]
+        if ways.count(None) == len(ways) and "{n}" in self.format:
+            raise ValueError("numbers need 'start', 'listed', 'starts' or a format without {n}")
+        try:
+            self.format.format(n=0, i="")
+        except (LookupError, ValueError):
+            raise ValueError(
+                f"the format {self.format!r} may hold {{n}} and {{i}} and nothing else in braces"
+            ) from None
+        return self
+
+
+class Layout(Model):
+    """Scope, instances and numbers of a parameter on some machine types (mill against lathe)."""
+
+    machines: tuple[str, ...] | None = None
+    scope: Scope
+    instances: Instances | None = None
+    """Only where they differ from those of the scope in the family (``("0", …, "31")`` for 32 words)."""
+    numbers: Numbers | None = None
+    """None for a field that has no number at all."""
+
+
+class StateRule(Model):
+    """Puts a parameter out of force while a named condition of the family holds."""
+
+    state: Literal["ignored", "unusable", "hidden"]
+    when: str | None = None
+    unless: str | None = None
+    page: Page | None = None
+
+    @model_validator(mode="after")
+    def _one_condition(self) -> StateRule:
+        if (self.when is None) == (self.unless is None):
+            raise ValueError("a state takes either 'when' or 'unless'")
+        return self
+
+
+class Effect(Model):
+    """When a change takes effect."""
+
+    level: Literal["at-once", "reset", "restart", "command", "unknown"]
+    """``unknown`` where the manual does not say."""
+    command: str | None = None
+    """The command that makes the device read the value (level ``command``)."""
+
+
+class Help(Model):
+    """The parameter in our own words; ``find`` and ``wrong`` may be empty for a plain choice."""
+
+    what: str
+    find: str = ""
+    wrong: str = ""
+    related: tuple[ParameterId, ...] = ()
+
+
+class Default(Model):
+    """A printed default, and where it stands."""
+
+    value: float | bool | str
+    """A number in ``unit``, a choice key, or a text."""
+    unit: Unit = ""
+    page: Page
+    instances: dict[str, float | bool | str] | None = None
+    """Instances whose default differs from ``value``."""
+
+
+class Need(Model):
+    """An option, a piece of hardware or a software release without which a parameter does nothing."""
+
+    what: str
+    page: Page
+
+
+class Parameter(Model):
+    """Everything the database says about one parameter."""
+
+    id: ParameterId
+    name: str
+    scope: Scope = "global"
+    numbers: Numbers | None = None
+    instances: Instances | None = None
+    """Only where they differ from those of the scope; ``1.3`` is a part of instance 1 (spindle 1, gear 3)."""
+    each: str | None = None
+    """What one instance is called where that is not the scope's own label: ``Macro call {i}``, ``Gear {j}``.
+
+    ``{i}`` is the instance, or what stands before its point, ``{j}`` what stands behind it.
+    """
+    layouts: tuple[Layout, ...] | None = None
+    """Instead of scope, numbers and instances where they depend on the machine type."""
+    type: ValueType
+    quantity: Quantity = ""
+    unit: Unit | None = None
+    """Fixes the unit where the quantity alone leaves it open (``ms``, ``s``; ``counts``)."""
+    decimals: int | None = None
+    ranges: dict[Unit, Range] | None = None
+    range_variants: tuple[RangeVariant, ...] = ()
+    choices: tuple[Choice, ...] | None = None
+    more_codes: bool = False
+    """The control has codes that the manual does not print: any code may stand, as ``raw:<code>``."""
+    bits: tuple[Bit, ...] | None = None
+    default: Default | None = None
+    storage: Storage | None = None
+    states: tuple[StateRule, ...] = ()
+    effect: Effect | None = None
+    access: Literal["read-write", "read"] = "read-write"
+    """``read``: the control writes it and a person can only look at it; no value of a file."""
+    tunable: bool = False
+    """Can be changed on line, at the running machine."""
+    patchable: bool = False
+    """Stands in the table of values that can be keyed in at the control."""
+    optional: bool = False
+    """A file is complete without it: a table an operator fills as he goes (tool offsets), a filter that is not used."""
+    secret: bool = False
+    """A password or the like: shown, printed, compared and exported in clear only where a person asks for it."""
+    needs: tuple[Need, ...] = ()
+    formulas: tuple[str, ...] = ()
+    """Names of the family's published formulas that give its value or use it."""
+    help: Help
+    page: Page
+    pages: dict[str, Page] = {}
+    """Instance, or what stands before its point -> its page, where the manual has another section for it."""
+    errata: tuple[str, ...] = ()
+
+    @model_validator(mode="after")
+    def _whole(self) -> Parameter:
+        if self.secret and self.type not in ("integer", "real", "text"):
+            raise ValueError("a secret is a number or a text")  # what shows choices and bits masks nothing
+        if self.type == "choice" and not self.choices:
+            raise ValueError("a choice parameter needs choices")
+        if self.type == "boolean" and (not self.choices or len(self.choices) != 2):
+            raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
+        if self.choices:
+            for field in ("key", "label", "code"):
+                said = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
+                seen = [
+                    " ".join(word.casefold().split()) for word in said
+                ]  # as read_value compares a person's word
+                if len(set(seen)) != len(seen):
+                    raise ValueError(f"two choices share a {field}")
+        if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:
+            raise ValueError("the choices of a yes/no parameter have the keys 'yes' and 'no'")
+        if isinstance(self.default, Default) and self.choices:
+            keys = {c.key for c in self.choices}
+            for value in (self.default.value, *(self.default.instances or {}).values()):
+                if value not in keys:
+                    raise ValueError(f"default {value!r} is none of its choices")
+        return self
+
+
+class Group(Model):
+    """One file of ``groups/``: the parameters of a group in the manual's order."""
+
+    key: Key
+    name: str
+    section: str = ""
+    """The part of a long group that stands in this file (``Position Loop Parameters``)."""
+    chapter: str
+    parameters: tuple[Parameter, ...]

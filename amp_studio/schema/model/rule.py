@@ -1,0 +1,118 @@
+"""What a rule is: a constraint between parameters, its fix, and a builder's own rules and suppressions."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Literal
+
+from pydantic import Field, field_validator
+
+from .record import Model, Page
+
+Severity = Literal["error", "warning", "advice"]
+
+
+class Assignment(Model):
+    """A value for one of the parameters that a rule reads, as a CEL expression over the rule's names."""
+
+    set: str
+    """The name, out of ``reads``, of the parameter."""
+    value: str
+
+
+class Fix(Assignment):
+    """A repair: the parameter's new value."""
+
+    safe: bool = False
+    """Cannot change motion."""
+
+
+class Rule(Model):
+    """A constraint between parameters, in CEL.
+
+    ``reads`` binds short names to parameters of the instance at hand:
+    ``id`` the same instance, ``id@*`` the list over all instances, ``id@<`` and
+    ``id@>`` those before and after, ``id@.`` the parts of the same instance (the gears
+    of its spindle), ``id@3`` one of them, and a plain ``id`` of global scope wherever
+    it stands. Numbers arrive in the quantity's canonical unit.
+    """
+
+    id: Annotated[str, Field(pattern=r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]
+    title: str
+    severity: Severity
+    reads: dict[str, str]
+    optional: tuple[str, ...] = ()
+    """Names that may be unset or out of force: they arrive as null then."""
+    any_state: tuple[str, ...] = ()
+    """Names whose value counts even where the parameter is ignored or unusable."""
+    when: str = "true"
+    check: str
+    message: str
+    """With ``{name}`` for the value of a read parameter, ``{instance}`` for the instance."""
+    values: dict[str, str] = {}
+    """Further names for the message, as CEL expressions."""
+    units: dict[str, str] = {}
+    """Unit of each of ``values`` that has one, in canonical units."""
+    fix: tuple[Fix, ...] = ()
+    effective: tuple[Assignment, ...] = ()
+    """What the control really uses while the rule is broken: it corrects, clamps or forces the value silently."""
+    blames: dict[str, str] = {}
+    """Names of what is wrong, worst first, each with the condition in CEL under which it is; a list of names for always.
+
+    Left out: what ``effective`` replaces, else the first of ``reads``. ``it`` is the value at hand, ``at`` its position in a list.
+    """
+    compares: dict[str, str] = {}
+    """The same for what it is compared with. All other single values it speaks of follow, unless ``blames`` names them."""
+    page: Page
+
+    @property
+    def cited(self) -> str:
+        """Where it stands, as a sentence says it."""
+        return f"page {self.page}"
+
+    @field_validator("blames", "compares", mode="before")
+    @classmethod
+    def _each_name(cls, names: object) -> object:
+        if isinstance(names, (list, tuple)) and all(isinstance(name, str) for name in names):
+            return dict.fromkeys(names, "true")
+        if isinstance(names, dict):
+            return {name: text for several, text in names.items() for name in str(several).split(", ")}
+        return names
+
+    @field_validator("reads")
+    @classmethod
+    def _names(cls, reads: dict[str, str]) -> dict[str, str]:
+        for name in reads:
+            if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+                raise ValueError(f"{name!r} is not a name")
+        return reads
+
+
+class Rules(Model):
+    """A file of ``rules/``."""
+
+    rules: tuple[Rule, ...]
+
+
+class BuilderRule(Rule):
+    """A rule of a machine builder: no page of a manual stands behind it."""
+
+    family: str = ""
+    """The control family it is for, where files of several lie side by side."""
+    page: str = ""
+    """Where it is written, in the builder's own words."""
+
+    @property
+    def cited(self) -> str:
+        """Where it stands, as a sentence says it; empty where the builder does not say."""
+        return self.page
+
+
+class Suppression(Model):
+    """Findings that a builder has looked at and leaves as they are."""
+
+    rule: str
+    params: tuple[str, ...] = ()
+    """The parameters that the finding is about, by number or id; an id without instance is any, none at all whatever."""
+    reason: Annotated[str, Field(min_length=1)]
+    by: Annotated[str, Field(min_length=1)]
