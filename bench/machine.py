@@ -34,7 +34,7 @@ def full_file() -> ParameterFile:
         if address[0] in ("axis.type", "axis.name"):
             continue
         own = file.get(("axis.type", address[1])) if address[1] else None
-        model = MODELS[str(own.value)] if own and file.situation.scope(address) == "axis" else address[1]
+        model = MODELS[str(own.value)] if own and file.evaluation.scope(address) == "axis" else address[1]
         file.set(address, mill.get((address[0], model)) or file.get(address))
     for n, axis in enumerate(fitted_axes(file)):
         file.set(("servo.output_port", axis), Value(OUTPUTS[n]))
@@ -62,7 +62,7 @@ def _any_value(file: ParameterFile, address: Address) -> Value:
     if parameter.choices:
         key = parameter.choices[0].key
         return Value(key == "yes" if parameter.type == "boolean" else key)
-    unit = file.situation.unit(address, "metric")
+    unit = file.evaluation.unit(address, "metric")
     return Value(1 if parameter.type == "integer" else 1.0, unit)
 
 

@@ -161,7 +161,7 @@ def _peers(full: Path, times: int) -> Iterator[Measure]:
     """
     file = _disordered(open_file(full).file)
     rules = tuple(r for r in file.schema.rules if _is_relation(file.schema, r))
-    checks = [c for c in checks_of(file.situation, rules) if not c.lists]
+    checks = [c for c in checks_of(file.evaluation, rules) if not c.lists]
     relations = []
     for check in checks:
         left, sign, right = RELATION.fullmatch(check.rule.check).groups()  # type: ignore[union-attr]
@@ -169,7 +169,8 @@ def _peers(full: Path, times: int) -> Iterator[Measure]:
     values = {
         written(a): number
         for a in {a for check in checks for a in check.addresses}
-        if (number := file.situation.canonical(a)) is not None and file.situation.state(a).state == "in-force"
+        if (number := file.evaluation.canonical(a)) is not None
+        and file.evaluation.state(a).state == "in-force"
     }
 
     def here(fresh: ParameterFile) -> int:

@@ -13,13 +13,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import ENDING, FileFault, open_file, real_path
+from amp_studio.files import ENDING, ParameterFileError, open_file, real_path
 from amp_studio.report import finding_json, finding_text, suppressed_text, why_parts, why_text, write_report
 from amp_studio.schema.regular_file import read_file
 from amp_studio.validate import RULES_FILE, Finding, Validator, explain, read_builder_rules, rules_beside
 
 from .console import note, print_json, progress
-from .errors import UsageFault
+from .errors import UsageError
 from .output import check_replaced
 from .trouble import keep_details
 
@@ -95,7 +95,7 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
         names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
         inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
         if not inside and told == len(unread):
-            raise UsageFault(f"{path}: holds no {ENDING} files")
+            raise UsageError(f"{path}: holds no {ENDING} files")
         found += inside
     return found, unread
 
@@ -139,7 +139,7 @@ def _check(options: argparse.Namespace, path: Path) -> Checked:
     """Check one file; whatever is wrong with it ends no other's check."""
     try:
         return _checked(options, path)
-    except FileFault as fault:
+    except ParameterFileError as fault:
         return Checked(path, fault=str(fault))
     except KeyboardInterrupt:
         raise

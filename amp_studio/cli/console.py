@@ -9,7 +9,7 @@ from typing import Any
 
 from amp_studio.schema import Schema, UnknownFamilyError, load_schema
 
-from .errors import UsageFault
+from .errors import UsageError
 from .screen import tell, tell_over
 
 
@@ -30,11 +30,11 @@ def print_json(data: Any) -> None:
 
 
 def family(name: str) -> Schema:
-    """Return a family's schema; raises UsageFault."""
+    """Return a family's schema; raises UsageError."""
     try:
         return load_schema(name)
     except UnknownFamilyError as error:
-        raise UsageFault(str(error)) from None
+        raise UsageError(str(error)) from None
 
 
 def progress() -> Callable[[str, int, int], None]:
@@ -78,11 +78,11 @@ WAITING = {"restart": "waiting for the control to restart"}
 
 
 def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:
-    """Part ``PARAM=VALUE`` texts; raises UsageFault."""
+    """Part ``PARAM=VALUE`` texts; raises UsageError."""
     pairs = []
     for text in texts:
         param, sign, value = text.partition("=")
         if not sign or not param.strip():
-            raise UsageFault(f"'{text}' is not PARAM=VALUE")
+            raise UsageError(f"'{text}' is not PARAM=VALUE")
         pairs.append((param.strip(), value.strip()))
     return pairs

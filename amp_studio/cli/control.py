@@ -7,9 +7,9 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, RangeFault, open_file
+from amp_studio.files import ParameterFile, RangeError, open_file
 from amp_studio.files.lock import now
-from amp_studio.schema import Address, ValueFault
+from amp_studio.schema import Address, InvalidValueError
 from amp_studio.transfer import Outcome
 from amp_studio.transfer.image import ImageFault, decode_image, encode_image
 from amp_studio.transfer.kept import IMAGE, digest_path, open_copy, save_image
@@ -24,7 +24,7 @@ from amp_studio.transfer.parameters import (
 from amp_studio.transfer.verification import verify_images
 
 from .console import ask, family, note, print_json, progress
-from .errors import UsageFault
+from .errors import UsageError
 from .files import difference_json, print_comparison, print_difference
 from .output import check_new, write_new
 from .program import AT_CONTROL, CHANGED, FAULT
@@ -44,7 +44,7 @@ def download_verb(options: argparse.Namespace) -> int:
     file, path = open_file(options.path).file, options.path
     errors = _note_errors(file, path)
     if errors and not options.accept_errors:
-        raise UsageFault(f"{path} has {errors}: nothing was sent (--accept-errors sends it all the same)")
+        raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it all the same)")
     with asked_politely() as stop:
         keep = options.keep or path.parent
         return _told(
@@ -62,7 +62,7 @@ def restore_verb(options: argparse.Namespace) -> int:
         note(f"{path} goes back byte for byte, but this program cannot read it: {copy.fault}")
     elif errors := _note_errors(copy.file, path):
         if not copy.is_kept:
-            raise UsageFault(
+            raise UsageError(
                 f"{path} has {errors}, and no image beside it says that a control held it: nothing was sent "
                 "(download --accept-errors sends it all the same)"
             )
@@ -107,7 +107,7 @@ def upload_verb(options: argparse.Namespace) -> int:
     check_new(output, "an upload")
     image = fetch_image(options.source, progress())
     if not image:
-        raise UsageFault("the control holds nothing: there is nothing to upload")
+        raise UsageError("the control holds nothing: there is nothing to upload")
     if output.suffix == IMAGE:
         save_image(image, output)
         print(f"{output}: {len(image)} bytes, digest in {digest_path(output).name}")
@@ -125,7 +125,7 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
     try:
         return decode_image(image)
     except ImageFault as error:
-        raise UsageFault(
+        raise UsageError(
             f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"
         ) from None
 
@@ -133,20 +133,20 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
 def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: str) -> None:
     """Ask what to do with one out-of-range value that came from elsewhere: continue, edit, or quit."""
     if on_fault == "quit" or (on_fault == "ask" and not sys.stdin.isatty()):
-        raise UsageFault(
+        raise UsageError(
             f"{by} holds an illegal value, nothing was written: {said} (--on-fault keep takes it)"
         )
     while on_fault == "ask":
         answer = ask(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
         if answer.startswith("q"):
-            raise UsageFault("given up, nothing was written")
+            raise UsageError("given up, nothing was written")
         if answer.startswith("c"):
             break
         if answer.startswith("e"):
             try:
                 file.set_many({address: file.read(address, ask("new value: "))})
                 return
-            except (ValueFault, RangeFault) as error:
+            except (InvalidValueError, RangeError) as error:
                 note(str(error))
     file.forced[address] = f"on {now()} by {by}"
 

@@ -1,5 +1,5 @@
 """What the command line refuses."""
 
 
-class UsageFault(Exception):
+class UsageError(Exception):
     """Input that cannot be used; the text is the one line the user sees."""

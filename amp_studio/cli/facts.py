@@ -9,7 +9,7 @@ from amp_studio.schema import family_ids
 from amp_studio.validate import calculate, calculators, shown_result
 
 from .console import assignments, family, print_json
-from .errors import UsageFault
+from .errors import UsageError
 
 
 def families_verb(options: argparse.Namespace) -> int:
@@ -40,7 +40,7 @@ def schema_verb(options: argparse.Namespace) -> int:
     groups = [g for g in schema.groups if options.group in (None, g.key, g.name, g.section)]
     if not groups:
         names = ", ".join(dict.fromkeys(g.name for g in schema.groups))
-        raise UsageFault(f"{schema.family.name} has no group '{options.group}': {names}")
+        raise UsageError(f"{schema.family.name} has no group '{options.group}': {names}")
     parameters = [p for g in groups for p in g.parameters]
     if options.json:
         print_json({"family": options.family, "signature": schema.signature,
@@ -62,7 +62,7 @@ def tables_verb(options: argparse.Namespace) -> int:
     """List the printed tables of a family, or print one."""
     known = family(options.family).tables
     if options.table is not None and options.table not in known:
-        raise UsageFault(f"there is no table '{options.table}'; without one they are all listed")
+        raise UsageError(f"there is no table '{options.table}'; without one they are all listed")
     chosen = list(known.values()) if options.table is None else [known[options.table]]
     if options.json:
         print_json({"tables": [{"id": t.id, "title": t.title, "source": t.page, "params": t.params,
@@ -87,7 +87,7 @@ def calculate_verb(options: argparse.Namespace) -> int:
             print(f"{calculator.name}: {calculator.told.splitlines()[0]}")
         return 0
     if options.formula not in known:
-        raise UsageFault(f"there is no formula '{options.formula}'; without one they are all listed")
+        raise UsageError(f"there is no formula '{options.formula}'; without one they are all listed")
     calculator = known[options.formula]
     if not options.arguments:
         print(calculator.told)

@@ -12,7 +12,7 @@ from amp_studio.files import (
     Difference,
     Document,
     ParameterFile,
-    RangeFault,
+    RangeError,
     compare,
     describe,
     merge,
@@ -33,7 +33,7 @@ from amp_studio.schema import (
 from amp_studio.schema.stored import stored_number
 
 from .console import assignments, family, note, print_json, progress
-from .errors import UsageFault
+from .errors import UsageError
 from .output import check_new, note_all, write_new
 
 
@@ -54,8 +54,8 @@ def set_verb(options: argparse.Namespace) -> int:
         values, marks = wanted(file, options.assignments), dict(file.forced)
         try:
             changes = file.set_many(values, force=f"on {now()} by 'set --force'" if options.force else "")
-        except RangeFault as error:
-            raise UsageFault(f"{error}; nothing was changed (--force takes it and marks it)") from None
+        except RangeError as error:
+            raise UsageError(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
             note_all(document.notes)
@@ -65,7 +65,7 @@ def set_verb(options: argparse.Namespace) -> int:
             parameter = file.schema.parameters[change.address[0]]
             print(f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "
                   f"{show_value(parameter, change.new)}")  # fmt: skip
-            state = file.situation.state(change.address)
+            state = file.evaluation.state(change.address)
             if state.state != "in-force":
                 note(f"{describe(file, change.address)} is {state.state}: {state.why}")
     return 0
@@ -76,7 +76,7 @@ def wanted(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Value | N
     trial = file.copy()
     found: dict[Address, Value | None] = {}
     for param, text in assignments(texts):
-        address, bit = trial.situation.find_bit(param)
+        address, bit = trial.evaluation.find_bit(param)
         if bit is not None:
             found[address] = _with_bit(trial, address, bit, text)
         else:
@@ -100,7 +100,7 @@ def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
     labels = {c.raw: c.label for c in field.choices or ()}
     return {"param": f"{file.schema.short(address, file.machine)}.{bit}", "id": address[0], "instance": address[1],
             "bit": bit, "label": field.label, "value": labels.get(word, word), "unit": "", "raw": word,
-            "default": word == default, "state": file.situation.state(address).state,
+            "default": word == default, "state": file.evaluation.state(address).state,
             "forced": address in file.forced}  # fmt: skip
 
 
@@ -113,11 +113,11 @@ def _row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]
         plain = write_value(parameter, value)
     raw = None
     if value is not None and not masked:
-        raw = stored_number(parameter, value, file.situation.turns(address))
+        raw = stored_number(parameter, value, file.evaluation.turns(address))
     return {
         "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
-        "value": plain, "unit": value.unit if value else file.situation.unit(address, file.header.units), "raw": raw,
-        "default": file.is_default(address), "state": file.situation.state(address).state,
+        "value": plain, "unit": value.unit if value else file.evaluation.unit(address, file.header.units), "raw": raw,
+        "default": file.is_default(address), "state": file.evaluation.state(address).state,
         "forced": address in file.forced,
     } | ({"secret": True, "set": value is not None} if parameter.secret else {})  # fmt: skip
 
@@ -126,10 +126,10 @@ def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
     file = open_file(options.path).file
     if options.params:
-        found = [file.situation.find_bit(p) for p in options.params]
+        found = [file.evaluation.find_bit(p) for p in options.params]
     else:
         found = [(a, None) for a in file.addresses()
-                 if options.all or (a in file.values and file.situation.state(a).state != "hidden")]  # fmt: skip
+                 if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")]  # fmt: skip
     rows = []
     for address, bit in found:
         if bit is not None:
@@ -154,7 +154,7 @@ def diff_verb(options: argparse.Namespace) -> int:
     """Compare two files, or a file and a control; 1 where they differ."""
     (a, a_digest), (b, b_digest) = _side(options.a), _side(options.b)
     if a.schema is not b.schema:
-        raise UsageFault(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
+        raise UsageError(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
     found = compare(a.schema, a.values, b.values)
     if options.json:
         rows = [difference_json(a, d, options.secrets) for d in found.differences]

@@ -11,11 +11,19 @@ from typing import Any
 
 from amp_studio.files import Document, ParameterFile, describe
 from amp_studio.report import finding_text
-from amp_studio.schema import MASKED, Address, Parameter, UnknownParameter, Value, show_value, write_value
+from amp_studio.schema import (
+    MASKED,
+    Address,
+    Parameter,
+    UnknownParameterError,
+    Value,
+    show_value,
+    write_value,
+)
 from amp_studio.validate import SEVERITIES, Finding, Fixed, Validator, apply_fixes, rules_beside
 
 from .console import note, print_json
-from .errors import UsageFault
+from .errors import UsageError
 
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unknown", "schema.unset")
 """What findings belong to that no rule of a family or of a builder says."""
@@ -49,10 +57,10 @@ def fix_verb(options: argparse.Namespace) -> int:
 
 
 def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Finding], bool]:
-    """Return what tells whether the fix of a finding is asked for; raises UsageFault for an unknown rule or parameter."""
+    """Return what tells whether the fix of a finding is asked for; raises UsageError for an unknown rule or parameter."""
     rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
     if options.rule is not None and options.rule not in rules:
-        raise UsageFault(f"Unknown rule '{options.rule}'.{_nearest(options.rule, rules)}")
+        raise UsageError(f"Unknown rule '{options.rule}'.{_nearest(options.rule, rules)}")
     named = None if options.param is None else _addresses(validator.file, options.param)
 
     def wanted(finding: Finding) -> bool:
@@ -66,14 +74,14 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
 
 
 def _addresses(file: ParameterFile, text: str) -> Collection[Address]:
-    """Return the values that a number or an id means; an id without instance means all. Raises UsageFault."""
+    """Return the values that a number or an id means; an id without instance means all. Raises UsageError."""
     parameter = file.schema.parameters.get(text.strip())
     if parameter is not None:
         return {(parameter.id, instance) for instance in file.schema.instances(parameter, file.machine)}
     try:
         return {file.find(text)}
-    except UnknownParameter as error:
-        raise UsageFault(f"{error}.{_nearest(text, file.schema.parameters)}") from None
+    except UnknownParameterError as error:
+        raise UsageError(f"{error}.{_nearest(text, file.schema.parameters)}") from None
 
 
 def _nearest(text: str, names: Collection[str]) -> str:

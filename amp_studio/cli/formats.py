@@ -11,7 +11,7 @@ from amp_studio.transfer.parameters import out_of_range
 
 from .console import note
 from .control import walk
-from .errors import UsageFault
+from .errors import UsageError
 from .output import check_new, check_replaced, write_new
 
 
@@ -27,11 +27,11 @@ def import_verb(options: argparse.Namespace) -> int:
             tell=note,
         )
     except FamilyUntold as error:
-        raise UsageFault(f"{options.text}: {error} (--family tells it)") from None
+        raise UsageError(f"{options.text}: {error} (--family tells it)") from None
     except UnknownFamilyError as error:
-        raise UsageFault(str(error)) from None
+        raise UsageError(str(error)) from None
     except ValueError as error:
-        raise UsageFault(f"{options.text}: {error}") from None
+        raise UsageError(f"{options.text}: {error}") from None
     for address, said in out_of_range(file):
         walk(file, address, said, options.on_fault, "an import")
     for key in file.unknown:
@@ -47,7 +47,7 @@ def export_verb(options: argparse.Namespace) -> int:
     file = open_file(options.path).file
     for key in file.unknown:
         note(f"{key} is not known to this schema")
-    hidden = [a for a in file.values if file.situation.state(a).state == "hidden"]
+    hidden = [a for a in file.values if file.evaluation.state(a).state == "hidden"]
     if hidden:
         note(f"{len(hidden)} values do not exist for this configuration, {written(hidden[0])} among them")
     chosen = export_file(file, options.output, options.format, note, secrets=options.secrets)

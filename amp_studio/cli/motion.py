@@ -6,12 +6,12 @@ import argparse
 from collections.abc import Sequence
 
 from amp_studio.files import ParameterFile, axis_instances, open_file
-from amp_studio.schema import ValueFault, canonical, unit_named, write_value
+from amp_studio.schema import InvalidValueError, canonical, unit_named, write_value
 from amp_studio.schema.values import read_number
 from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
 
 from .console import assignments, note, print_json
-from .errors import UsageFault
+from .errors import UsageError
 from .files import wanted
 from .output import check_replaced
 
@@ -43,7 +43,7 @@ def _axis(file: ParameterFile, text: str) -> str:
         name = write_value(file.schema.parameters[profile.name], value)
         if axis == text or (value is not None and name.casefold() == text.casefold()):
             return axis
-    raise UsageFault(f"there is no axis '{text}'")
+    raise UsageError(f"there is no axis '{text}'")
 
 
 def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
@@ -57,7 +57,7 @@ def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
         try:
             number, unit = read_number(text)
             settings[param] = canonical(number, unit_named(unit)) if unit.strip() else number
-        except ValueFault:
+        except InvalidValueError:
             settings[param] = text
     return settings, own
 

@@ -10,32 +10,32 @@ from pathlib import Path
 from amp_studio.files import Document, ParameterFile, check_output, is_there, text_of_name
 
 from .console import note
-from .errors import UsageFault
+from .errors import UsageError
 
 
 def check_replaced(output: Path, *inputs: Path) -> None:
     """Refuse an output that cannot be written, belongs to an input, or is where the results are printed.
 
-    Raises UsageFault, SaveFault.
+    Raises UsageError, SaveError.
     """
     check_output(output, *inputs)
     for printed in (1, 2):
         with contextlib.suppress(OSError):
             if os.path.samestat(os.fstat(printed), output.stat()):
-                raise UsageFault(
+                raise UsageError(
                     f"{output} is where the results are printed: choose another name for the output"
                 )
 
 
 def check_new(output: Path, what: str, *inputs: Path) -> None:
-    """Refuse an output that is there already, or could not be written; raises UsageFault, SaveFault."""
+    """Refuse an output that is there already, or could not be written; raises UsageError, SaveError."""
     if is_there(output):
-        raise UsageFault(f"{output} exists already: {what} gets a new name")
+        raise UsageError(f"{output} exists already: {what} gets a new name")
     check_output(output, *inputs)
 
 
 def write_new(file: ParameterFile, path: Path) -> None:
-    """Save a new file, named as its path; raises FileExistsError, SaveFault."""
+    """Save a new file, named as its path; raises FileExistsError, SaveError."""
     file.header.name = text_of_name(path.stem)
     document = Document.create(file, path)
     document.close()

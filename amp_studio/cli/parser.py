@@ -8,14 +8,14 @@ from typing import NoReturn
 
 from amp_studio import __version__
 
-from .errors import UsageFault
+from .errors import UsageError
 
 
 class _Parser(argparse.ArgumentParser):
     """An argument parser that says what is wrong in one line."""
 
     def error(self, message: str) -> NoReturn:
-        raise UsageFault(f"{message} (see '{self.prog} --help')")
+        raise UsageError(f"{message} (see '{self.prog} --help')")
 
 
 def parser() -> argparse.ArgumentParser:

@@ -83,14 +83,14 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
 
 def _sentence(error: BaseException) -> str:
     """Return the one line a person sees; what nobody has foreseen is named, with where its details are."""
-    from amp_studio.schema import DatabaseFault, UnknownParameter
+    from amp_studio.schema import DatabaseError, UnknownParameterError
 
-    from .errors import UsageFault
+    from .errors import UsageError
     from .trouble import keep_details
 
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or 'the results cannot be written'}: {error.strerror}"
-    if isinstance(error, (UsageFault, UnknownParameter, DatabaseFault, ValueError, OSError)):
+    if isinstance(error, (UsageError, UnknownParameterError, DatabaseError, ValueError, OSError)):
         return str(error)
     return keep_details(error)
 

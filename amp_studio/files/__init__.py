@@ -5,9 +5,9 @@ two programs on one file notice each other, and a file that is not fully
 understood is refused or kept whole.
 """
 
-from .atomic import ChangedOnDisk, SaveFault, Tell, check_output, digest_of, write_atomic
+from .atomic import ChangedOnDisk, SaveError, Tell, check_output, digest_of, write_atomic
 from .axes import (
-    AxisFault,
+    AxisError,
     axis_instances,
     axis_title,
     axis_type,
@@ -24,37 +24,37 @@ from .parameter_file import (
     Change,
     Header,
     ParameterFile,
-    RangeFault,
+    RangeError,
     describe,
     fill_defaults,
     new_file,
     secret_values,
 )
 from .paths import backup_path, is_there, real_path, same_file, text_of_name
-from .project import ENDING, NameFault, Project, ProjectInfo
-from .storage import FORMAT, FileFault, Opened, content_of, open_file, read_content, save_file
+from .project import ENDING, InvalidNameError, Project, ProjectInfo
+from .storage import FORMAT, Opened, ParameterFileError, content_of, open_file, read_content, save_file
 
 __all__ = [
     "ENDING",
     "FORMAT",
-    "AxisFault",
+    "AxisError",
     "Change",
     "ChangedOnDisk",
     "Comparison",
     "Conflict",
     "Difference",
     "Document",
-    "FileFault",
     "Header",
     "HistoryEntry",
     "InUse",
-    "NameFault",
+    "InvalidNameError",
     "Opened",
     "ParameterFile",
+    "ParameterFileError",
     "Project",
     "ProjectInfo",
-    "RangeFault",
-    "SaveFault",
+    "RangeError",
+    "SaveError",
     "Tell",
     "Unsaved",
     "axis_instances",

@@ -28,7 +28,7 @@ class ChangedOnDisk(OSError):
     """The file on disk is not the one that was opened."""
 
 
-class SaveFault(OSError):
+class SaveError(OSError):
     """A file that could not be written; the old one is untouched. The text is one clear sentence."""
 
 
@@ -51,7 +51,7 @@ def _content_of(path: Path) -> bytes | None:
 
 
 def check_output(path: Path, *inputs: Path) -> None:
-    """Refuse an output that cannot be written, or with which one of the inputs would be lost; raises SaveFault."""
+    """Refuse an output that cannot be written, or with which one of the inputs would be lost; raises SaveError."""
     with _told(path):
         real = destination(path)
     for source in inputs:
@@ -63,7 +63,7 @@ def check_output(path: Path, *inputs: Path) -> None:
         elif any(same_file(source, kept) for kept in companions(real)):
             said = f"would put its backup or its lock in the place of the input {source}"
         if said:
-            raise SaveFault(f"{path} {said}: choose another name for the output")
+            raise SaveError(f"{path} {said}: choose another name for the output")
 
 
 def write_atomic(
@@ -76,7 +76,7 @@ def write_atomic(
     file on disk must still have (None: there must be no file; "": do not look). The previous file becomes the backup.
     A companion is readable by those who may read its file, and takes the place of a link instead of following it.
     ``tell`` is called after the save with each thing of the old file that could not be kept.
-    Returns the digest of the new content; raises ChangedOnDisk, SaveFault, and what ``content`` raises.
+    Returns the digest of the new content; raises ChangedOnDisk, SaveError, and what ``content`` raises.
     """
     notes: list[str] = []
     with _told(path):
@@ -117,10 +117,10 @@ def _told(path: Path) -> Iterator[None]:
     """Turn errors of the system into one clear sentence."""
     try:
         yield
-    except (ChangedOnDisk, SaveFault):
+    except (ChangedOnDisk, SaveError):
         raise
     except OSError as error:
-        raise SaveFault(f"{path} cannot be written: {error.strerror or error}") from error
+        raise SaveError(f"{path} cannot be written: {error.strerror or error}") from error
 
 
 @contextlib.contextmanager

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.schema import Address, AxisProfile, Value, ValueFault, angular
+from amp_studio.schema import Address, AxisProfile, InvalidValueError, Value, angular
 
 from .parameter_file import Change, ParameterFile
 
 
-class AxisFault(ValueError):
+class AxisError(ValueError):
     """An axis operation that cannot be done; the text is one clear sentence."""
 
 
@@ -55,19 +55,19 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     """Name the axes in order and fit as many; the others become unfitted.
 
     A spindle's name makes a spindle; A, B and C are fitted as rotary, every
-    other as linear, as is usual; raises AxisFault for a name that is not
+    other as linear, as is usual; raises AxisError for a name that is not
     offered and for too many axes.
     """
     profile = _profile(file)
     instances = axis_instances(file)
     if len(names) > len(instances):
-        raise AxisFault(f"{len(names)} axes are too many: {file.schema.family.name} has {len(instances)}")
+        raise AxisError(f"{len(names)} axes are too many: {file.schema.family.name} has {len(instances)}")
     wanted: dict[Address, Value | None] = {}
     for axis, name in zip(instances, names, strict=False):
         try:
             wanted[(profile.name, axis)] = file.read((profile.name, axis), name)
-        except ValueFault as error:
-            raise AxisFault(str(error)) from None
+        except InvalidValueError as error:
+            raise AxisError(str(error)) from None
         wanted[(profile.type, axis)] = Value(profile.types.get(name.upper(), profile.usual_type))
     for axis in instances[len(names) :]:
         wanted.update(_unfitted(profile, axis))
@@ -81,10 +81,10 @@ def retype_axis(file: ParameterFile, axis: str, type_key: str) -> list[Change]:
     """
     profile = _profile(file)
     if axis not in axis_instances(file):
-        raise AxisFault(f"there is no axis {axis}")
+        raise AxisError(f"there is no axis {axis}")
     types = [c.key for c in file.schema.parameters[profile.type].choices or ()]
     if type_key not in types:
-        raise AxisFault(f"there is no axis type '{type_key}': {', '.join(types)}")
+        raise AxisError(f"there is no axis type '{type_key}': {', '.join(types)}")
     change = file.set((profile.type, axis), Value(type_key))
     return ([change] if change else []) + refit_units(file, axis)
 
@@ -96,7 +96,7 @@ def refit_units(file: ParameterFile, axis: str) -> list[Change]:
         value = file.get(address)
         if address[1] != axis or value is None or not value.unit or not _is_axis(file, address[0]):
             continue
-        unit = refitted(value.unit, file.situation.turns(address), file.situation.unit(address, "metric"))
+        unit = refitted(value.unit, file.evaluation.turns(address), file.evaluation.unit(address, "metric"))
         mark = file.forced.get(address)
         if unit != value.unit and (change := file.set(address, Value(value.value, unit))):
             changes.append(change)
@@ -115,16 +115,16 @@ def refitted(unit: str, turns: bool, metric: str) -> str:
 def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
     """Copy every per-axis value of one axis to another of the same type, except its name and what it is fitted by.
 
-    Raises AxisFault when the types differ or an axis does not exist.
+    Raises AxisError when the types differ or an axis does not exist.
     """
     profile = _profile(file)
     for axis in (source, target):
         if axis not in axis_instances(file):
-            raise AxisFault(f"there is no axis {axis}")
+            raise AxisError(f"there is no axis {axis}")
     if source == target:
-        raise AxisFault(f"axis {source} cannot be copied to itself")
+        raise AxisError(f"axis {source} cannot be copied to itself")
     if axis_type(file, source) != axis_type(file, target):
-        raise AxisFault(
+        raise AxisError(
             f"axis {source} is {axis_type(file, source)} and axis {target} is {axis_type(file, target)}: "
             "only axes of the same type can be copied"
         )
@@ -142,7 +142,7 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     """Make an axis unfitted and put its values back to their printed defaults; a value without one is unset."""
     profile = _profile(file)
     if axis not in axis_instances(file):
-        raise AxisFault(f"there is no axis {axis}")
+        raise AxisError(f"there is no axis {axis}")
     changes = []
     unfitted = _unfitted(profile, axis)
     changes += [change for a, value in unfitted.items() if (change := file.set(a, value))]
@@ -173,5 +173,5 @@ def _is_axis(file: ParameterFile, parameter_id: str) -> bool:
 
 def _profile(file: ParameterFile) -> AxisProfile:
     if file.schema.family.axes is None:
-        raise AxisFault(f"{file.schema.family.name} has no axes to configure")
+        raise AxisError(f"{file.schema.family.name} has no axes to configure")
     return file.schema.family.axes

@@ -86,7 +86,7 @@ def merge(
             conflicts.append(Conflict(address, base.get(address), ours.get(address), theirs.get(address)))
     if ours.header.machine == base.header.machine:
         merged.header.machine = theirs.header.machine
-        merged.situation.forget()
+        merged.evaluation.forget()
     return merged, conflicts + _merge_unknown(base.unknown, merged.unknown, theirs.unknown)
 
 

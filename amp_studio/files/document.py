@@ -12,7 +12,7 @@ import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from amp_studio.schema import MASKED, Address, Value, ValueFault, read_address, write_value, written
+from amp_studio.schema import MASKED, Address, InvalidValueError, Value, read_address, write_value, written
 from amp_studio.schema.regular_file import read_file
 
 from .atomic import append_line, digest_of, write_atomic
@@ -68,7 +68,7 @@ class Document:
 
     @classmethod
     def open(cls, path: Path) -> Document:
-        """Open a file for editing; raises FileFault, and InUse while another program edits it."""
+        """Open a file for editing; raises ParameterFileError, and InUse while another program edits it."""
         document = cls._of(path)
         document._lock.take()
         try:  # the file may have changed while its lock was waited for
@@ -145,7 +145,7 @@ class Document:
     def save(self, how: str = "edit") -> None:
         """Save in place; the previous file becomes the backup; ``notes`` say what could not be kept.
 
-        Raises ChangedOnDisk, SaveFault, InUse.
+        Raises ChangedOnDisk, SaveError, InUse.
         """
         if self._only_viewed:
             raise InUse(f"{self.path.name} was opened only to look at it: save it under a new name")
@@ -286,7 +286,7 @@ class Document:
             return None
         try:
             value = None if text is None else read_stored(schema, parameter, text)
-        except ValueFault:
+        except InvalidValueError:
             return None
         return Change(address, self.file.get(address), value)
 
@@ -296,7 +296,7 @@ class Document:
 
 
 def recover_backup(path: Path, expected: str | None = "") -> str:
-    """Make the backup the file again; what stood there becomes the backup. Raises FileNotFoundError, FileFault, SaveFault."""
+    """Make the backup the file again; what stood there becomes the backup. Raises FileNotFoundError, ParameterFileError, SaveError."""
     backup = backup_path(path)
     try:
         content = read_file(backup)

@@ -1,4 +1,4 @@
-"""A parameter file in memory: values, changes, and the situation they make."""
+"""A parameter file in memory: values, changes, and what follows from them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from amp_studio.schema import (
     Address,
+    Evaluation,
     Schema,
-    Situation,
     Value,
     fault,
     load_schema,
@@ -31,7 +31,7 @@ class Change:
         return Change(self.address, self.new, self.old)
 
 
-class RangeFault(ValueError):
+class RangeError(ValueError):
     """A value that its parameter does not allow; ``faults`` holds one sentence for each address."""
 
     def __init__(self, faults: dict[Address, str]) -> None:
@@ -68,7 +68,7 @@ class ParameterFile:
         """Addresses set out of range on purpose, and when."""
         self.unknown: dict[str, str] = {}
         """Entries of the file that name no parameter of this schema, kept as they are."""
-        self.situation = Situation(schema, self.values.get, lambda: self.machine)
+        self.evaluation = Evaluation(schema, self.values.get, lambda: self.machine)
         self._listeners: list[Callable[[Change], None]] = []
 
     @property
@@ -93,12 +93,12 @@ class ParameterFile:
         return self.schema.addresses(self.machine)
 
     def find(self, text: str) -> Address:
-        """Return the instance a person means; raises UnknownParameter."""
-        return self.situation.find(text)
+        """Return the instance a person means; raises UnknownParameterError."""
+        return self.evaluation.find(text)
 
     def default(self, address: Address) -> Value | None:
         """Return the printed default of an instance, in the unit system of the file where it is metric."""
-        return default_value(self.schema, self.situation, address)
+        return default_value(self.schema, self.evaluation, address)
 
     def is_default(self, address: Address) -> bool:
         """Tell whether a value equals the printed default, whatever the unit.
@@ -116,8 +116,8 @@ class ParameterFile:
         return all(same_value(self.get(a), self.default(a)) for a in own)
 
     def read(self, address: Address, text: str) -> Value:
-        """Read a value a person wrote for an instance; raises ValueFault."""
-        unit = self.situation.unit(address, self.header.units)
+        """Read a value a person wrote for an instance; raises InvalidValueError."""
+        unit = self.evaluation.unit(address, self.header.units)
         return read_value(self.schema.parameters[address[0]], text, unit)
 
     # -- changing --------------------------------------------------------------
@@ -138,7 +138,7 @@ class ParameterFile:
         else:
             self.values[change.address] = change.new
         self.forced.pop(change.address, None)
-        self.situation.changed(change.address)
+        self.evaluation.changed(change.address)
         self._tell(change)
 
     def _tell(self, change: Change) -> None:
@@ -152,7 +152,7 @@ class ParameterFile:
         each other can move together; an axis that changes its type takes its
         values along as angles or lengths. With ``force`` (a text that says by whom
         and when) values out of range are taken and marked; without it they
-        raise RangeFault and nothing is changed.
+        raise RangeError and nothing is changed.
         """
         from .axes import refit_units
 
@@ -162,13 +162,13 @@ class ParameterFile:
         for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
             changes += refit_units(self, axis)
         faults = {
-            a: said for a, v in wanted.items() if v is not None and (said := fault(self.situation, a, v))
+            a: said for a, v in wanted.items() if v is not None and (said := fault(self.evaluation, a, v))
         }
         if faults and not force:
             for change in reversed(changes):
                 self.apply(change.reversed())
             self.forced.update(marks)
-            raise RangeFault(faults)
+            raise RangeError(faults)
         changed = {change.address for change in changes}
         for address, value in wanted.items():
             self.forced.pop(address, None)
@@ -192,7 +192,7 @@ class ParameterFile:
         return twin
 
 
-def default_value(schema: Schema, situation: Situation, address: Address) -> Value | None:
+def default_value(schema: Schema, evaluation: Evaluation, address: Address) -> Value | None:
     """Return the printed default of an instance; None where the manual prints none."""
     parameter = schema.parameters[address[0]]
     default = parameter.default
@@ -204,7 +204,7 @@ def default_value(schema: Schema, situation: Situation, address: Address) -> Val
     if isinstance(value, (str, bool)) or parameter.type == "format":
         return Value(str(value))
     unit = default.unit
-    if situation.turns(address):
+    if evaluation.turns(address):
         from amp_studio.schema import angular
 
         unit = angular(unit)
@@ -273,5 +273,5 @@ def describe(file: ParameterFile, address: Address) -> str:
     return file.schema.label(address, file.machine)
 
 
-__all__ = ["Change", "Header", "ParameterFile", "RangeFault", "default_value", "describe", "fill_defaults", "new_file",
+__all__ = ["Change", "Header", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults", "new_file",
            "secret_values", "written"]  # fmt: skip

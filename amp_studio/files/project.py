@@ -15,11 +15,11 @@ from amp_studio.schema.quoting import quoted
 from amp_studio.schema.regular_file import read_file
 from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
 
-from .atomic import SaveFault, digest_of, write_atomic
+from .atomic import SaveError, digest_of, write_atomic
 from .document import recover_backup
 from .lock import EditLock
 from .paths import backup_path, hidden_path, history_path, is_link, is_there
-from .storage import FileFault, file_content, read_content
+from .storage import ParameterFileError, file_content, read_content
 from .yaml_text import amended, new_text
 
 PROJECT_FORMAT = 1
@@ -28,7 +28,7 @@ _MOST_BYTES = 2**20
 ENDING = ".amp"
 
 
-class NameFault(ValueError):
+class InvalidNameError(ValueError):
     """A project or file name that cannot be used; the text is one clear sentence."""
 
 
@@ -63,10 +63,10 @@ class Project:
 
     @classmethod
     def create(cls, folder: Path, info: ProjectInfo) -> Project:
-        """Make a new project folder; raises NameFault when there is a project already or the family is unknown, SaveFault."""
+        """Make a new project folder; raises InvalidNameError when there is a project already or the family is unknown, SaveError."""
         _check(info)
         if is_there(folder / "project.yaml"):
-            raise NameFault(f"{folder} is a project already")
+            raise InvalidNameError(f"{folder} is a project already")
         folder.mkdir(parents=True, exist_ok=True)
         project = cls(folder, info)
         project.save()
@@ -74,16 +74,16 @@ class Project:
 
     @classmethod
     def open(cls, folder: Path) -> Project:
-        """Read a project; raises FileFault."""
+        """Read a project; raises ParameterFileError."""
         path = folder / "project.yaml"
         try:
             content = read_file(path, _MOST_BYTES)
         except OSError as error:
-            raise FileFault(path, None, f"cannot be read: {error.strerror or error}") from None
+            raise ParameterFileError(path, None, f"cannot be read: {error.strerror or error}") from None
         return cls(folder, _read(path, content))
 
     def change(self, **changes: str) -> None:
-        """Change the project information and save it; raises NameFault."""
+        """Change the project information and save it; raises InvalidNameError."""
         info = replace(self.info, **changes)  # type: ignore[arg-type]  # all of them are texts
         _check(info)
         self.info = info
@@ -97,10 +97,10 @@ class Project:
             try:
                 content = _content(self.info, previous).encode("utf-8")
                 is_same = _read(path, content) == self.info
-            except (UnicodeError, YamlError, FileFault) as error:
-                raise SaveFault(f"{path} was not written: {error}") from None
+            except (UnicodeError, YamlError, ParameterFileError) as error:
+                raise SaveError(f"{path} was not written: {error}") from None
             if not is_same:
-                raise SaveFault(f"{path} was not written: it would be read back otherwise")
+                raise SaveError(f"{path} was not written: it would be read back otherwise")
             return content
 
         write_atomic(path, made)
@@ -117,30 +117,30 @@ class Project:
         return sorted(p for p in {*self.files(), *deleted} if _has_backup(p))
 
     def path(self, name: str) -> Path:
-        """Return the path of a file by name; raises NameFault for a name that no system can keep."""
+        """Return the path of a file by name; raises InvalidNameError for a name that no system can keep."""
         name = name.removesuffix(ENDING)
         if not re.fullmatch(r"[^\W_][\w .-]{0,63}", name) or name.endswith((".", " ")):
-            raise NameFault(
+            raise InvalidNameError(
                 f"{quoted(name)} is no file name: letters, digits, '_', '-', '.' and spaces, at most 64"
             )
         if name.split(".")[0].rstrip().upper() in _RESERVED:
-            raise NameFault(f"'{name}' is a name that Windows keeps for itself")
+            raise InvalidNameError(f"'{name}' is a name that Windows keeps for itself")
         return self.folder / f"{name}{ENDING}"
 
     def copy(self, source: Path, name: str) -> Path:
-        """Copy a file, also one of another project, under a new name; raises NameFault, FileFault."""
+        """Copy a file, also one of another project, under a new name; raises InvalidNameError, ParameterFileError."""
         target = self._free(name)
         content = file_content(source)
         family = read_content(source, content).schema.family
         if family.family != self.info.family:
-            raise NameFault(
+            raise InvalidNameError(
                 f"{source.name} is for {family.name}, this project for {load_schema(self.info.family).family.name}"
             )
         write_atomic(target, content, None)
         return target
 
     def rename(self, source: Path, name: str) -> Path:
-        """Rename a file with its backup, its history and its unsaved work; raises NameFault, and InUse while it is open."""
+        """Rename a file with its backup, its history and its unsaved work; raises InvalidNameError, and InUse while it is open."""
         target = self._free(name)
         with EditLock(source):
             _move(source, target)
@@ -158,7 +158,7 @@ class Project:
                 source.replace(backup_path(source))
 
     def recover(self, path: Path) -> None:
-        """Make a backup the file again; raises FileNotFoundError, FileFault, InUse."""
+        """Make a backup the file again; raises FileNotFoundError, ParameterFileError, InUse."""
         with EditLock(path):
             recover_backup(path, digest_of(path))
 
@@ -166,35 +166,35 @@ class Project:
         target = self.path(name)
         taken = {p.name.casefold() for p in self.files()}
         if is_there(target) or target.name.casefold() in taken:
-            raise NameFault(f"there is a file '{target.stem}' already")
+            raise InvalidNameError(f"there is a file '{target.stem}' already")
         return target
 
 
 def _read(path: Path, content: bytes) -> ProjectInfo:
-    """Return what the content of a project file says; raises FileFault."""
+    """Return what the content of a project file says; raises ParameterFileError."""
     try:
-        text = text_of(path, content, FileFault)
+        text = text_of(path, content, ParameterFileError)
         document = read_yaml(text, text_scalar, spans=True)
         typed = read_yaml(text, spelled_scalar).data
     except YamlError as error:
-        raise FileFault(path, error.line, error.what) from None
+        raise ParameterFileError(path, error.line, error.what) from None
     data = document.data
     version = data.get(_VERSION) if isinstance(data, dict) else None
     if not isinstance(version, str) or not re.fullmatch("[0-9]{1,9}", version):
-        raise FileFault(path, None, "is not an AMP Studio project")
+        raise ParameterFileError(path, None, "is not an AMP Studio project")
     if int(version) > PROJECT_FORMAT:
-        raise FileFault(path, None, f"was written by a newer AMP Studio (project format {version})")
+        raise ParameterFileError(path, None, f"was written by a newer AMP Studio (project format {version})")
     said = {key: data[key] for key in _TEXTS if data.get(key) is not None}
     for key, value in said.items():
         if not isinstance(value, str):
-            raise FileFault(path, document.line((key,)), f"{key} is no text")
+            raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
     extra = {k: v for k, v in typed.items() if k not in _TEXTS and k != _VERSION}
     info = ProjectInfo(**{"name": "", "family": "", **said}, extra=extra)
     try:
         _check(info)
-    except NameFault as error:
+    except InvalidNameError as error:
         line = document.line(("family",)) if info.name.strip() and info.family else None
-        raise FileFault(path, line, str(error)) from None
+        raise ParameterFileError(path, line, str(error)) from None
     return info
 
 
@@ -218,14 +218,14 @@ _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for
 
 def _check(info: ProjectInfo) -> None:
     if not info.name.strip():
-        raise NameFault("a project needs a name")
+        raise InvalidNameError("a project needs a name")
     if not info.family:
-        raise NameFault("a project needs a control family")
+        raise InvalidNameError("a project needs a control family")
     if info.family not in family_ids():
-        raise NameFault(str(UnknownFamilyError(info.family)))
+        raise InvalidNameError(str(UnknownFamilyError(info.family)))
     machines = [m.key for m in load_schema(info.family).family.machines]
     if info.machine and info.machine not in machines:
-        raise NameFault(f"{quoted(info.machine)} is no machine type: {', '.join(machines)}")
+        raise InvalidNameError(f"{quoted(info.machine)} is no machine type: {', '.join(machines)}")
 
 
 def _has_backup(path: Path) -> bool:

@@ -16,12 +16,12 @@ from typing import Any
 from amp_studio.schema import (
     Address,
     FileError,
+    InvalidValueError,
     Parameter,
     Schema,
     UnitError,
     UnknownFamilyError,
     Value,
-    ValueFault,
     dimension,
     load_schema,
     not_readable,
@@ -39,7 +39,7 @@ from amp_studio.schema.regular_file import read_file
 from amp_studio.schema.values import checked
 from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
 
-from .atomic import SaveFault, Tell, digest, write_atomic
+from .atomic import SaveError, Tell, digest, write_atomic
 from .parameter_file import Header, ParameterFile
 from .yaml_text import amended, new_text
 
@@ -53,7 +53,7 @@ _REMEMBERED = 200
 """Signs of the longest text whose meaning is remembered."""
 
 
-class FileFault(FileError):
+class ParameterFileError(FileError):
     """A parameter file or project that cannot be used; nothing was changed."""
 
 
@@ -67,28 +67,28 @@ class Opened:
 
 
 def open_file(path: Path) -> Opened:
-    """Read a parameter file; raises FileFault and changes nothing when it cannot be used."""
+    """Read a parameter file; raises ParameterFileError and changes nothing when it cannot be used."""
     content = file_content(path)
     return Opened(read_content(path, content), path, digest(content))
 
 
 def file_content(path: Path) -> bytes:
-    """Return the bytes of a file; raises FileFault."""
+    """Return the bytes of a file; raises ParameterFileError."""
     try:
         return read_file(path)
     except OSError as error:
-        raise FileFault(path, None, f"cannot be read: {error.strerror}") from None
+        raise ParameterFileError(path, None, f"cannot be read: {error.strerror}") from None
 
 
 def read_content(path: Path, content: bytes, schema: Schema | None = None) -> ParameterFile:
-    """Read the content of a parameter file; ``path`` is for messages. Raises FileFault.
+    """Read the content of a parameter file; ``path`` is for messages. Raises ParameterFileError.
 
     With the ``schema`` of a family its id need not be looked up.
     """
-    return _Reader(path, text_of(path, content, FileFault), schema).read()
+    return _FileReader(path, text_of(path, content, ParameterFileError), schema).read()
 
 
-class _Reader:
+class _FileReader:
     """Reads the text of one parameter file."""
 
     def __init__(self, path: Path, text: str, schema: Schema | None) -> None:
@@ -106,10 +106,10 @@ class _Reader:
             self.file.forced[read_address(key)] = why
         return self.file
 
-    def _fault(self, what: str, *place: str) -> FileFault:
+    def _fault(self, what: str, *place: str) -> ParameterFileError:
         """Return what is wrong with an entry, and its line."""
         line = read_yaml(self.text, text_scalar, spans=True).line(place) if place else None
-        return FileFault(self.path, line, what)
+        return ParameterFileError(self.path, line, what)
 
     def _parse(self) -> None:
         try:
@@ -117,7 +117,7 @@ class _Reader:
         except YamlError as error:
             if error.is_syntax and "amp_studio" in self.text and not self.text.rstrip().endswith("\n..."):
                 raise self._cut_off() from None
-            raise FileFault(self.path, error.line, error.what) from None
+            raise ParameterFileError(self.path, error.line, error.what) from None
         if not isinstance(document.data, dict) or "amp_studio" not in document.data:
             raise self._fault("is not an AMP Studio parameter file")
         self.data, version = document.data, document.data["amp_studio"]
@@ -131,9 +131,9 @@ class _Reader:
         if not document.is_closed:
             raise self._cut_off()
 
-    def _cut_off(self) -> FileFault:
+    def _cut_off(self) -> ParameterFileError:
         line = self.text.count("\n") + 1
-        return FileFault(self.path, line, "ends without its end mark '...': it has been cut off")
+        return ParameterFileError(self.path, line, "ends without its end mark '...': it has been cut off")
 
     def _family(self) -> Schema:
         family = self.data.get("family")
@@ -178,13 +178,13 @@ class _Reader:
                 raise self._fault(f"{quoted(written(address))} stands twice", "values", key)
             try:
                 value = _value(file, address, said)
-            except ValueFault as error:
+            except InvalidValueError as error:
                 raise self._fault(f"{short(key)}: {error}", "values", key) from None
             if value is None:
                 file.unknown[key] = said
             else:
                 file.values[address] = value
-        file.situation.forget()
+        file.evaluation.forget()
 
 
 def _extra(text: str, data: dict[str, Any]) -> dict[str, object]:
@@ -196,7 +196,7 @@ def _extra(text: str, data: dict[str, Any]) -> dict[str, object]:
 
 
 def _value(file: ParameterFile, address: Address, said: str) -> Value | None:
-    """Return the value, None for an address the schema does not have; raises ValueFault."""
+    """Return the value, None for an address the schema does not have; raises InvalidValueError."""
     schema = file.schema
     parameter = schema.parameters.get(address[0])
     if parameter is None or address[1] not in schema.instances(parameter, file.machine):
@@ -205,8 +205,8 @@ def _value(file: ParameterFile, address: Address, said: str) -> Value | None:
         if len(said) > _REMEMBERED:
             return read_stored(schema, parameter, said)
         return _stored(schema, parameter.id, said)
-    except ValueFault as error:
-        raise ValueFault(not_readable(parameter, error)) from None
+    except InvalidValueError as error:
+        raise InvalidValueError(not_readable(parameter, error)) from None
 
 
 @lru_cache(maxsize=16_384)
@@ -216,7 +216,7 @@ def _stored(schema: Schema, parameter_id: str, said: str) -> Value:
 
 
 def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:
-    """Read a stored value, which names its own unit; raises ValueFault."""
+    """Read a stored value, which names its own unit; raises InvalidValueError."""
     if parameter.type == "text":
         return checked(
             parameter, Value(said)
@@ -226,7 +226,7 @@ def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:
     units = schema.units_of(parameter)
     named = "" if said.startswith(("0x", "0X", "$")) else read_number(said)[1]
     if not named and "" not in units:
-        raise ValueFault(f"{quoted(said)} has no unit: write {short(said)} {shown(units[0])}")
+        raise InvalidValueError(f"{quoted(said)} has no unit: write {short(said)} {shown(units[0])}")
     unit = named if named in units else units[0]
     return read_value(parameter, said, _alike(units, named, unit))
 
@@ -289,7 +289,7 @@ def _as_spelled(file: ParameterFile, entries: dict[str, str], known: object) -> 
         try:
             if value is not None and _value(file, address, said) == value:
                 found[written(address)] = key, said
-        except ValueFault:
+        except InvalidValueError:
             continue
     return dict(found.get(name, (name, text)) for name, text in entries.items())
 
@@ -308,23 +308,23 @@ def save_file(
 
     ``expected`` is the digest the file had when it was opened, None for a new
     one; ``tell`` is called with what could not be kept. The content is read back before it replaces anything.
-    Returns the new digest; raises ChangedOnDisk or SaveFault.
+    Returns the new digest; raises ChangedOnDisk or SaveError.
     """
     file.header.signature = file.schema.signature
     return write_atomic(path, lambda previous: readable_content(file, path, previous), expected, tell=tell)
 
 
 def readable_content(file: ParameterFile, path: Path, previous: bytes | None = None) -> bytes:
-    """Return a file's content that has been read back and means what the file does; raises SaveFault."""
+    """Return a file's content that has been read back and means what the file does; raises SaveError."""
     try:
         content = content_of(file, previous)
         found = _difference(file, read_content(path, content, file.schema))
     except UnicodeEncodeError as error:
         found = f"the sign U+{ord(error.object[error.start]):04X} is in no file"
-    except FileFault as error:
+    except ParameterFileError as error:
         found = f"it would be unreadable: {f'line {error.line}: ' if error.line else ''}{error.what}"
     if found:
-        raise SaveFault(f"{path} was not written: {found}")
+        raise SaveError(f"{path} was not written: {found}")
     return content
 
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from amp_studio.schema.yaml_reader import Document, Path, typed_scalar
+from amp_studio.schema.yaml_reader import KeyPath, YamlDocument, typed_scalar
 
 _BREAK = re.compile("\r\n|\n|\r")
 _LONGEST_KEY = 1000
@@ -100,7 +100,7 @@ def new_text(entries: Mapping[str, Any], end: str = "") -> str:
 
 
 def amended(
-    document: Document, known: Mapping[str, Any], wanted: Mapping[str, Any], sections: Sequence[str] = ()
+    document: YamlDocument, known: Mapping[str, Any], wanted: Mapping[str, Any], sections: Sequence[str] = ()
 ) -> str | None:
     """Return the text of a document with other entries; None where it is a mapping in braces, which has no lines.
 
@@ -117,14 +117,14 @@ def amended(
 class _Editor:
     """Collects changes of a text."""
 
-    def __init__(self, document: Document, sections: Sequence[str]) -> None:
+    def __init__(self, document: YamlDocument, sections: Sequence[str]) -> None:
         self.document, self.sections = document, sections
         self.spans = document.spans or {}
         found = _BREAK.search(document.text)
         self.line_end = found[0] if found else "\n"
         self.edits: list[tuple[int, int, str]] = []
 
-    def is_flow(self, path: Path) -> bool:
+    def is_flow(self, path: KeyPath) -> bool:
         return self.spans[path].is_flow
 
     def text(self) -> str:
@@ -135,7 +135,7 @@ class _Editor:
             at = max(at, end)
         return "".join([*parts, source[at:]])
 
-    def amend(self, path: Path, known: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
+    def amend(self, path: KeyPath, known: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
         """Bring the entries of a block mapping, which is not empty, to what is wanted."""
         first = self.spans[(*path, next(iter(known)))].start
         indent = " " * (first - self._line_start(first)) if path else ""
@@ -157,10 +157,10 @@ class _Editor:
                 self._delete(at)
                 self._insert(behind, key, value, indent)
 
-    def _is_block(self, path: Path, known: Any) -> bool:
+    def _is_block(self, path: KeyPath, known: Any) -> bool:
         return isinstance(known, Mapping) and bool(known) and not self.is_flow((*path, next(iter(known))))
 
-    def _replace_scalar(self, path: Path, value: Any) -> bool:
+    def _replace_scalar(self, path: KeyPath, value: Any) -> bool:
         """Write a scalar in the place of another; False where one of them is none."""
         span, source = self.spans[path], self.document.text
         old = source[span.value : span.end]
@@ -174,7 +174,7 @@ class _Editor:
         self.edits.append((span.value, span.end, f"{blank}{new}{ending[0] if ending else ''}"))
         return True
 
-    def _delete(self, path: Path) -> None:
+    def _delete(self, path: KeyPath) -> None:
         """Remove an entry with the remark in its own line; remarks in lines of their own stay."""
         span, data = self.spans[path], self._data(path)
         if isinstance(data, dict) and self._is_block(path, data):
@@ -184,7 +184,7 @@ class _Editor:
         else:
             self.edits.append((self._line_start(span.start), self._line_behind(span.end), ""))
 
-    def _data(self, path: Path) -> Any:
+    def _data(self, path: KeyPath) -> Any:
         data = self.document.data
         for step in path:
             data = data[step]

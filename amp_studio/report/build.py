@@ -9,7 +9,7 @@ from itertools import groupby
 from pathlib import Path
 
 from amp_studio import __version__
-from amp_studio.files import FileFault, ParameterFile, axis_instances, content_of, open_file
+from amp_studio.files import ParameterFile, ParameterFileError, axis_instances, content_of, open_file
 from amp_studio.schema import Address, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
@@ -99,7 +99,7 @@ def _checksum(file: ParameterFile, source: Path | None) -> str:
         return hashlib.sha256(content_of(file)).hexdigest()[:_SHORT] + " (not saved yet)"
     try:
         opened = open_file(source)
-    except FileFault:
+    except ParameterFileError:
         return "the file on disk cannot be read"
     if opened.file.values != file.values:
         return opened.digest[:_SHORT] + " – but with other values: this report shows unsaved changes"

@@ -11,7 +11,7 @@ from itertools import groupby, pairwise, zip_longest
 from amp_studio.schema import (
     Parameter,
     Schema,
-    UnknownParameter,
+    UnknownParameterError,
     label_of,
     labelled,
     read_address,
@@ -26,7 +26,7 @@ _INDENT = "  "
 
 
 def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
-    """Return what is known of a parameter, by number or id; raises UnknownParameter.
+    """Return what is known of a parameter, by number or id; raises UnknownParameterError.
 
     Where a number means several parameters, or another one on another machine type, each has its page.
     """
@@ -37,7 +37,7 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
         machines = [machine] if machine else [m.key for m in schema.family.machines]
         wanted = [a[0] for m in machines for a in schema.addressed_by(param, m)]
         if not wanted:
-            raise UnknownParameter(f"'{param}' is no parameter of {schema.family.name}")
+            raise UnknownParameterError(f"'{param}' is no parameter of {schema.family.name}")
     pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
     return ("\n" + "=" * _WIDTH + "\n").join(pages)
 

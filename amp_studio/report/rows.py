@@ -44,7 +44,7 @@ def rows_of(file: ParameterFile, *, secrets: bool = False) -> Rows:
     for address in file.addresses():
         if scope_of(file, address) == "axis" and address[1] not in axes:
             unfitted += 1
-        elif (state := file.situation.state(address)).state == "hidden":
+        elif (state := file.evaluation.state(address)).state == "hidden":
             hidden += 1
         elif address in file.values or not file.schema.parameters[address[0]].optional:
             rows.append(row_of(file, address, _state_mark(state, marks), secrets=secrets))
@@ -95,11 +95,11 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secre
     """
     schema, machine = file.schema, file.machine
     parameter = schema.parameters[address[0]]
-    value, default, state = file.get(address), file.default(address), file.situation.state(address)
+    value, default, state = file.get(address), file.default(address), file.evaluation.state(address)
     masked = parameter.secret and not secrets
     known = value or default
     unit = (
-        known.unit if known else "" if parameter.choices else file.situation.unit(address, file.header.units)
+        known.unit if known else "" if parameter.choices else file.evaluation.unit(address, file.header.units)
     )
     on_axis = scope_of(file, address) == "axis"
     return Row(

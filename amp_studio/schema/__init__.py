@@ -4,11 +4,21 @@ Loads ``parameter_db`` once into a compiled cache and answers questions about
 it; every other room asks here and knows no parameter by heart.
 """
 
-from .catalog import Address, Schema, UnknownParameter, labelled, load_schema, part_of, read_address, written
-from .conditions import IN_FORCE, Reading, StateInfo, program
+from .catalog import (
+    Address,
+    Schema,
+    UnknownParameterError,
+    labelled,
+    load_schema,
+    part_of,
+    read_address,
+    written,
+)
+from .conditions import IN_FORCE, Reference, StateInfo, program
 from .constraint import Limits, bounding, clip, fault, limits
+from .evaluation import Evaluation, canonical_value, same_value
 from .file_error import FileError
-from .load import DatabaseFault, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
+from .load import DatabaseError, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
 from .model import (
     AxisProfile,
     BuilderRule,
@@ -21,12 +31,11 @@ from .model import (
     Suppression,
     Table,
 )
-from .situation import Situation, canonical_value, same_value
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
 from .values import (
     MASKED,
+    InvalidValueError,
     Value,
-    ValueFault,
     field_at,
     field_value,
     is_mask,
@@ -48,25 +57,25 @@ __all__ = [
     "BuilderRule",
     "Choice",
     "Condition",
-    "DatabaseFault",
+    "DatabaseError",
     "Entry",
     "Erratum",
+    "Evaluation",
     "FileError",
     "Group",
+    "InvalidValueError",
     "Limits",
     "Parameter",
-    "Reading",
+    "Reference",
     "Rule",
     "Schema",
-    "Situation",
     "StateInfo",
     "Suppression",
     "Table",
     "UnitError",
     "UnknownFamilyError",
-    "UnknownParameter",
+    "UnknownParameterError",
     "Value",
-    "ValueFault",
     "angular",
     "bounding",
     "canonical",

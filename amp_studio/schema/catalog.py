@@ -27,7 +27,7 @@ Address = tuple[str, str]
 """Parameter id and instance; the instance of a global parameter is ``""``."""
 
 
-class UnknownParameter(KeyError):
+class UnknownParameterError(KeyError):
     """A number or an id that the family does not have; the text is one clear sentence."""
 
     def __str__(self) -> str:
@@ -171,11 +171,11 @@ class Schema:
     # -- words -----------------------------------------------------------------
 
     def parameter(self, parameter_id: str) -> Parameter:
-        """Return a parameter by id; raises UnknownParameter."""
+        """Return a parameter by id; raises UnknownParameterError."""
         try:
             return self.parameters[parameter_id]
         except KeyError:
-            raise UnknownParameter(f"'{parameter_id}' is no parameter of {self.family.name}") from None
+            raise UnknownParameterError(f"'{parameter_id}' is no parameter of {self.family.name}") from None
 
     def label(self, address: Address, machine: str) -> str:
         """Return ``1300 Home Calibration`` or, without a number, the name and the instance."""
@@ -295,7 +295,7 @@ def read_address(text: str) -> Address:
 
 @cache
 def load_schema(family_id: str) -> Schema:
-    """Return a family's schema; raises KeyError for an unknown family, DatabaseFault for a bad fact."""
+    """Return a family's schema; raises KeyError for an unknown family, DatabaseError for a bad fact."""
     return schema_of(load_compiled(family_id))
 
 

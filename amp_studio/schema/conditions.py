@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import Literal
 
-from .catalog import Address, Schema, UnknownParameter, read_address, whole_of
+from .catalog import Address, Schema, UnknownParameterError, read_address, whole_of
 from .cel_engine import Program, compile_expression, functions_called
 from .model import Condition, Scope, State
 
@@ -36,7 +36,7 @@ class Verdicts(dict[Hashable, bool]):
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class Reference:
     """One entry of ``reads``: a single value, or a list over instances."""
 
     addresses: tuple[Address, ...]
@@ -79,8 +79,8 @@ class Conditions:
         self.plan_of: dict[Address, StatePlan] = {}
         """What ``state_plan`` has returned so far."""
         self._plans: dict[tuple[object, ...], StatePlan] = {}
-        self._readings: dict[Asked, Reading] = {}
-        self._reads: dict[Asked, tuple[Reading | None, ...]] = {}
+        self._references: dict[Asked, Reference] = {}
+        self._reads: dict[Asked, tuple[Reference | None, ...]] = {}
 
     def _reach(self, condition: Condition) -> Reach:
         if names_instance(condition.when):
@@ -125,35 +125,35 @@ class Conditions:
             return name, "", None
         return name, whole_of(instance) if reach == "whole" else instance, scope
 
-    def reads(self, asked: Asked) -> tuple[Reading | None, ...]:
+    def reads(self, asked: Asked) -> tuple[Reference | None, ...]:
         """Return what a condition reads; None for what exists, but not on this machine type or not for this instance."""
         found = self._reads.get(asked)
         if found is None:
             name, instance, scope = asked
             condition = self._schema.family.conditions[name]
-            found = tuple(self._reading_or_none(t, instance, scope) for t in condition.reads.values())
-            for reading in found:
-                for address in reading.addresses if reading else ():
+            found = tuple(self._reference_or_none(t, instance, scope) for t in condition.reads.values())
+            for reference in found:
+                for address in reference.addresses if reference else ():
                     self.readers.setdefault(address, set()).add(asked)
             self._reads[asked] = found
         return found
 
-    def _reading_or_none(self, text: str, instance: str, scope: str | None) -> Reading | None:
+    def _reference_or_none(self, text: str, instance: str, scope: str | None) -> Reference | None:
         try:
-            return self.reading(text, instance, scope)
-        except UnknownParameter:
+            return self.reference(text, instance, scope)
+        except UnknownParameterError:
             self._schema.parameter(read_address(text)[0])
             return None
 
-    def reading(self, text: str, instance: str, scope: str | None) -> Reading:
-        """Resolve one entry of ``reads`` for an instance; raises UnknownParameter."""
+    def reference(self, text: str, instance: str, scope: str | None) -> Reference:
+        """Resolve one entry of ``reads`` for an instance; raises UnknownParameterError."""
         key = (text, instance, scope)
-        found = self._readings.get(key)
+        found = self._references.get(key)
         if found is None:
-            found = self._readings[key] = self._resolve(text, instance, scope)
+            found = self._references[key] = self._resolve(text, instance, scope)
         return found
 
-    def _resolve(self, text: str, instance: str, scope: str | None) -> Reading:
+    def _resolve(self, text: str, instance: str, scope: str | None) -> Reference:
         parameter_id, which = read_address(text)
         parameter = self._schema.parameter(parameter_id)
         instances = self._schema.instances(parameter, self._machine)
@@ -162,18 +162,18 @@ class Conditions:
         if which == "":
             own = next((i for i in (instance, whole_of(instance), "") if i in instances), None)
             if own is None:
-                raise UnknownParameter(f"{parameter_id} has no instance '{instance}'")
-            return Reading(((parameter_id, own),), False)
+                raise UnknownParameterError(f"{parameter_id} has no instance '{instance}'")
+            return Reference(((parameter_id, own),), False)
         if which == ".":
             head = f"{whole_of(instance)}."
-            return Reading(tuple((parameter_id, i) for i in instances if i.startswith(head)), True)
+            return Reference(tuple((parameter_id, i) for i in instances if i.startswith(head)), True)
         if which in ("*", "<", ">"):
             at = instances.index(instance) if instance in instances else len(instances)
             chosen = {"*": instances, "<": instances[:at], ">": instances[at + 1 :]}[which]
-            return Reading(tuple((parameter_id, i) for i in chosen), True)
+            return Reference(tuple((parameter_id, i) for i in chosen), True)
         if which not in instances:
-            raise UnknownParameter(f"{parameter_id} has no instance '{which}'")
-        return Reading(((parameter_id, which),), False)
+            raise UnknownParameterError(f"{parameter_id} has no instance '{which}'")
+        return Reference(((parameter_id, which),), False)
 
 
 @lru_cache(maxsize=32)

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
 from .model import BoundRef, Family, Group, Parameter
-
-Place = tuple[str | int, ...]
-"""The way to a value in a file: keys of mappings, positions in lists."""
+from .yaml_reader import KeyPath
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +16,7 @@ class Inconsistency:
     """A fault that one file alone does not show; ``group`` is the file's key, None for ``family.yaml``."""
 
     group: str | None
-    place: Place
+    place: KeyPath
     what: str
 
 
@@ -30,7 +28,7 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
     seen: set[str] = set()
     for group in groups:
         for position, parameter in enumerate(group.parameters):
-            here: Place = ("parameters", position)
+            here: KeyPath = ("parameters", position)
             if parameter.id in seen:
                 yield Inconsistency(group.key, (*here, "id"), f"{parameter.id} stands twice")
             seen.add(parameter.id)
@@ -40,7 +38,7 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
 
 def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
     for name, condition in family.conditions.items():
-        here: Place = ("conditions", name)
+        here: KeyPath = ("conditions", name)
         try:
             unknown = sorted(functions_called(compile_expression(condition.when)) - WORD_FUNCTIONS.keys())
             if unknown:
@@ -65,7 +63,7 @@ def _first_line(error: Exception) -> str:
     return str(error).splitlines()[0]
 
 
-def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterator[tuple[Place, str]]:
+def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterator[tuple[KeyPath, str]]:
     for n, state in enumerate(parameter.states):
         key = "when" if state.when else "unless"
         if (state.when or state.unless) not in family.conditions:
@@ -87,7 +85,7 @@ def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterat
             yield place, f"the family has no scope '{scope}'"
 
 
-def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[Place, str]]:
+def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[KeyPath, str]]:
     """Yield every bound that is a secret: what is told of a range would tell it."""
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
@@ -96,13 +94,13 @@ def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[Pl
                     yield (*place, unit, end, "param"), f"the secret '{bound.param}' cannot bound it"
 
 
-def _all_ranges(parameter: Parameter) -> Iterator[tuple[Place, list[tuple[str, tuple[object, object]]]]]:
+def _all_ranges(parameter: Parameter) -> Iterator[tuple[KeyPath, list[tuple[str, tuple[object, object]]]]]:
     yield ("ranges",), list((parameter.ranges or {}).items())
     for n, variant in enumerate(parameter.range_variants):
         yield ("range_variants", n, "ranges"), list(variant.ranges.items())
 
 
-def _all_scopes(parameter: Parameter) -> Iterator[tuple[Place, str]]:
+def _all_scopes(parameter: Parameter) -> Iterator[tuple[KeyPath, str]]:
     if parameter.layouts is None:
         yield ("scope",), parameter.scope
     for n, layout in enumerate(parameter.layouts or ()):

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 from .catalog import Address
+from .evaluation import Evaluation
 from .model import Bound, BoundRef, Parameter, Range
-from .situation import Situation
 from .units import angular, canonical_unit, convert, dimension, shown
 from .values import MASKED, Value, digits_of, field_value, show_value, write_number
 
@@ -42,29 +42,29 @@ class Limits:
         return f"{write_number(self.low)} to {write_number(self.high)}{unit}"
 
 
-def ranges_of(situation: Situation, address: Address) -> dict[str, Range]:
+def ranges_of(evaluation: Evaluation, address: Address) -> dict[str, Range]:
     """Return the ranges that hold for one instance: the plain ones, or those of a variant."""
-    parameter = situation.schema.parameters[address[0]]
+    parameter = evaluation.schema.parameters[address[0]]
     for variant in parameter.range_variants:
-        if situation.holds(variant.when, address[1], situation.scope(address)):
+        if evaluation.holds(variant.when, address[1], evaluation.scope(address)):
             return variant.ranges
     return parameter.ranges or {}
 
 
-def limits(situation: Situation, address: Address, unit: str) -> Limits | None:
+def limits(evaluation: Evaluation, address: Address, unit: str) -> Limits | None:
     """Return the bounds of one instance in ``unit``: the range, as far as the control's words can hold it.
 
     None when there is neither.
     """
-    parameter = situation.schema.parameters[address[0]]
-    ranges = ranges_of(situation, address)
+    parameter = evaluation.schema.parameters[address[0]]
+    ranges = ranges_of(evaluation, address)
     held = _held(parameter, unit)
     printed, borrowed = _printed(ranges, unit)
     if printed is None:
         return Limits(*held, unit) if held else None
     reference = ranges[printed]
-    low, low_from = _bound(situation, address, reference[0], printed, unit)
-    high, high_from = _bound(situation, address, reference[1], printed, unit)
+    low, low_from = _bound(evaluation, address, reference[0], printed, unit)
+    high, high_from = _bound(evaluation, address, reference[1], printed, unit)
     if held and (low is None or low < held[0]):
         low, low_from = held[0], None
     if held and (high is None or high > held[1]):
@@ -106,14 +106,14 @@ def _system(unit: str) -> str:
 
 
 def _bound(
-    situation: Situation, address: Address, bound: Bound, printed: str, unit: str
+    evaluation: Evaluation, address: Address, bound: Bound, printed: str, unit: str
 ) -> tuple[float | None, Address | None]:
     if bound is None:
         return None, None
     if isinstance(bound, BoundRef):
-        source = situation.reading(bound.param, address[1], situation.scope(address)).addresses[0]
-        found = situation.canonical(source)
-        if not isinstance(found, float) or situation.state(source).state == "hidden":
+        source = evaluation.reference(bound.param, address[1], evaluation.scope(address)).addresses[0]
+        found = evaluation.canonical(source)
+        if not isinstance(found, float) or evaluation.state(source).state == "hidden":
             return None, source
         return convert(found, canonical_unit(unit), unit), source
     if dimension(printed) != dimension(unit):  # metric figures taken as degrees
@@ -121,34 +121,34 @@ def _bound(
     return convert(bound, printed, unit), None
 
 
-def fault(situation: Situation, address: Address, value: Value) -> str | None:
+def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
     """Return one sentence why a value is not allowed, or None; bounds set by other parameters count."""
-    parameter = situation.schema.parameters[address[0]]
+    parameter = evaluation.schema.parameters[address[0]]
     found = value.value
     if parameter.access == "read":
         return f"{parameter.name} can only be read: the control writes it itself"
     if isinstance(found, str):
         if parameter.choices and found.startswith("raw:") and not parameter.more_codes:
             return f"{found[4:]} is no code of {parameter.name}"
-        return _format_fault(situation, address, found) if parameter.type == "format" else None
+        return _format_fault(evaluation, address, found) if parameter.type == "format" else None
     if isinstance(found, bool):
         return None
     if parameter.type == "bits" and (said := _bits_fault(parameter, int(found))):
         return said
-    allowed = limits(situation, address, value.unit)
+    allowed = limits(evaluation, address, value.unit)
     if allowed is None:
         return None
     if _beyond(found, allowed):
         said = MASKED if parameter.secret else _shown(value)
-        return f"{parameter.name} {said} is outside {_named(situation, allowed)}"
+        return f"{parameter.name} {said} is outside {_named(evaluation, allowed)}"
     return None
 
 
-def bounding(situation: Situation, address: Address, value: Value) -> tuple[Address, ...]:
+def bounding(evaluation: Evaluation, address: Address, value: Value) -> tuple[Address, ...]:
     """Return the parameter whose value is the bound that a number lies beyond; empty where no other one sets it."""
     if isinstance(value.value, (str, bool)):
         return ()
-    allowed = limits(situation, address, value.unit)
+    allowed = limits(evaluation, address, value.unit)
     beyond = _beyond(value.value, allowed) if allowed else ()
     return tuple(source for _, source in beyond if source is not None)
 
@@ -159,15 +159,15 @@ def _beyond(found: float, allowed: Limits) -> tuple[tuple[float | None, Address 
     return ((low,) if _below(found, *low) else ()) + ((high,) if _below(high[0], found, high[1]) else ())
 
 
-def _format_fault(situation: Situation, address: Address, form: str) -> str | None:
+def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | None:
     """Say why a word format is not allowed; its digits before and behind the point each have their own bounds."""
-    low, high = ranges_of(situation, address).get("", (None, None))
+    low, high = ranges_of(evaluation, address).get("", (None, None))
     for index in (0, 1):
         digits = digits_of(form)[index]
         bounds = [digits_of(repr(b))[index] if isinstance(b, float) else digits for b in (low, high)]
         if not bounds[0] <= digits <= bounds[1]:
             allowed = " to ".join(repr(b) if isinstance(b, float) else "…" for b in (low, high))
-            return f"{situation.schema.parameters[address[0]].name} {form} is outside {allowed}"
+            return f"{evaluation.schema.parameters[address[0]].name} {form} is outside {allowed}"
     return None
 
 
@@ -190,12 +190,12 @@ def _below(a: float | None, b: float | None, shared: Address | None) -> bool:
     return a < b and not (shared is not None and abs(a - b) <= 1e-12 * max(abs(a), abs(b)))
 
 
-def _named(situation: Situation, allowed: Limits) -> str:
+def _named(evaluation: Evaluation, allowed: Limits) -> str:
     text = allowed.text()
     for bound, source in ((allowed.low, allowed.low_from), (allowed.high, allowed.high_from)):
         if bound is not None and source is not None:
-            label = situation.schema.label(source, situation.machine)
-            shown_value = show_value(situation.schema.parameters[source[0]], situation.value(source))
+            label = evaluation.schema.label(source, evaluation.machine)
+            shown_value = show_value(evaluation.schema.parameters[source[0]], evaluation.value(source))
             text += f" (set by {label}, {shown_value})"
     return text
 
@@ -205,11 +205,11 @@ def _shown(value: Value) -> str:
     return f"{number} {shown(value.unit)}".rstrip()
 
 
-def clip(situation: Situation, address: Address, value: Value) -> Value:
+def clip(evaluation: Evaluation, address: Address, value: Value) -> Value:
     """Return the nearest allowed value in the same unit."""
     if isinstance(value.value, (str, bool)):
         return value
-    allowed = limits(situation, address, value.unit)
+    allowed = limits(evaluation, address, value.unit)
     if allowed is None:
         return value
     number = float(value.value)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from .regular_file import MOST_BYTES, read_file
-from .yaml_reader import Document, YamlError, read_yaml
+from .yaml_reader import YamlDocument, YamlError, read_yaml
 
 
 class FileError(ValueError):
@@ -27,7 +27,7 @@ def text_of(path: Path, content: bytes, error: type[FileError] = FileError) -> s
 
 def read_yaml_file(
     path: Path, error: type[FileError], *, most: int = MOST_BYTES, references: bool = False
-) -> Document:
+) -> YamlDocument:
     """Return the YAML document of a file, with the places of its entries; raises ``error``."""
     try:
         content = read_file(path, most)

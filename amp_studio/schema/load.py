@@ -19,11 +19,11 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from .compiled_cache import read_cached, report_unusable, write_cached
-from .consistency import Place, faults_between
+from .consistency import faults_between
 from .file_error import FileError, read_yaml_file
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
 from .quoting import quoted, short
-from .yaml_reader import Document
+from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
 _MOST_RULES = 2**20
@@ -31,7 +31,7 @@ _MOST_RULES = 2**20
 _LONGEST_MESSAGE = 500
 
 
-class DatabaseFault(FileError):
+class DatabaseError(FileError):
     """A fact file that cannot be used: file, line and what is wrong with it."""
 
 
@@ -70,7 +70,7 @@ def family_ids() -> tuple[str, ...]:
 
 @cache
 def load_compiled(family_id: str) -> Compiled:
-    """Return the compiled facts of a family; raises UnknownFamilyError, DatabaseFault for a bad fact.
+    """Return the compiled facts of a family; raises UnknownFamilyError, DatabaseError for a bad fact.
 
     Only the id of a family that is there becomes a part of a path: what a file, an image or a person calls a family
     may be anything.
@@ -94,12 +94,12 @@ def load_compiled(family_id: str) -> Compiled:
 
 
 def compile_family(folder: Path) -> Compiled:
-    """Parse and check every fact file of one family; raises DatabaseFault with file and line."""
+    """Parse and check every fact file of one family; raises DatabaseError with file and line."""
     family = _read(folder / "family.yaml", Family)
     groups = tuple(_read(folder / "groups" / f"{key}.yaml", Group) for key in family.groups)
     for key, group in zip(family.groups, groups, strict=True):
         if group.key != key:
-            raise DatabaseFault(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
+            raise DatabaseError(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
     rules = tuple(rule for path in _of(family, folder / "rules") for rule in _read(path, Rules).rules)
     errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
@@ -107,7 +107,7 @@ def compile_family(folder: Path) -> Compiled:
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
-        raise DatabaseFault(path, _parsed(path).line(fault.place), fault.what)
+        raise DatabaseError(path, _parsed(path).line(fault.place), fault.what)
     return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables, guides=guides)
 
 
@@ -124,21 +124,21 @@ class Entry:
     kind: str
     """The list."""
     data: Any
-    line: Callable[[Place], int]
+    line: Callable[[KeyPath], int]
     """Return the line of a place in it."""
 
 
-def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[DatabaseFault]]:
+def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[DatabaseError]]:
     """Read a file of named lists: every item that stands in one, and what is wrong with the lists."""
     try:
-        document = read_yaml_file(path, DatabaseFault, most=_MOST_RULES)
-    except DatabaseFault as fault:
+        document = read_yaml_file(path, DatabaseError, most=_MOST_RULES)
+    except DatabaseError as fault:
         return [], [fault]
     data = document.data
     if not isinstance(data, dict):
-        return [], [] if data is None else [DatabaseFault(path, 1, f"holds no {' and no '.join(kinds)}")]
+        return [], [] if data is None else [DatabaseError(path, 1, f"holds no {' and no '.join(kinds)}")]
     entries: list[Entry] = []
-    faults: list[DatabaseFault] = []
+    faults: list[DatabaseError] = []
     for key, listed in data.items():
         if key in kinds and isinstance(listed, list):
             entries += [
@@ -147,11 +147,11 @@ def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[
         elif listed is not None or key not in kinds:
             name = short(str(key))
             said = f"{name}: is no list" if key in kinds else f"{name}: here stand {', '.join(kinds)}"
-            faults.append(DatabaseFault(path, document.line((key,)), said))
+            faults.append(DatabaseError(path, document.line((key,)), said))
     return entries, faults
 
 
-def _line_of(document: Document, entry: Place, place: Place) -> int:
+def _line_of(document: YamlDocument, entry: KeyPath, place: KeyPath) -> int:
     return document.line((*entry, *place))
 
 
@@ -160,21 +160,21 @@ def _read(path: Path, model: type[T]) -> T:
     return _valid(path, document, document.data, model)
 
 
-def _parsed(path: Path) -> Document:
-    """Return the document of a fact file; raises DatabaseFault."""
-    return read_yaml_file(path, DatabaseFault, references=True)
+def _parsed(path: Path) -> YamlDocument:
+    """Return the document of a fact file; raises DatabaseError."""
+    return read_yaml_file(path, DatabaseError, references=True)
 
 
-def _valid(path: Path, document: Document, data: Any, model: type[T], place: Place = ()) -> T:
-    """Return data of a file as a model; raises DatabaseFault. ``place`` is where the data stand in the file."""
+def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], place: KeyPath = ()) -> T:
+    """Return data of a file as a model; raises DatabaseError. ``place`` is where the data stand in the file."""
     try:
         return model.model_validate(data)
     except ValidationError as error:
         first = error.errors()[0]
         line = document.line((*place, *first["loc"]))
-        raise DatabaseFault(path, line, f"{_place(data, first)}{_told(first)}") from None
+        raise DatabaseError(path, line, f"{_place(data, first)}{_told(first)}") from None
     except RecursionError:
-        raise DatabaseFault(path, document.line(place), "is too deep") from None
+        raise DatabaseError(path, document.line(place), "is too deep") from None
 
 
 def _told(fault: ErrorDetails) -> str:

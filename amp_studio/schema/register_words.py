@@ -23,7 +23,7 @@ _DECIMAL = re.compile(r"[+-]?[0-9]{1,20}(?:\.0{0,20})?")
 _HEXADECIMAL = re.compile(r"([0-9][0-9A-F]{0,19})H", re.IGNORECASE)
 
 
-class WordFault(ValueError):
+class WordError(ValueError):
     """A value that no register can hold, or a word that means none; one clear sentence."""
 
 
@@ -33,14 +33,14 @@ def words_taken(parameter: Parameter) -> int:
 
 
 def words_of(parameter: Parameter, value: Value, unit: str) -> tuple[int, ...]:
-    """Return the words of a value, 0 to 65535 each, in the order of their registers; raises WordFault."""
+    """Return the words of a value, 0 to 65535 each, in the order of their registers; raises WordError."""
     storage, number = _storage(parameter), number_of(parameter, value, unit)
     words = [number >> WORD * n & 0xFFFF for n in range(storage.words)]
     return tuple(words if is_low_first(parameter) else reversed(words))
 
 
 def value_of(parameter: Parameter, words: tuple[int, ...], unit: str) -> Value:
-    """Return the value that words mean, given in the order of their registers; raises WordFault."""
+    """Return the value that words mean, given in the order of their registers; raises WordError."""
     pattern = 0
     for word in reversed(words) if is_low_first(parameter) else words:
         pattern = pattern << WORD | word
@@ -50,18 +50,18 @@ def value_of(parameter: Parameter, words: tuple[int, ...], unit: str) -> Value:
 def number_of(parameter: Parameter, value: Value, unit: str) -> int:
     """Return the whole number that registers hold for a value; ``unit`` is that of a storage which names none.
 
-    Raises WordFault.
+    Raises WordError.
     """
     found = value.value
     if parameter.choices:
         number = code_of(parameter, found)
     elif isinstance(found, str):
-        raise WordFault(f"{parameter.name} is a text, which no register is given")
+        raise WordError(f"{parameter.name} is a text, which no register is given")
     else:
         storage = _storage(parameter)
         stored = unit if storage.unit is None else storage.unit
         if dimension(value.unit) != dimension(stored):
-            raise WordFault(
+            raise WordError(
                 f"{parameter.name} is held in {_named(stored)}, which {_named(value.unit)} cannot be given in"
             )
         number = round(exact(found) * UNITS[value.unit][1] / UNITS[stored][1] * exact(storage.scale))
@@ -70,19 +70,19 @@ def number_of(parameter: Parameter, value: Value, unit: str) -> int:
 
 
 def value_of_number(parameter: Parameter, number: int, unit: str) -> Value:
-    """Return the value that a whole number in the registers means; raises WordFault."""
+    """Return the value that a whole number in the registers means; raises WordError."""
     _fit(parameter, number)
     if parameter.choices:
         return choice_of(parameter, number)
     if parameter.type in ("text", "format"):
-        raise WordFault(f"{parameter.name} is a text, which no register is given")
+        raise WordError(f"{parameter.name} is a text, which no register is given")
     storage = _storage(parameter)
     stored = unit if storage.unit is None else storage.unit
     found = number / exact(storage.scale)
     if parameter.type == "real":
         return Value(float(found), stored)
     if found.denominator != 1:
-        raise WordFault(
+        raise WordError(
             f"{parameter.name} takes whole numbers, and {number} means {write_number(float(found))}"
         )
     return Value(int(found), stored)
@@ -110,7 +110,7 @@ def _fit(parameter: Parameter, number: int) -> None:
     bits = storage.bits or WORD * storage.words
     low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if is_signed(parameter) else (0, (1 << bits) - 1)
     if not low <= number <= high:
-        raise WordFault(f"{number} does not fit the {bits} bits of {parameter.name}, {low} to {high}")
+        raise WordError(f"{number} does not fit the {bits} bits of {parameter.name}, {low} to {high}")
 
 
 def _storage(parameter: Parameter) -> Storage:
@@ -123,14 +123,14 @@ def exact(number: float) -> Fraction:
 
 
 def code_of(parameter: Parameter, found: float | bool | str) -> int:
-    """Return the code that the control keeps for a choice; raises WordFault where none is printed."""
+    """Return the code that the control keeps for a choice; raises WordError where none is printed."""
     key = ("yes" if found else "no") if isinstance(found, bool) else str(found)
     if key.startswith("raw:"):
         return int(key[4:])
     for choice in parameter.choices or ():
         if choice.key == key and choice.raw is not None:
             return choice.raw
-    raise WordFault(f"no code is printed for '{label_of(parameter, key)}' of {parameter.name}")
+    raise WordError(f"no code is printed for '{label_of(parameter, key)}' of {parameter.name}")
 
 
 def choice_of(parameter: Parameter, number: int) -> Value:
@@ -154,10 +154,10 @@ def write_hexadecimal(pattern: int) -> str:
 
 
 def read_word(text: str) -> tuple[int, bool]:
-    """Read a whole number, and tell whether it is hexadecimal: the bits as they are. Raises WordFault."""
+    """Read a whole number, and tell whether it is hexadecimal: the bits as they are. Raises WordError."""
     text = text.strip()
     if found := _HEXADECIMAL.fullmatch(text):
         return int(found[1], 16), True
     if _DECIMAL.fullmatch(text):
         return int(text.partition(".")[0]), False
-    raise WordFault(f"{quoted(text)} is no whole number, as 1984, -1 or 01414H")
+    raise WordError(f"{quoted(text)} is no whole number, as 1984, -1 or 01414H")

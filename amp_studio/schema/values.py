@@ -27,7 +27,7 @@ class Value:
     unit: str = ""
 
 
-class ValueFault(ValueError):
+class InvalidValueError(ValueError):
     """A value that cannot be read; the text is one clear sentence."""
 
 
@@ -65,24 +65,24 @@ def read_number(text: str) -> tuple[float, str]:
 
     Groups of three digits may be set apart (``12 345.6``, ``12'345.6``). A comma
     that could be either (``1,234``) is refused rather than guessed.
-    Returns the number and the rest of the text; raises ValueFault.
+    Returns the number and the rest of the text; raises InvalidValueError.
     """
     digits, rest = _digits(text)
     number = float(digits)
     if not math.isfinite(number):
-        raise ValueFault(f"{quoted(digits)} is too large")
+        raise InvalidValueError(f"{quoted(digits)} is too large")
     if number == 0 and Decimal(digits) != 0:
-        raise ValueFault(f"{quoted(digits)} is too small")
+        raise InvalidValueError(f"{quoted(digits)} is too small")
     return number, rest
 
 
 def _digits(text: str) -> tuple[str, str]:
-    """Return a number with decimal point and exponent as Python writes it, and what follows; raises ValueFault."""
+    """Return a number with decimal point and exponent as Python writes it, and what follows; raises InvalidValueError."""
     if len(text) > LONGEST_NUMBER:
-        raise ValueFault(f"{quoted(text)} is too long for a number")
+        raise InvalidValueError(f"{quoted(text)} is too long for a number")
     found = _NUMBER.match(text)
     if not found:
-        raise ValueFault(f"{quoted(text.strip())} is not a number")
+        raise InvalidValueError(f"{quoted(text.strip())} is not a number")
     digits, exponent, rest = found.groups()
     if _GROUPED.fullmatch(digits):
         digits = re.sub("[ '_]", "", digits)
@@ -93,22 +93,24 @@ def _digits(text: str) -> tuple[str, str]:
 
 
 def _decimal(digits: str, exponent: str) -> str:
-    """Return the number that digits with points and commas mean, with a decimal point; raises ValueFault."""
+    """Return the number that digits with points and commas mean, with a decimal point; raises InvalidValueError."""
     if "," in digits and "." in digits:
         decimal = max(digits.rfind(","), digits.rfind("."))
         whole, fraction = digits[:decimal], digits[decimal + 1 :]
         group = "," if digits[decimal] == "." else "."
         if digits[decimal] in whole or not re.fullmatch(rf"[+-]?\d{{1,3}}(\{group}\d{{3}})+", whole):
-            raise ValueFault(f"{quoted(digits)} is not a number")
+            raise InvalidValueError(f"{quoted(digits)} is not a number")
         digits = whole.replace(group, "") + "." + fraction
     elif "," in digits:
         if digits.count(",") > 1:
             if not re.fullmatch(r"[+-]?\d{1,3}(,\d{3})+", digits):
-                raise ValueFault(f"{quoted(digits)} is not a number")
+                raise InvalidValueError(f"{quoted(digits)} is not a number")
             digits = digits.replace(",", "")
         elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
             ways = [digits.replace(",", sign) + exponent for sign in ("", ".")]
-            raise ValueFault(f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}")
+            raise InvalidValueError(
+                f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}"
+            )
         else:
             digits = digits.replace(",", ".")
     try:
@@ -116,7 +118,7 @@ def _decimal(digits: str, exponent: str) -> str:
             raise ValueError  # Python reads 1_0 as 10
         float(digits + exponent)
     except ValueError:
-        raise ValueFault(f"{quoted(digits + exponent)} is not a number") from None
+        raise InvalidValueError(f"{quoted(digits + exponent)} is not a number") from None
     return digits + exponent
 
 
@@ -125,25 +127,25 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
 
     ``unit`` is the unit of entry when the text names none. A choice is given by
     label, letter, key or ``raw:<code>``; a yes/no also by yes, no, true, false.
-    Raises ValueFault with one sentence that tells what is allowed.
+    Raises InvalidValueError with one sentence that tells what is allowed.
     """
     if is_mask(parameter, text):
-        raise ValueFault(f"{parameter.name}: '{MASKED}' stands in place of a secret and is no value")
+        raise InvalidValueError(f"{parameter.name}: '{MASKED}' stands in place of a secret and is no value")
     try:
         return _checked(parameter, _read(parameter, text.strip(), unit))
-    except ValueFault as error:
-        raise ValueFault(not_readable(parameter, error)) from None
+    except InvalidValueError as error:
+        raise InvalidValueError(not_readable(parameter, error)) from None
 
 
 def checked(parameter: Parameter, value: Value) -> Value:
-    """Return a value that a file can hold: written, and read back as the same; raises ValueFault for any other.
+    """Return a value that a file can hold: written, and read back as the same; raises InvalidValueError for any other.
 
     Every value passes here that is made of something from outside: a text, a number of a control, a journal.
     """
     try:
         return _checked(parameter, value)
-    except ValueFault as error:
-        raise ValueFault(not_readable(parameter, error)) from None
+    except InvalidValueError as error:
+        raise InvalidValueError(not_readable(parameter, error)) from None
 
 
 def _checked(parameter: Parameter, value: Value) -> Value:
@@ -155,29 +157,33 @@ def _checked(parameter: Parameter, value: Value) -> Value:
         "text",
         "format",
     ):
-        raise ValueFault(f"{found} is no value of {parameter.name}")
+        raise InvalidValueError(f"{found} is no value of {parameter.name}")
     if isinstance(found, bool):
         return value
     if value.unit not in UNITS:
-        raise ValueFault(f"{quoted(value.unit)} is not a unit")
+        raise InvalidValueError(f"{quoted(value.unit)} is not a unit")
     if not math.isfinite(found):
-        raise ValueFault(f"{found} is not a number that {parameter.name} can have")
+        raise InvalidValueError(f"{found} is not a number that {parameter.name} can have")
     if parameter.type in ("integer", "bits"):
         if found != int(found):
-            raise ValueFault(f"{parameter.name} takes whole numbers, not {write_number(found)}")
+            raise InvalidValueError(f"{parameter.name} takes whole numbers, not {write_number(found)}")
         if abs(found) > EXACT:
-            raise ValueFault(f"{short(write_number(found))} is too large for {parameter.name}")
+            raise InvalidValueError(f"{short(write_number(found))} is too large for {parameter.name}")
         return value if isinstance(found, int) else Value(int(found), value.unit)
     return Value(0.0, value.unit) if found == 0 else value  # there is no -0
 
 
 def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
     if parameter.type in ("integer", "real", "bits"):
-        raise ValueFault(f"{parameter.name} is a number, and {quoted(found)} is none")
+        raise InvalidValueError(f"{parameter.name} is a number, and {quoted(found)} is none")
     if len(found) > LONGEST_TEXT:
-        raise ValueFault(f"{parameter.name} has {len(found):,} signs, and {LONGEST_TEXT:,} are the most")
+        raise InvalidValueError(
+            f"{parameter.name} has {len(found):,} signs, and {LONGEST_TEXT:,} are the most"
+        )
     if odd := _UNWRITABLE.search(found):
-        raise ValueFault(f"{parameter.name} holds the sign U+{ord(odd[0]):04X}, which no file can hold")
+        raise InvalidValueError(
+            f"{parameter.name} holds the sign U+{ord(odd[0]):04X}, which no file can hold"
+        )
     return _read_raw(parameter, found) if parameter.choices and found.startswith("raw:") else value
 
 
@@ -189,7 +195,7 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
     if parameter.type == "format":
         return _read_format(parameter, text)
     if len(text) > LONGEST_NUMBER:
-        raise ValueFault(f"{quoted(text)} is too long for a number")
+        raise InvalidValueError(f"{quoted(text)} is too long for a number")
     if parameter.type in ("bits", "integer") and (
         hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
     ):
@@ -197,9 +203,9 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
     if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
         # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and 6.
         if not text.isdecimal():
-            raise ValueFault(f"{quoted(text)} is not a decimal number: write 0x{short(text)}")
+            raise InvalidValueError(f"{quoted(text)} is not a decimal number: write 0x{short(text)}")
         if text.startswith("0") and int(text, 16) != int(text):
-            raise ValueFault(
+            raise InvalidValueError(
                 f"{quoted(text)} can be read two ways: write 0x{short(text)} or {short(str(int(text)))}"
             )
     number, rest = read_number(text)
@@ -207,29 +213,29 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
         try:
             named = unit_named(rest)
         except UnitError as error:
-            raise ValueFault(
+            raise InvalidValueError(
                 f"{error}; {parameter.name} is given in {shown(unit) or 'a bare number'}"
             ) from None
         if dimension(named) != dimension(unit):
-            raise ValueFault(
+            raise InvalidValueError(
                 f"{parameter.name} is given in {shown(unit) or 'a bare number'}, not in {shown(named)}"
             )
         unit = named
     if parameter.type in ("integer", "bits") and (exact := Decimal(_digits(text)[0])) != number:
         # Beyond what a double holds: 2 ** 53 + 1, or a half that would be rounded away.
         size = "too large for" if exact == exact.to_integral_value() else "no whole number, which is taken by"
-        raise ValueFault(f"{quoted(text)} is {size} {parameter.name}")
+        raise InvalidValueError(f"{quoted(text)} is {size} {parameter.name}")
     return Value(number, unit)
 
 
 def exact_number(text: str) -> Fraction:
-    """Return the number that bare digits with a decimal point mean, exactly; raises ValueFault.
+    """Return the number that bare digits with a decimal point mean, exactly; raises InvalidValueError.
 
     Its exponent is that of a double at most, so that it stays a number that can be worked with.
     """
     number, rest = read_number(text)
     if rest:
-        raise ValueFault(f"{quoted(text)} is not a number")
+        raise InvalidValueError(f"{quoted(text)} is not a number")
     return Fraction(Decimal(text)) if number else Fraction(0)
 
 
@@ -246,7 +252,7 @@ def _read_format(parameter: Parameter, text: str) -> Value:
     """Read a word format, digits before and behind the point: 6.0 and 3.10 are no fractions and stay as they are."""
     found = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
     if not found:
-        raise ValueFault(
+        raise InvalidValueError(
             f"{quoted(text)} is not a format: {parameter.name} takes digits before and behind the point, as 3.4"
         )
     return Value(f"{int(found[1])}.{int(found[2])}")
@@ -277,13 +283,13 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))
     offered = ", ".join(f"{c.label} ({c.code})" if c.code else c.label for c in choices)
-    raise ValueFault(f"{quoted(text)} is not a choice of {parameter.name}: {offered}")
+    raise InvalidValueError(f"{quoted(text)} is not a choice of {parameter.name}: {offered}")
 
 
 def _read_raw(parameter: Parameter, text: str) -> Value:
     """Read a choice by what the control stores, ``raw:-1``; a code that is none of the parameter's is kept."""
     if not _RAW.fullmatch(digits := text[4:].strip()) or abs(raw := int(digits)) > EXACT:
-        raise ValueFault(f"{quoted(text)} is not 'raw:' and a whole number")
+        raise InvalidValueError(f"{quoted(text)} is not 'raw:' and a whole number")
     for choice in parameter.choices or ():
         if choice.raw == raw:
             return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
@@ -341,13 +347,13 @@ def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = Fal
 def field_at(parameter: Parameter, bit: int) -> Bit:
     """Return the field that begins at a bit of a word; one that the database does not name is a bit by itself.
 
-    Raises ValueFault for a parameter without bits, and beyond its last bit.
+    Raises InvalidValueError for a parameter without bits, and beyond its last bit.
     """
     if parameter.type != "bits":
-        raise ValueFault(f"{parameter.name} is no word of bits")
+        raise InvalidValueError(f"{parameter.name} is no word of bits")
     width = parameter.storage.bits if parameter.storage else None
     if width is not None and bit >= width:
-        raise ValueFault(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
+        raise InvalidValueError(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
     return next(
         (b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True)
     )
@@ -360,7 +366,7 @@ def field_value(field: Bit, word: int) -> int:
 
 
 def with_field(field: Bit, word: int, text: str) -> int:
-    """Return a word with one field changed to what a person wrote; every other bit stays. Raises ValueFault."""
+    """Return a word with one field changed to what a person wrote; every other bit stays. Raises InvalidValueError."""
     said = plain(text)
     for choice in field.choices or ():
         names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]
@@ -378,7 +384,9 @@ def with_field(field: Bit, word: int, text: str) -> int:
         except ValueError:
             number = lowest - 1
         if not lowest <= number <= highest:
-            raise ValueFault(f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}")
+            raise InvalidValueError(
+                f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}"
+            )
         number &= mask
     return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
 

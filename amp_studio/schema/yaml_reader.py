@@ -23,7 +23,7 @@ DEEPEST = 50
 LARGEST = 16_000_000
 """Signs of a document; the largest machine of the examples has 36,000."""
 
-Path = tuple[str | int, ...]
+KeyPath = tuple[str | int, ...]
 """The way to a value: keys of mappings, positions in lists."""
 
 
@@ -48,16 +48,16 @@ class Span(NamedTuple):
 
 
 @dataclass
-class Document:
+class YamlDocument:
     """What a text holds."""
 
     text: str
     data: Any = None
     is_closed: bool = False
     """It ends with the end mark ``...``."""
-    spans: dict[Path, Span] | None = None
+    spans: dict[KeyPath, Span] | None = None
 
-    def line(self, path: Path) -> int:
+    def line(self, path: KeyPath) -> int:
         """Return the line of an entry, or of what it would stand in; needs the spans."""
         spans = self.spans or {}
         while path and path not in spans:
@@ -82,7 +82,7 @@ _BLANK = re.compile(rf"(?:[ \t]*(?:#[^{_BREAK}]*)?(?:[{_BREAK}]|$))*")
 
 def read_yaml(
     text: str, scalar: Callable[[str], Any] | None = None, *, spans: bool = False, references: bool = False
-) -> Document:
+) -> YamlDocument:
     """Read the one document of a text; an empty one is None.
 
     ``scalar`` says what a plain scalar means, ``typed_scalar`` where nothing is said. With ``spans`` every entry has its
@@ -98,20 +98,20 @@ def read_yaml(
     start = _BLANK.match(text)
     if start and text.startswith("%", start.end()):
         raise YamlError("is not readable: it begins with a YAML directive", _line_at(text, start.end()))
-    return _Reader(text, scalar or typed_scalar, spans, references).read()
+    return _YamlParser(text, scalar or typed_scalar, spans, references).read()
 
 
 def _line_at(text: str, at: int) -> int:
     return text.count("\n", 0, at) + 1
 
 
-class _Reader:
+class _YamlParser:
     def __init__(self, text: str, scalar: Callable[[str], Any], spans: bool, references: bool) -> None:
         self.scalar, self.depth = scalar, 0
         self.anchors: dict[str, Any] | None = {} if references else None
-        self.document = Document(text, spans={} if spans else None)
+        self.document = YamlDocument(text, spans={} if spans else None)
 
-    def read(self) -> Document:
+    def read(self) -> YamlDocument:
         from ruamel.yaml import YAML
         from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
@@ -145,7 +145,7 @@ class _Reader:
         if at < len(text):
             raise YamlError("is not readable: something stands behind its end", _line_at(text, at))
 
-    def _node(self, event: Any, events: Iterator[Any], path: Path) -> tuple[Any, int]:
+    def _node(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
         """Return a value, and where its text ends."""
         anchor, is_alias = event.anchor, type(event).__name__ == "AliasEvent"
         if anchor is not None and (self.anchors is None or (is_alias and anchor not in self.anchors)):
@@ -159,7 +159,7 @@ class _Reader:
             self.anchors[anchor] = data
         return data, end
 
-    def _content(self, event: Any, events: Iterator[Any], path: Path) -> tuple[Any, int]:
+    def _content(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
         kind = type(event).__name__
         if kind == "ScalarEvent":
             said = event.value
@@ -176,7 +176,7 @@ class _Reader:
         self.depth -= 1
         return data, end
 
-    def _mapping(self, start: Any, events: Iterator[Any], path: Path) -> tuple[dict[Any, Any], int]:
+    def _mapping(self, start: Any, events: Iterator[Any], path: KeyPath) -> tuple[dict[Any, Any], int]:
         found: dict[Any, Any] = {}
         spans, end = self.document.spans, start.end_mark.index
         while type(event := next(events)).__name__ != "MappingEndEvent":
@@ -196,7 +196,7 @@ class _Reader:
             found = {**found.pop("<<"), **found}
         return found, event.end_mark.index if start.flow_style else end
 
-    def _sequence(self, start: Any, events: Iterator[Any], path: Path) -> tuple[list[Any], int]:
+    def _sequence(self, start: Any, events: Iterator[Any], path: KeyPath) -> tuple[list[Any], int]:
         found: list[Any] = []
         spans, end = self.document.spans, start.end_mark.index
         while type(event := next(events)).__name__ != "SequenceEndEvent":

@@ -34,7 +34,7 @@ def simulate(
         raise SimulationError(f"axis {chosen} is not fitted: {', '.join(fitted)}")
 
     def value(parameter_id: str, instance: str) -> Value:
-        return file.situation.canonical((parameter_id, instance))
+        return file.evaluation.canonical((parameter_id, instance))
 
     return SCENARIOS[scenario].run(
         value,

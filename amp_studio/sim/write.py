@@ -70,7 +70,7 @@ def trace_text(trace: Trace) -> str:
 def write_trace(trace: Trace, path: Path, tell: Tell = lambda _said: None) -> None:
     """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``tell`` is called with what could not be kept.
 
-    Raises SimulationError for another ending, SaveFault where it cannot.
+    Raises SimulationError for another ending, SaveError where it cannot.
     """
     ending = path.suffix.lower()
     if ending == ".csv":

@@ -19,11 +19,11 @@ from amp_studio.schema import (
     MASKED,
     Address,
     Choice,
+    InvalidValueError,
     Parameter,
     Schema,
-    UnknownParameter,
+    UnknownParameterError,
     Value,
-    ValueFault,
     angular,
     family_ids,
     load_schema,
@@ -56,7 +56,7 @@ class ImageFault(ValueError):
     """Bytes that are not a whole control image, or a file that has none; one clear sentence."""
 
 
-class PatchFault(ValueFault):
+class PatchFault(InvalidValueError):
     """A value that cannot be keyed in at the control; one clear sentence."""
 
 
@@ -103,7 +103,7 @@ def decode_image(image: bytes) -> ParameterFile:
         if address in file.values:
             raise ImageFault(f"the control image holds {_short(entry)} twice")
         file.values[address] = _value(schema, parameter, entry, field)
-    file.situation.forget()
+    file.evaluation.forget()
     _check_form(file, image)
     return file
 
@@ -219,7 +219,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
         if not parameter.choices:
             return read_stored(schema, parameter, field)
         return _choice(parameter, field)
-    except ValueFault as error:
+    except InvalidValueError as error:
         raise ImageFault(
             f"the control image holds {_short(entry)} with a value it cannot have: {not_readable(parameter, error)}"
         ) from None
@@ -230,7 +230,7 @@ def _choice(parameter: Parameter, field: str) -> Value:
         if field == _code(choice):
             return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
     if not field.startswith("raw:"):
-        raise ValueFault(f"'{field}' is not a choice of {parameter.name}")
+        raise InvalidValueError(f"'{field}' is not a choice of {parameter.name}")
     return read_value(parameter, field, "")
 
 
@@ -247,9 +247,9 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
         if rest.strip():
             raise PatchFault("patch values are plain numbers")
         file.values[address] = patched_value(file, address, parameter, value)
-    except ValueFault as error:
+    except InvalidValueError as error:
         raise PatchFault(str(error)) from None
-    file.situation.forget()
+    file.evaluation.forget()
     changed = encode_image(file)
     decode_image(changed)  # the control's memory holds nothing that cannot be read again
     return changed
@@ -258,7 +258,7 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
 def _patchable(file: ParameterFile, number: str) -> tuple[Address, Parameter]:
     try:
         address = file.find(number)
-    except UnknownParameter:
+    except UnknownParameterError:
         raise PatchFault("PARAMETER NUMBER NOT FOUND") from None
     parameter = file.schema.parameters[address[0]]
     if not parameter.patchable:
@@ -269,14 +269,14 @@ def _patchable(file: ParameterFile, number: str) -> tuple[Address, Parameter]:
 def patched_value(file: ParameterFile, address: Address, parameter: Parameter, value: float) -> Value:
     """Return the value that a stored number means: a choice by its code, a number in the unit the control keeps.
 
-    Raises ValueFault for a fraction where the control stores whole numbers.
+    Raises InvalidValueError for a fraction where the control stores whole numbers.
     """
     is_whole = bool(parameter.choices) or parameter.type in ("integer", "bits")
     if is_whole and value != int(value):
-        raise ValueFault(f"{parameter.name} takes whole numbers, not {write_number(value)}")
+        raise InvalidValueError(f"{parameter.name} takes whole numbers, not {write_number(value)}")
     if parameter.choices:
         return _choice(parameter, f"raw:{int(value)}")
     unit = (parameter.storage.unit if parameter.storage else None) or ""
-    if file.situation.turns(address):
+    if file.evaluation.turns(address):
         unit = angular(unit)
     return Value(int(value) if is_whole else value, unit)

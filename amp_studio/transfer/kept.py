@@ -14,7 +14,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
-from amp_studio.files.storage import FileFault, read_content
+from amp_studio.files.storage import ParameterFileError, read_content
 from amp_studio.schema.regular_file import read_file
 
 from .image import MAGIC, ImageFault, decode_image, encode_image
@@ -96,7 +96,7 @@ def _need_free(path: Path) -> None:
 
 def _keep_readable(image: bytes, path: Path) -> None:
     """Write the parameter file of an image where it comes back as the same bytes; the image itself is kept already."""
-    with contextlib.suppress(ImageFault, FileFault, OSError):
+    with contextlib.suppress(ImageFault, ParameterFileError, OSError):
         file = decode_image(image)
         file.header.name = path.stem
         content = content_of(file)
@@ -110,7 +110,7 @@ def digest_path(path: Path) -> Path:
 
 
 def open_copy(path: Path) -> Copy:
-    """Read a copy, checked against the digest beside it where there is one; raises CopyFault, FileFault, OSError."""
+    """Read a copy, checked against the digest beside it where there is one; raises CopyFault, ParameterFileError, OSError."""
     if path.suffix == ENDING:
         file = open_file(path).file
         image = encode_image(file)

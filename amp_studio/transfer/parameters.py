@@ -98,9 +98,9 @@ def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:
     found = []
     for address in file.addresses():
         value = file.get(address)
-        if value is None or file.situation.state(address).state == "hidden":
+        if value is None or file.evaluation.state(address).state == "hidden":
             continue
-        said = fault(file.situation, address, value)
+        said = fault(file.evaluation, address, value)
         if said:
             found.append(
                 (address, f"{file.schema.label(address, file.machine)} ({written(address)}): {said}")

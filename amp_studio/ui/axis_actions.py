@@ -45,7 +45,7 @@ class AxisActions:
         workspace, _ = self._workspace()
         address, axes = self.window.selected(), fitted_axes(workspace.file)
         here = axes[0] if axes else ""
-        if address and address[1] in axes and workspace.file.situation.scope(address) == "axis":
+        if address and address[1] in axes and workspace.file.evaluation.scope(address) == "axis":
             here = address[1]
         return AxisDialog(workspace, title, here, self.window)
 

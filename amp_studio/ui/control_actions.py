@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QStyle
 
-from amp_studio.files import Document, ParameterFile, RangeFault
+from amp_studio.files import Document, ParameterFile, RangeError
 from amp_studio.files.lock import now
-from amp_studio.schema import Address, ValueFault, write_value
+from amp_studio.schema import Address, InvalidValueError, write_value
 
 from .emulated_control import EmulatedControl
 from .questions import ask, tell
@@ -284,5 +284,5 @@ class ControlActions:
                 if accepted:
                     file.set_many({place: file.read(place, text)})
                     return True
-            except (ValueFault, RangeFault) as error:
+            except (InvalidValueError, RangeError) as error:
                 tell(self.window, "Edit parameter", f"{error}.")

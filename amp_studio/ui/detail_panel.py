@@ -103,7 +103,7 @@ class DetailPanel(QWidget):
             lines.append(f"<br>{html.escape(held)} <small>as the control holds it</small>")
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
         lines.append("</p>")
-        state = file.situation.state(address)
+        state = file.evaluation.state(address)
         if state.state != "in-force":
             page = f" (page {state.page})" if state.page else ""
             lines.append(f"<p><i>{state.state.capitalize()}: {html.escape(state.why)}{page}.</i></p>")
@@ -135,7 +135,7 @@ class DetailPanel(QWidget):
         if file.schema.parameters[address[0]].choices:
             return ""
         unit = self._workspace.typed_unit(address)
-        found = limits(file.situation, address, unit)
+        found = limits(file.evaluation, address, unit)
         if found is None:
             return f"no bounds printed, in {shown(unit)}" if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]

@@ -8,9 +8,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QStyle
 
-from amp_studio.files import RangeFault, axis_type, describe, fitted_axes
+from amp_studio.files import RangeError, axis_type, describe, fitted_axes
 from amp_studio.files.lock import now, user
-from amp_studio.schema import Address, Value, ValueFault
+from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import RULES_FILE, Finding, calculators, repair_all_safe, suppress
 
 from .questions import ask, tell
@@ -83,12 +83,12 @@ class EditActions:
         name = describe(workspace.file, address)
         try:
             value = workspace.read(address, text)
-        except ValueFault as error:
+        except InvalidValueError as error:
             tell(self.window, "Not taken", f"{name}: {error}.\n\nNothing was changed.")
             return False
         try:
             workspace.edit(name, {address: value})
-        except RangeFault as error:
+        except RangeError as error:
             return self._ask_force(address, value, str(error))
         return True
 
@@ -144,7 +144,7 @@ class EditActions:
         """Copy the selected value to every fitted axis of the same type."""
         workspace, address = self._workspace(), self._here()
         file = workspace.file
-        if file.situation.scope(address) != "axis" or address[1] not in fitted_axes(file):
+        if file.evaluation.scope(address) != "axis" or address[1] not in fitted_axes(file):
             raise ValueError("Select a value of a fitted axis first.")
         same = [a for a in fitted_axes(file) if axis_type(file, a) == axis_type(file, address[1])]
         workspace.edit("Copy to all axes of the type", {(address[0], a): file.get(address) for a in same})

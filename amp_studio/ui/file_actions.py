@@ -165,7 +165,7 @@ class FileActions:
             self.open_path(Path(text))
 
     def open_path(self, path: Path, ask_first: bool = True) -> None:
-        """Open a file; offers unsaved work, and to look at it when another program edits it. Raises FileFault."""
+        """Open a file; offers unsaved work, and to look at it when another program edits it. Raises ParameterFileError."""
         if ask_first and not self.window.may_leave():
             return
         workspace, here = self.window.workspace, None

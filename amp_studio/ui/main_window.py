@@ -273,7 +273,7 @@ class MainWindow(QMainWindow):
             return
         if not self.table.index_of(address).isValid():
             self.groups.choose_group_of(address[0])
-        hidden = self.workspace.file.situation.state(address).state == "hidden"
+        hidden = self.workspace.file.evaluation.state(address).state == "hidden"
         for option in ([self.view.hidden_too] if hidden else []) + [self.view.all_axes]:
             if not self.table.index_of(address).isValid() and not option.isChecked():
                 option.trigger()

@@ -131,7 +131,7 @@ class ParameterTable(QAbstractTableModel):
         return shown
 
     def _exists(self, address: Address) -> bool:
-        return self.workspace.file.situation.state(address).state != "hidden"
+        return self.workspace.file.evaluation.state(address).state != "hidden"
 
     @property
     def tells_commands(self) -> bool:
@@ -289,7 +289,7 @@ class ParameterTable(QAbstractTableModel):
             worst = self._worst.get(address)
             return QBrush(severity_colour(worst)) if worst in ("error", "warning") else None
         if role == Qt.ItemDataRole.ForegroundRole:
-            return None if file.situation.state(address).state == "in-force" else QBrush(state_colour())
+            return None if file.evaluation.state(address).state == "in-force" else QBrush(state_colour())
         if role == Qt.ItemDataRole.FontRole:
             return self._font_of(address)
         if role == Qt.ItemDataRole.ToolTipRole:
@@ -299,12 +299,12 @@ class ParameterTable(QAbstractTableModel):
     def _font_of(self, address: Address) -> QFont | None:
         file = self.workspace.file
         bold = file.get(address) is not None and not file.is_default(address)
-        italic = file.situation.state(address).state in ("ignored", "unusable")
+        italic = file.evaluation.state(address).state in ("ignored", "unusable")
         return self._both if bold and italic else self._bold if bold else self._italic if italic else None
 
     def _tip(self, address: Address) -> str:
         file = self.workspace.file
-        state = file.situation.state(address)
+        state = file.evaluation.state(address)
         shown = self.shown_value(address)
         lines = [shown] if len(shown) > _LONG else []
         lines += [f.message for f in self.workspace.findings_of(address) if f.rule != "schema.unset"]

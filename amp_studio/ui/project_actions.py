@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import FileFault, Project, same_file
+from amp_studio.files import ParameterFileError, Project, same_file
 from amp_studio.schema import Address
 
 from .file_actions import FILTER
@@ -46,7 +46,9 @@ class ProjectActions:
     def notice(self, folder: Path) -> None:
         """Take the project of a folder, if it is one, because one of its files was opened."""
         if (folder / "project.yaml").exists() and (self.project is None or self.project.folder != folder):
-            with contextlib.suppress(FileFault):  # a broken project file keeps nobody from the parameters
+            with contextlib.suppress(
+                ParameterFileError
+            ):  # a broken project file keeps nobody from the parameters
                 self.project = Project.open(folder)
                 self.window.enable()
 

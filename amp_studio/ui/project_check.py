@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QBrush
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.files import FileFault, open_file
+from amp_studio.files import ParameterFileError, open_file
 from amp_studio.schema import Address
 from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
 
@@ -51,7 +51,7 @@ def check_files(paths: list[Path], progress: Progress, cancelled: threading.Even
 def _checked(path: Path) -> CheckedFile:
     try:
         file = open_file(path).file
-    except FileFault as fault:
+    except ParameterFileError as fault:
         return CheckedFile(path, fault=str(fault))
     findings = Validator(file, rules_beside(path, file.schema)).run()
     labels = tuple(file.schema.label(f.addresses[0], file.machine) if f.addresses else "" for f in findings)

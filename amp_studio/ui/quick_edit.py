@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
-from amp_studio.schema import Address, UnknownParameter
+from amp_studio.schema import Address, UnknownParameterError
 
 from .choice_box import ChoiceBox
 from .parameter_table import ParameterTable
@@ -47,7 +47,7 @@ class QuickEdit(QDialog):
         """Look up the number and offer its value."""
         try:
             address = self._workspace.file.find(self.number.text())
-        except UnknownParameter as error:
+        except UnknownParameterError as error:
             self._offer(None)
             self.name.setText(f"{error}.")
             self.number.selectAll()
@@ -64,7 +64,7 @@ class QuickEdit(QDialog):
         self._show(address)
         file = self._workspace.file
         place = file.schema.instance_label(address, file.machine) or "Control"
-        state = file.situation.state(address)
+        state = file.evaluation.state(address)
         told = "" if state.state == "in-force" else f"\n{state.state.capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)
         bounds = f"\nAllowed here: {allowed}" if allowed else ""

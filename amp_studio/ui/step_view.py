@@ -131,7 +131,7 @@ class StepView(QWidget):
         family = file.schema.family
         system = family.units.get(file.header.units, {})
         length, velocity = system.get("length", "mm"), system.get("velocity", "mm/min")
-        turns = family.axes is not None and axis and file.situation.turns((family.axes.type, str(axis)))
+        turns = family.axes is not None and axis and file.evaluation.turns((family.axes.type, str(axis)))
         return (angular(length), angular(velocity)) if turns else (length, velocity)
 
     def _settings(self) -> dict[str, float | str]:

@@ -27,7 +27,7 @@ Index = QModelIndex | QPersistentModelIndex
 
 def limits_of(workspace: Workspace, address: Address) -> Limits | None:
     """Return the bounds of an address in the unit in which it is typed."""
-    return limits(workspace.file.situation, address, workspace.typed_unit(address))
+    return limits(workspace.file.evaluation, address, workspace.typed_unit(address))
 
 
 def allowed_text(workspace: Workspace, address: Address) -> str:

@@ -155,4 +155,4 @@ class ViewActions:
 
 def _describe_machine(workspace: Workspace, machine: str) -> None:
     workspace.file.header.machine = machine
-    workspace.file.situation.forget()
+    workspace.file.evaluation.forget()

@@ -40,7 +40,7 @@ class _Marks:
         for key, value in self.header.items():
             setattr(file.header, key, value)
         if file.machine != machine:
-            file.situation.forget()
+            file.evaluation.forget()
 
 
 class _Edit(QUndoCommand):
@@ -129,7 +129,7 @@ class Workspace(QObject):
         self.changed.emit([])
 
     def edit(self, text: str, wanted: Mapping[Address, Value | None], force: str = "") -> bool:
-        """Change values as one undoable step; raises RangeFault, and then nothing is changed."""
+        """Change values as one undoable step; raises RangeError, and then nothing is changed."""
         return self.do(text, lambda: self.file.set_many(wanted, force))
 
     def do(self, text: str, operation: Callable[[], object]) -> bool:
@@ -183,7 +183,7 @@ class Workspace(QObject):
         return self.document.is_dirty or self._saved != (_Marks.of(self.file), self.file.header.units)
 
     def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
-        """Save in place, through ``run`` (a thread); raises ChangedOnDisk, SaveFault, InUse."""
+        """Save in place, through ``run`` (a thread); raises ChangedOnDisk, SaveError, InUse."""
         self._journal.stop()
         self.is_saving = True
         try:
@@ -236,10 +236,10 @@ class Workspace(QObject):
         value = self.file.get(address)
         if self.as_entered and value is not None and value.unit:
             return value.unit
-        return self.file.situation.unit(address, self.file.header.units)
+        return self.file.evaluation.unit(address, self.file.header.units)
 
     def read(self, address: Address, text: str) -> Value | None:
-        """Read what a person typed for an address, None for nothing; raises ValueFault."""
+        """Read what a person typed for an address, None for nothing; raises InvalidValueError."""
         if not text.strip():
             return None
         return read_value(self.file.schema.parameters[address[0]], text, self.typed_unit(address))

@@ -11,7 +11,7 @@ from .builder_rules import (
 )
 from .calculators import Argument, Calculator, calculate, calculators, shown_result
 from .explanation import Explanation, Seen, explain
-from .expressions import RuleFault
+from .expressions import RuleError
 from .finding import SEVERITIES, Finding, Setting
 from .formulas import formulas
 from .repairs import Fixed, apply_fixes, repair_all_safe
@@ -27,7 +27,7 @@ __all__ = [
     "Explanation",
     "Finding",
     "Fixed",
-    "RuleFault",
+    "RuleError",
     "Seen",
     "Setting",
     "Suppressed",

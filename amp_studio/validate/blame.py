@@ -8,7 +8,7 @@ from typing import Any
 from amp_studio.schema import Address
 from amp_studio.schema.cel_engine import Context, Program
 
-from .expressions import EVALUATION_FAULTS
+from .expressions import EVALUATION_ERRORS
 from .plan import RuleCheck
 
 _Named = tuple[tuple[str, Program], ...]
@@ -38,7 +38,7 @@ def _met(check: RuleCheck, named: _Named, context: Context, given: dict[str, Any
             try:
                 if condition.execute(context) is True:
                     yield address
-            except EVALUATION_FAULTS:
+            except EVALUATION_ERRORS:
                 continue  # a value that is not set, or of a kind that the condition does not speak of
 
 

@@ -20,11 +20,11 @@ from amp_studio.files.atomic import digest_of
 from amp_studio.schema import (
     Address,
     BuilderRule,
-    DatabaseFault,
+    DatabaseError,
     Entry,
+    Evaluation,
     Rule,
     Schema,
-    Situation,
     Suppression,
     family_ids,
     load_schema,
@@ -32,13 +32,14 @@ from amp_studio.schema import (
     read_entries,
 )
 from amp_studio.schema.regular_file import read_file
+from amp_studio.schema.yaml_reader import KeyPath
 
 from .expression_tree import shown
-from .expressions import RuleFault
+from .expressions import RuleError
 from .finding import Finding
 from .nearest import did_you_mean
 from .plan import checks_of
-from .rule_entry import Place, Slip, entry_model
+from .rule_entry import Slip, entry_model
 from .rule_review import MOST_STEPS, review
 
 RULES_FILE = "rules.yaml"
@@ -82,16 +83,16 @@ def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
     try:
         return _read(path, digest_of(path), schema)
     except OSError as error:
-        said = DatabaseFault(path, None, f"cannot be read: {error.strerror}")
+        said = DatabaseError(path, None, f"cannot be read: {error.strerror}")
         return BuilderRules(faults=(_finding(path, said),))
 
 
 @lru_cache(maxsize=32)  # it lies beside many files
 def _read(path: Path, _digest: str | None, schema: Schema) -> BuilderRules:
-    return _Reading(path, schema).read()
+    return _RuleFileReader(path, schema).read()
 
 
-class _Reading:
+class _RuleFileReader:
     """What is found in one file of rules for one family."""
 
     def __init__(self, path: Path, schema: Schema) -> None:
@@ -103,7 +104,7 @@ class _Reading:
         """Id of every rule of the file, usable or not, of this family or another -> its line."""
         self._families = family_ids()
         self._cost = 0
-        self._faults: list[DatabaseFault] = []
+        self._faults: list[DatabaseError] = []
 
     def read(self) -> BuilderRules:
         entries, self._faults = read_entries(self._path, ("rules", "suppressions"))
@@ -124,10 +125,10 @@ class _Reading:
             tuple(self._rules.values()), used, tuple(self._findings()), self._places, self._costs
         )
 
-    def _fault(self, entry: Entry, place: Place, what: str) -> None:
+    def _fault(self, entry: Entry, place: KeyPath, what: str) -> None:
         steps = " ".join(str(step + 1) if isinstance(step, int) else shown(step)[1:-1] for step in place)
         words = [word for word in (_named(entry.data), steps) if word]
-        self._faults.append(DatabaseFault(self._path, entry.line(place), ": ".join([*words, what])))
+        self._faults.append(DatabaseError(self._path, entry.line(place), ": ".join([*words, what])))
 
     def _findings(self) -> Iterator[Finding]:
         shown_faults = sorted(self._faults, key=lambda fault: fault.line or 0)[:MOST_FAULTS]
@@ -172,8 +173,8 @@ class _Reading:
             ]
         try:
             for machine in self._schema.family.machines:
-                checks_of(Situation(self._schema, lambda _: None, partial(str, machine.key)), (rule,))
-        except RuleFault as fault:
+                checks_of(Evaluation(self._schema, lambda _: None, partial(str, machine.key)), (rule,))
+        except RuleError as fault:
             return [(("reads",), fault.what)]
         self._cost += cost
         return []
@@ -242,18 +243,18 @@ def _is_elsewhere(text: str, schema: Schema) -> bool:
     )
 
 
-def _finding(path: Path, fault: DatabaseFault) -> Finding:
+def _finding(path: Path, fault: DatabaseError) -> Finding:
     return Finding(OWN_FAULT, "error", (), f"{_told(path, fault)}.")
 
 
-def _told(path: Path, fault: DatabaseFault) -> str:
+def _told(path: Path, fault: DatabaseError) -> str:
     return f"{path.name}{f', line {fault.line}' if fault.line else ''}: {fault.what.rstrip('.')}"
 
 
 def suppress(path: Path, rule: str, params: Iterable[str], *, reason: str, by: str) -> None:
     """Add a suppression to a file of rules, which is made where there is none; the rest of it stays as it is.
 
-    Raises ValueError where reason or name is missing or the file cannot be read, SaveFault where it cannot be written.
+    Raises ValueError where reason or name is missing or the file cannot be read, SaveError where it cannot be written.
     """
     from ruamel.yaml import YAML
     from ruamel.yaml.error import YAMLError
@@ -286,12 +287,12 @@ class Suppressed:
 
 
 def sort_out(
-    findings: tuple[Finding, ...], suppressions: tuple[Suppression, ...], situation: Situation
+    findings: tuple[Finding, ...], suppressions: tuple[Suppression, ...], evaluation: Evaluation
 ) -> tuple[tuple[Finding, ...], tuple[Suppressed, ...], tuple[Suppression, ...]]:
     """Return the findings that stay, those that are suppressed, and the suppressions that meet nothing any more."""
     by_rule: dict[str, list[tuple[Suppression, list[set[Address]]]]] = {}
     for s in suppressions:
-        meant = [set(_addresses(situation, text)) for text in s.params]
+        meant = [set(_addresses(evaluation, text)) for text in s.params]
         by_rule.setdefault(s.rule, []).append((s, meant))
     stay: list[Finding] = []
     left: list[Suppressed] = []
@@ -312,13 +313,13 @@ def sort_out(
     return tuple(stay), tuple(left), tuple(s for s in suppressions if id(s) not in used)
 
 
-def _addresses(situation: Situation, text: str) -> Iterator[tuple[str, str]]:
+def _addresses(evaluation: Evaluation, text: str) -> Iterator[tuple[str, str]]:
     """Yield what a suppression means by a number or an id; an id alone means all its instances."""
-    parameter = situation.schema.parameters.get(text)
+    parameter = evaluation.schema.parameters.get(text)
     if parameter is not None:
-        yield from ((parameter.id, i) for i in situation.schema.instances(parameter, situation.machine))
+        yield from ((parameter.id, i) for i in evaluation.schema.instances(parameter, evaluation.machine))
         return
     try:
-        yield situation.find(text)
+        yield evaluation.find(text)
     except LookupError:
         return

@@ -11,7 +11,7 @@ from typing import Any, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
-from amp_studio.schema import ValueFault, read_number, write_number
+from amp_studio.schema import InvalidValueError, read_number, write_number
 
 from .formulas import formulas
 
@@ -94,12 +94,12 @@ def _read(argument: Argument, text: str) -> Any:
         if argument.kind in (float, int):
             number, rest = read_number(text)
             if rest.strip():
-                raise ValueFault(f"'{text}' is no plain number")
+                raise InvalidValueError(f"'{text}' is no plain number")
             return TypeAdapter(argument.kind).validate_python(number)
         several = getattr(argument.kind, "__args__", ())
         plain = text if several and str in several else f"[{text}]"
         return TypeAdapter(argument.kind).validate_python(json.loads(plain) if plain[:1] == "[" else text)
-    except (ValueFault, ValidationError, KeyError, json.JSONDecodeError):
+    except (InvalidValueError, ValidationError, KeyError, json.JSONDecodeError):
         told = f" ({argument.example})" if argument.example else ""
         raise ValueError(f"'{text}' is no {argument.name}{told}") from None
 

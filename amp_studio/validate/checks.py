@@ -35,7 +35,7 @@ class Checks:
         value = self._file.values.get(address)
         if value is None:
             return None
-        state = self._file.situation.state(address).state
+        state = self._file.evaluation.state(address).state
         if state in ("hidden", "ignored") and address not in self._file.forced:
             return None
         return self._values.finding(address, value)

@@ -10,7 +10,7 @@ from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.model import BoundRef
 from amp_studio.schema.units import canonical_unit
 
-from .expressions import EVALUATION_FAULTS
+from .expressions import EVALUATION_ERRORS
 from .finding import Finding
 from .plan import RuleCheck
 from .validator import Validator
@@ -83,17 +83,19 @@ def _source(validator: Validator, finding: Finding) -> str:
 
 def _of_a_value(validator: Validator, finding: Finding) -> Explanation:
     """Explain a finding about a value by itself: with the parameters that bound it."""
-    situation, addresses = validator.file.situation, list(finding.addresses)
+    evaluation, addresses = validator.file.evaluation, list(finding.addresses)
     hung_on: list[Address] = []
     for address in addresses[:1] if finding.rule.startswith("schema.") else []:
-        parameter = situation.schema.parameters[address[0]]
+        parameter = evaluation.schema.parameters[address[0]]
         for pair in [
             *(parameter.ranges or {}).values(),
             *(r for v in parameter.range_variants for r in v.ranges.values()),
         ]:
             for bound in pair:
                 if isinstance(bound, BoundRef):
-                    hung_on += situation.reading(bound.param, address[1], situation.scope(address)).addresses
+                    hung_on += evaluation.reference(
+                        bound.param, address[1], evaluation.scope(address)
+                    ).addresses
     every = dict.fromkeys(addresses[:_LONG_LIST] + hung_on)
     seen = tuple(_seen(validator, a, "") for a in every if not _is_hidden(validator, a))
     titles = {
@@ -120,7 +122,7 @@ def _plain(expression: str) -> str:
 
 
 def _is_hidden(validator: Validator, address: Address) -> bool:
-    return validator.file.situation.state(address).state == "hidden"
+    return validator.file.evaluation.state(address).state == "hidden"
 
 
 def _is_secret(validator: Validator, address: Address) -> bool:
@@ -129,7 +131,7 @@ def _is_secret(validator: Validator, address: Address) -> bool:
 
 def _seen(validator: Validator, address: Address, name: str) -> Seen:
     file = validator.file
-    state = file.situation.state(address)
+    state = file.evaluation.state(address)
     why = "" if state.state == "in-force" else f"{state.state}: {state.why}"
     return Seen(name, address, show_value(file.schema.parameters[address[0]], file.values.get(address)), why)
 
@@ -147,9 +149,9 @@ def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:
 
 def _value(validator: Validator, address: Address) -> str:
     """Return a value as a rule sees it, with its unit."""
-    situation = validator.file.situation
-    found = situation.canonical(address)
-    if found is None or situation.state(address).state == "hidden":
+    evaluation = validator.file.evaluation
+    found = evaluation.canonical(address)
+    if found is None or evaluation.state(address).state == "hidden":
         return "null"
     if _is_secret(validator, address):
         return MASKED
@@ -173,7 +175,7 @@ def _sides(rule: Rule, context: Context) -> list[tuple[str, str]]:
         if not re.fullmatch(r"[\w.]+|'[^']*'", side):
             try:
                 worth = program(side).execute(context)
-            except (*EVALUATION_FAULTS, ValueError):
+            except (*EVALUATION_ERRORS, ValueError):
                 continue
             if isinstance(worth, float):
                 found.append((side, write_number(float(f"{worth:.9g}"))))

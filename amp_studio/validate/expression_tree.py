@@ -98,7 +98,7 @@ def read_expression(text: str) -> Node:
     """Return the tree of an expression; raises ExpressionError."""
     if len(text) > LONGEST:
         raise ExpressionError(f"has {len(text):,} characters, and {LONGEST:,} are the most")
-    return _Reader(text).whole()
+    return _ExpressionParser(text).whole()
 
 
 def _tokens(text: str) -> list[_Token]:
@@ -129,7 +129,7 @@ def shown(text: str) -> str:
     return short if short[:1] and short[0] in "'\"" else f"'{short}'"
 
 
-class _Reader:
+class _ExpressionParser:
     def __init__(self, text: str) -> None:
         self._text, self._tokens, self._at = text, _tokens(text), 0
         self._brackets = 0

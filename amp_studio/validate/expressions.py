@@ -22,7 +22,7 @@ ALWAYS_THERE = ("machine", "application", "instance", "part")
 AT_HAND = ("it", "at")
 """Names in the conditions of ``blames`` and ``compares``: the value at hand, and its position in a list."""
 
-EVALUATION_FAULTS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
+EVALUATION_ERRORS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
 """What CEL raises for a value of a kind that an expression does not speak of."""
 
 TYPES = {
@@ -42,7 +42,7 @@ TYPES = {
 _OVER_A_LIST = re.compile(r"\.(?:all|exists|exists_one|filter|map)\(\s*([a-zA-Z_]\w*)\s*,")
 
 
-class RuleFault(ValueError):
+class RuleError(ValueError):
     """A rule that cannot be used: its id and what is wrong with it."""
 
     def __init__(self, rule: str, what: str) -> None:
@@ -74,7 +74,7 @@ class Expressions:
 
 
 def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
-    """Compile a rule that may call ``functions``; raises RuleFault."""
+    """Compile a rule that may call ``functions``; raises RuleError."""
     called: set[str] = set()
     always: set[str] = set()
     spoken_of: set[str] = set()
@@ -85,14 +85,14 @@ def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
         variables = found - TYPES
         known = {*rule.reads, *ALWAYS_THERE, *(AT_HAND if place.startswith(("blames", "compares")) else ())}
         for name in sorted(variables - known):
-            raise RuleFault(rule.id, f"{place} speaks of '{name}', which it does not read")
+            raise RuleError(rule.id, f"{place} speaks of '{name}', which it does not read")
         if place.startswith(("check", "value ")):
             spoken_of |= found
         if place == "when":
             asked_of |= found
         named = functions_called(compiled)
         for name in sorted(named - set(functions)):
-            raise RuleFault(rule.id, f"{place} calls '{name}', which is no function")
+            raise RuleError(rule.id, f"{place} calls '{name}', which is no function")
         called |= named & set(functions)
         always |= variables & set(ALWAYS_THERE)
     spoken_of |= _check_names(rule)
@@ -142,7 +142,7 @@ def _compiled(rule: Rule, place: str, text: str) -> Program:
     try:
         return program(text)
     except ValueError as error:
-        raise RuleFault(rule.id, f"{place}: {str(error).splitlines()[0]}") from None
+        raise RuleError(rule.id, f"{place}: {str(error).splitlines()[0]}") from None
 
 
 def _at_hand(rule: Rule, conditions: dict[str, str]) -> Iterator[tuple[str, Program]]:
@@ -156,32 +156,32 @@ def _is_list(read: str) -> bool:
 
 
 def _check_names(rule: Rule) -> set[str]:
-    """Check the names a rule uses outside its expressions; returns those its message shows, raises RuleFault."""
+    """Check the names a rule uses outside its expressions; returns those its message shows, raises RuleError."""
     lists = {name for name, text in rule.reads.items() if _is_list(text)}
     named = {f: getattr(rule, f) for f in ("optional", "any_state", "blames", "compares")}
     for place, names in named.items():
         for name in names:
             if name not in rule.reads:
-                raise RuleFault(rule.id, f"{place} names '{name}', which it does not read")
+                raise RuleError(rule.id, f"{place} names '{name}', which it does not read")
     for assignment in (*rule.fix, *rule.effective):
         if assignment.set not in rule.reads or assignment.set in lists:
-            raise RuleFault(rule.id, f"it sets '{assignment.set}', which is no single value it reads")
+            raise RuleError(rule.id, f"it sets '{assignment.set}', which is no single value it reads")
     for name, unit in rule.units.items():
         if name not in rule.values:
-            raise RuleFault(rule.id, f"units names '{name}', which is none of its values")
+            raise RuleError(rule.id, f"units names '{name}', which is none of its values")
         if unit not in UNITS:
-            raise RuleFault(rule.id, f"'{unit}' is no unit")
+            raise RuleError(rule.id, f"'{unit}' is no unit")
     known = {*rule.reads, *rule.values, *ALWAYS_THERE}
     try:
         fields = [
             (name, form, how) for _, name, form, how in Formatter().parse(rule.message) if name is not None
         ]
     except ValueError as error:
-        raise RuleFault(rule.id, f"message: {error}") from None
+        raise RuleError(rule.id, f"message: {error}") from None
     for name, form, how in fields:
         if name not in known or form or how:
             written = f"{name}{f'!{how}' if how else ''}{f':{form}' if form else ''}"
-            raise RuleFault(
+            raise RuleError(
                 rule.id, f"the message shows '{{{written}}}', which is neither read nor among its values"
             )
     return {name for name, _, _ in fields}

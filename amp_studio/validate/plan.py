@@ -11,10 +11,18 @@ from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from itertools import count
 
-from amp_studio.schema import Address, Reading, Rule, Schema, Situation, UnknownParameter, read_address
+from amp_studio.schema import (
+    Address,
+    Evaluation,
+    Reference,
+    Rule,
+    Schema,
+    UnknownParameterError,
+    read_address,
+)
 from amp_studio.schema.model import BoundRef
 
-from .expressions import Expressions, RuleFault, expressions_of
+from .expressions import Expressions, RuleError, expressions_of
 from .formulas import rule_functions
 
 
@@ -83,7 +91,7 @@ class Plan:
 
 
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:
-    """Return the plan for a machine type with the family's rules and further ones; raises RuleFault."""
+    """Return the plan for a machine type with the family's rules and further ones; raises RuleError."""
     return _make(schema, machine, _Further(tuple(rule.model_dump_json() for rule in extra), extra))
 
 
@@ -97,15 +105,15 @@ class _Further:
 
 @lru_cache(maxsize=32)
 def _make(schema: Schema, machine: str, further: _Further) -> Plan:
-    situation = Situation(schema, lambda _: None, lambda: machine)
+    evaluation = Evaluation(schema, lambda _: None, lambda: machine)
     addresses = schema.addresses(machine)
-    states = {address: frozenset(situation.state_reads(address)) for address in addresses}
-    bounds = {address: _bounds(situation, address) for address in addresses}
+    states = {address: frozenset(evaluation.state_reads(address)) for address in addresses}
+    bounds = {address: _bounds(evaluation, address) for address in addresses}
     range_readers: dict[Address, set[Address]] = {}
     for address in addresses:
         for read in {address} | states[address] | bounds[address]:
             range_readers.setdefault(read, set()).add(address)
-    checks = checks_of(situation, schema.rules + further.rules)
+    checks = checks_of(evaluation, schema.rules + further.rules)
     rule_readers: dict[Address, list[RuleCheck]] = {}
     for check in checks:
         read_by_check = {seen for address in check.addresses for seen in {address} | states[address]}
@@ -120,9 +128,9 @@ def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     )
 
 
-def _bounds(situation: Situation, address: Address) -> frozenset[Address]:
+def _bounds(evaluation: Evaluation, address: Address) -> frozenset[Address]:
     """Return what the bounds of an address depend on, where other parameters set them."""
-    parameter = situation.schema.parameters[address[0]]
+    parameter = evaluation.schema.parameters[address[0]]
     ranges = [*(parameter.ranges or {}).values()]
     for variant in parameter.range_variants:
         ranges += variant.ranges.values()
@@ -130,30 +138,32 @@ def _bounds(situation: Situation, address: Address) -> frozenset[Address]:
     for pair in ranges:
         for bound in pair:
             if isinstance(bound, BoundRef):
-                source = situation.reading(bound.param, address[1], situation.scope(address)).addresses[0]
-                found |= {source} | situation.state_reads(source)
+                source = evaluation.reference(bound.param, address[1], evaluation.scope(address)).addresses[0]
+                found |= {source} | evaluation.state_reads(source)
     return frozenset(found)
 
 
-def checks_of(situation: Situation, rules: tuple[Rule, ...]) -> tuple[RuleCheck, ...]:
-    """Return the checks of rules on one machine type; raises RuleFault."""
-    functions = rule_functions(situation.schema.family.family)
+def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...]) -> tuple[RuleCheck, ...]:
+    """Return the checks of rules on one machine type; raises RuleError."""
+    functions = rule_functions(evaluation.schema.family.family)
     seen: set[str] = set()
     checks: list[RuleCheck] = []
     places = count()
     for rule in rules:
         if rule.id in seen:
-            raise RuleFault(rule.id, "there are two rules of this name")
+            raise RuleError(rule.id, "there are two rules of this name")
         seen.add(rule.id)
         expressions = expressions_of(rule, functions)
-        for instance, readings in _resolved(situation, rule):
+        for instance, references in _resolved(evaluation, rule):
             singles = tuple(
-                Single(name, reading.addresses[0], name in rule.optional, name in rule.any_state)
-                for name, reading in readings.items()
-                if not reading.is_list
+                Single(name, reference.addresses[0], name in rule.optional, name in rule.any_state)
+                for name, reference in references.items()
+                if not reference.is_list
             )
             lists = tuple(
-                (name, _listed(reading.addresses)) for name, reading in readings.items() if reading.is_list
+                (name, _listed(reference.addresses))
+                for name, reference in references.items()
+                if reference.is_list
             )
             names = (*(single.name for single in singles), *(name for name, _ in lists))
             others = lists or rule.optional or rule.any_state
@@ -162,18 +172,20 @@ def checks_of(situation: Situation, rules: tuple[Rule, ...]) -> tuple[RuleCheck,
     return tuple(checks)
 
 
-def _resolved(situation: Situation, rule: Rule) -> list[tuple[str, dict[str, Reading]]]:
+def _resolved(evaluation: Evaluation, rule: Rule) -> list[tuple[str, dict[str, Reference]]]:
     """Return the instances a rule runs for, each with what it reads there; none where that does not exist."""
     for text in rule.reads.values():
-        _check_read(situation.schema, rule, text)
-    scope, instances = _runs_for(situation, rule)
+        _check_read(evaluation.schema, rule, text)
+    scope, instances = _runs_for(evaluation, rule)
     found = []
     for instance in instances:
         try:
-            readings = {name: situation.reading(text, instance, scope) for name, text in rule.reads.items()}
-        except UnknownParameter:
+            references = {
+                name: evaluation.reference(text, instance, scope) for name, text in rule.reads.items()
+            }
+        except UnknownParameterError:
             continue
-        found.append((instance, readings))
+        found.append((instance, references))
     return found
 
 
@@ -181,19 +193,19 @@ def _check_read(schema: Schema, rule: Rule, text: str) -> None:
     parameter_id, which = read_address(text)
     parameter = schema.parameters.get(parameter_id)
     if parameter is None:
-        raise RuleFault(rule.id, f"reads '{parameter_id}', which the family does not have")
+        raise RuleError(rule.id, f"reads '{parameter_id}', which the family does not have")
     offered = {i for machine in schema.family.machines for i in schema.instances(parameter, machine.key)}
     if which not in ("", "*", "<", ">", ".") and which not in offered:
-        raise RuleFault(rule.id, f"reads '{text}', but {parameter.name} has no instance '{which}'")
+        raise RuleError(rule.id, f"reads '{text}', but {parameter.name} has no instance '{which}'")
 
 
-def _runs_for(situation: Situation, rule: Rule) -> tuple[str | None, tuple[str, ...]]:
+def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str, ...]]:
     """Return the scope a rule runs over and its instances there.
 
     It runs for each instance of what it reads of "its own" (``id``, ``id@<``,
     ``id@>``). Where that is of several scopes, it is the first for which all the
     rest can be read: a rule over axes takes of a parameter of processes the
-    entry of a control with a single process. Raises RuleFault if there is none.
+    entry of a control with a single process. Raises RuleError if there is none.
     """
     own: dict[str, bool] = {}
     for text in rule.reads.values():
@@ -201,9 +213,9 @@ def _runs_for(situation: Situation, rule: Rule) -> tuple[str | None, tuple[str, 
         if which in ("", "<", ">"):
             own[parameter_id] = own.get(parameter_id, False) or which == ""
     instances = {
-        p: situation.schema.instances(situation.schema.parameters[p], situation.machine) for p in own
+        p: evaluation.schema.instances(evaluation.schema.parameters[p], evaluation.machine) for p in own
     }
-    scopes = {p: situation.scope((p, "")) for p in own}
+    scopes = {p: evaluation.scope((p, "")) for p in own}
     if not all(instances.values()):
         return None, ()
     several = [p for p in own if instances[p] != ("",)]
@@ -211,5 +223,5 @@ def _runs_for(situation: Situation, rule: Rule) -> tuple[str | None, tuple[str, 
         if all(scopes[p] == scope or "" in instances[p] or not alone for p, alone in own.items()):
             return scope, tuple(dict.fromkeys(i for p in several if scopes[p] == scope for i in instances[p]))
     if several:
-        raise RuleFault(rule.id, f"reads {' and '.join(several)}, whose instances do not go together")
+        raise RuleError(rule.id, f"reads {' and '.join(several)}, whose instances do not go together")
     return None, ("",)

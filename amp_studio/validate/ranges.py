@@ -44,7 +44,7 @@ class _Facts:
     turning: frozenset[str] | None
     """The same on an axis that turns; None where that makes no difference."""
     own_range: bool
-    """Its range is the same for every instance and in every situation."""
+    """Its range is the same for every instance and in every evaluation."""
     fine: Verdicts = field(default_factory=Verdicts, repr=False)
     """Values with nothing wrong in them, in whatever file; only where the range is its own."""
 
@@ -95,7 +95,7 @@ class ValueChecks:
                 said = f"{facts.parameter.name} {MASKED} is not the kind of value it takes"
             return self._finding(address, value, said, self._file.default(address))
         if not _measures_right(facts, value, turns):
-            unit = self._file.situation.unit(address, self._file.header.units)
+            unit = self._file.evaluation.unit(address, self._file.header.units)
             written = show_value(facts.parameter, value)
             said = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
             return self._finding(
@@ -105,7 +105,7 @@ class ValueChecks:
             if facts.own_range:
                 facts.fine[key] = True
             return None
-        said = fault(self._file.situation, address, value)
+        said = fault(self._file.evaluation, address, value)
         if said is None:
             return None
         mended = self._file.default(address) if facts.keys else self._nearest(address, value)
@@ -117,7 +117,7 @@ class ValueChecks:
         Of a positive and a negative limit that are reversed, neither belongs at the edge of the other: that leaves an
         axis without travel. Nor does a bound that leaves a single value say which value is meant.
         """
-        allowed = limits(self._file.situation, address, value.unit)
+        allowed = limits(self._file.evaluation, address, value.unit)
         if allowed is not None and not isinstance(value.value, str):
             low = allowed.low is not None and value.value < allowed.low
             other = allowed.low_from if low else allowed.high_from
@@ -126,11 +126,11 @@ class ValueChecks:
             ):
                 return None
         return _rounded_inwards(
-            self._facts[address[0]].parameter, clip(self._file.situation, address, value), allowed
+            self._facts[address[0]].parameter, clip(self._file.evaluation, address, value), allowed
         )
 
     def _turns(self, address: Address) -> bool:
-        return self._angular is not None and self._file.situation.holds(self._angular, address[1], "axis")
+        return self._angular is not None and self._file.evaluation.holds(self._angular, address[1], "axis")
 
     def _within(self, facts: _Facts, address: Address, value: Value) -> bool:
         """Tell quickly whether a value lies in a range that depends on nothing; False says that it has to be asked."""
@@ -144,7 +144,7 @@ class ValueChecks:
         key = (address[0], value.unit)
         span = self._spans.get(key)
         if span is None:
-            allowed = limits(self._file.situation, address, value.unit)
+            allowed = limits(self._file.evaluation, address, value.unit)
             low, high = (allowed.low, allowed.high) if allowed else (None, None)
             span = self._spans[key] = (-math.inf if low is None else low, math.inf if high is None else high)
         return span[0] <= found <= span[1]
@@ -163,7 +163,7 @@ class ValueChecks:
             said + "." + forced,
             repairs,
             parameter.page,
-            compared=bounding(self._file.situation, address, value),
+            compared=bounding(self._file.evaluation, address, value),
         )
 
 

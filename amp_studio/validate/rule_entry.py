@@ -9,13 +9,13 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from amp_studio.schema.model import Model
+from amp_studio.schema.yaml_reader import KeyPath
 
 from .expression_tree import shown
 from .nearest import did_you_mean
 
 T = TypeVar("T", bound=Model)
-Place = tuple[str | int, ...]
-Slip = tuple[Place, str]
+Slip = tuple[KeyPath, str]
 """Where in an entry something is wrong, and what."""
 
 MOST = {
@@ -68,7 +68,7 @@ def _slips(wrong: list[ErrorDetails], model: type[Model]) -> list[Slip]:
     meant: set[str] = set()
     found: list[Slip] = []
     for error in wrong:
-        place: Place = error["loc"]
+        place: KeyPath = error["loc"]
         if error["type"] == "extra_forbidden" and len(place) == 1:
             known = missing if did_you_mean(str(place[0]), missing) else list(model.model_fields)
             meant |= {key for key in missing if did_you_mean(str(place[0]), [key])}

@@ -9,6 +9,7 @@ from string import Formatter
 
 from amp_studio.schema import Parameter, Rule, Schema, family_ids, load_schema, read_address
 from amp_studio.schema.units import UNITS
+from amp_studio.schema.yaml_reader import KeyPath
 
 from .expression_check import ExpressionCheck, meant
 from .expression_tree import RESERVED, ExpressionError, read_expression, shown
@@ -31,8 +32,6 @@ from .expressions import ALWAYS_THERE, TYPES
 from .formulas import rule_functions
 from .nearest import did_you_mean
 
-Place = tuple[str | int, ...]
-
 MOST_STEPS = 5_000_000
 """Of one rule over a whole file: about a quarter of a second."""
 _SHOWN = 100
@@ -46,7 +45,7 @@ _LISTS = ("*", "<", ">", ".")
 class Review:
     """What is wrong with a rule, and what it costs; ``is_ours`` where it speaks of parameters of this family."""
 
-    slips: list[tuple[Place, str]] = field(default_factory=list)
+    slips: list[tuple[KeyPath, str]] = field(default_factory=list)
     cost: int = 0
     """Of all runs over a file."""
     once: int = 0
@@ -85,9 +84,9 @@ def _read(rule: Rule) -> dict[str, tuple[str, str]]:
 # -- what it reads -------------------------------------------------------------
 
 
-def _reads_slips(rule: Rule, schema: Schema) -> Iterator[tuple[Place, str]]:
+def _reads_slips(rule: Rule, schema: Schema) -> Iterator[tuple[KeyPath, str]]:
     for name, (parameter_id, which) in _read(rule).items():
-        place: Place = ("reads", name)
+        place: KeyPath = ("reads", name)
         parameter = schema.parameters.get(parameter_id)
         if name in RESERVED:
             yield place, f"'{name}' is a word of the language and can be no name"
@@ -121,7 +120,7 @@ def _instances(schema: Schema, parameter: Parameter) -> list[str]:
 # -- names outside expressions -------------------------------------------------
 
 
-def _name_slips(rule: Rule) -> Iterator[tuple[Place, str]]:
+def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
     for key, names in (("optional", rule.optional), ("any_state", rule.any_state)):
         for n, name in enumerate(names):
             if name not in rule.reads:
@@ -153,7 +152,7 @@ def _name_slips(rule: Rule) -> Iterator[tuple[Place, str]]:
             yield ("units", name), f"{shown(unit)} is no unit{did_you_mean(unit, UNITS)}"
 
 
-def _message_slips(rule: Rule) -> Iterator[tuple[Place, str]]:
+def _message_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
     known = [*rule.reads, *rule.values, *ALWAYS_THERE]
     try:
         fields = [field for field in Formatter().parse(rule.message) if field[1] is not None]
@@ -210,7 +209,7 @@ def _fields(message: str) -> list[tuple[str, str | None, str | None, str | None]
         return []
 
 
-def _texts(rule: Rule, schema: Schema) -> Iterator[tuple[Place, str, Parameter | bool | None]]:
+def _texts(rule: Rule, schema: Schema) -> Iterator[tuple[KeyPath, str, Parameter | bool | None]]:
     """Yield place, text and what is wanted: true or false, a value of a parameter, or anything."""
     yield ("when",), rule.when, True
     yield ("check",), rule.check, True

@@ -28,7 +28,7 @@ from amp_studio.schema.units import angular
 
 from .blame import about
 from .expression_worth import LONGEST_TEXT
-from .expressions import EVALUATION_FAULTS
+from .expressions import EVALUATION_ERRORS
 from .finding import Finding, Setting
 from .formulas import rule_functions
 from .plan import Listed, RuleCheck
@@ -95,7 +95,7 @@ class RuleChecks:
         if found is None:
             try:
                 found = expressions.broken.execute(self._context(check, values)) is True
-            except EVALUATION_FAULTS:
+            except EVALUATION_ERRORS:
                 found = (
                     False  # a value of a kind the rule does not speak of; its own check says what is wrong
                 )
@@ -146,14 +146,14 @@ class RuleChecks:
         return values
 
     def _see(self, address: Address) -> Canonical:
-        situation = self._file.situation
-        counts = situation.state(address).state == "in-force"
-        found = self._seen[address] = situation.canonical(address) if counts else None
+        evaluation = self._file.evaluation
+        counts = evaluation.state(address).state == "in-force"
+        found = self._seen[address] = evaluation.canonical(address) if counts else None
         return found
 
     def _out_of_force(self, address: Address) -> Canonical:
-        situation = self._file.situation
-        return situation.canonical(address) if situation.state(address).state != "hidden" else None
+        evaluation = self._file.evaluation
+        return evaluation.canonical(address) if evaluation.state(address).state != "hidden" else None
 
     def _list_key(self, listed: Listed) -> Hashable:
         found = self._list_keys.get(listed)
@@ -173,7 +173,7 @@ class RuleChecks:
     # -- what is said ----------------------------------------------------------
 
     def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
-        rule, situation = check.rule, self._file.situation
+        rule, evaluation = check.rule, self._file.evaluation
         given = _Given(self._context(check, present), present)
         texts = {"instance": check.instance, "machine": self._machine}
         texts["application"] = self._file.header.application
@@ -184,7 +184,7 @@ class RuleChecks:
             if f"{{{name}}}" in rule.message:
                 texts[name] = ", ".join(map(self._shown, listed.addresses))
         own = [single.address for single in check.singles]
-        turns = any(situation.turns(address) for address in own)
+        turns = any(evaluation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
         is_secret = self._reads_secret(check)
         for name, expression in check.expressions.values:
@@ -193,7 +193,7 @@ class RuleChecks:
             # What is worked out of a secret can give it away.
             texts[name] = MASKED if is_secret else self._text(expression, given.context, unit, entered)
         causes, compared = (
-            tuple(a for a in addresses if situation.state(a).state != "hidden") or addresses
+            tuple(a for a in addresses if evaluation.state(a).state != "hidden") or addresses
             for addresses in about(check, given.context, present)
         )
         repairs = self._repairs(check, given)
@@ -223,7 +223,7 @@ class RuleChecks:
         """Return what was worked out: a figure in inches where the file, or a value it comes from, is; a list in commas."""
         try:
             found = expression.execute(context)
-        except EVALUATION_FAULTS:
+        except EVALUATION_ERRORS:
             return "?"
         if isinstance(found, list):
             return ", ".join(map(str, found))
@@ -265,7 +265,7 @@ class RuleChecks:
         given.context.update(after)
         try:
             return check.expressions.broken.execute(given.context) is not True
-        except EVALUATION_FAULTS:
+        except EVALUATION_ERRORS:
             return False
         finally:
             given.context.update({name: before[name] for name in after})
@@ -275,14 +275,14 @@ class RuleChecks:
         parameter = self._file.schema.parameters[address[0]]
         try:
             found = expression.execute(context)
-        except EVALUATION_FAULTS:
+        except EVALUATION_ERRORS:
             return None
         if isinstance(found, (bool, str)):
             return Value(found)
         if not isinstance(found, (int, float)) or not math.isfinite(found):
             return None
         old = self._file.values.get(address)
-        unit = old.unit if old else self._file.situation.unit(address, self._file.header.units)
+        unit = old.unit if old else self._file.evaluation.unit(address, self._file.header.units)
         number = float(f"{convert(float(found), canonical_unit(unit), unit):.12g}")
         if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
             number = round(number, parameter.decimals)

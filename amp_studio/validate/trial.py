@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from amp_studio.files import Change, ParameterFile, RangeFault
+from amp_studio.files import Change, ParameterFile, RangeError
 from amp_studio.schema import Address
 
 from .builder_rules import BuilderRules, sort_out
@@ -103,7 +103,7 @@ class Trials:
         forced = dict(file.forced)
         try:
             changes = file.set_many({repair.address: repair.value for repair in finding.repairs})
-        except RangeFault:
+        except RangeError:
             return _Tried(False, self._asked([repair.address for repair in finding.repairs]))
         try:
             return self._judge(place, finding, filed, changes)
@@ -164,7 +164,7 @@ class Trials:
         assert self._file is not None
         limit, suppressions = SEVERITIES.index(mended.severity), self._own.suppressions
         bad = (found for found in new if SEVERITIES.index(found.severity) <= limit)
-        return not any(sort_out((found,), suppressions, self._file.situation)[0] for found in bad)
+        return not any(sort_out((found,), suppressions, self._file.evaluation)[0] for found in bad)
 
     def _is_good_on_another_machine(
         self, mended: Finding, filed: Mapping[Place, tuple[object, Finding]]

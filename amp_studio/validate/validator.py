@@ -82,7 +82,7 @@ class Validator:
         """Return the present findings, errors first, in the manual's order."""
         found = sorted((*self._offered(), *self._general()), key=lambda filed: filed[0])
         stay, self.suppressed, unused = sort_out(
-            tuple(finding for _, finding in found), self.own.suppressions, self.file.situation
+            tuple(finding for _, finding in found), self.own.suppressions, self.file.evaluation
         )
         meets_nothing = (
             Finding(
@@ -130,7 +130,7 @@ class Validator:
         asked = (
             address not in self.file.values
             and not self.file.schema.parameters[address[0]].optional
-            and self.file.situation.state(address).state == "in-force"
+            and self.file.evaluation.state(address).state == "in-force"
         )
         if asked != (address in self._unset):
             self._unset ^= {address}

@@ -85,10 +85,10 @@ def test_the_line_says_what_is_wrong_and_where(amp, tmp_path: Path, kind: str, s
 
 
 def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Path, monkeypatch) -> None:
-    from amp_studio.schema import DatabaseFault
+    from amp_studio.schema import DatabaseError
 
     def broken(_: str) -> None:
-        raise DatabaseFault(tmp_path / "family.yaml", 3, "colour: Extra inputs are not permitted")
+        raise DatabaseError(tmp_path / "family.yaml", 3, "colour: Extra inputs are not permitted")
 
     monkeypatch.setattr("amp_studio.cli.console.load_schema", broken)
     for arguments in (("families",), ("schema", "9pc"), ("new", "9pc", tmp_path / "x.amp")):

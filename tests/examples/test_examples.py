@@ -44,7 +44,7 @@ def entries(path: Path) -> list[tuple[str, str]]:
 
 
 def in_force(file: ParameterFile) -> list[Address]:
-    return [a for a in file.addresses() if file.situation.state(a).state == "in-force"]
+    return [a for a in file.addresses() if file.evaluation.state(a).state == "in-force"]
 
 
 def test_nothing_is_found_wrong(example: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -76,13 +76,13 @@ def test_a_figure_of_the_manual_is_what_the_manual_prints(
     machine: Machine, folder: str, number: str, printed: str, page: str
 ) -> None:
     file = machine(folder)
-    address = file.situation.find(number)
+    address = file.evaluation.find(number)
     assert printed == show_value(file.schema.parameters[address[0]], file.get(address)), f"page {page}"
 
 
 def figure(file: ParameterFile, number: str) -> float:
     """Return a number of the file in canonical units (mm, mm/min, mm/s2)."""
-    value = file.situation.canonical(file.situation.find(number))
+    value = file.evaluation.canonical(file.evaluation.find(number))
     assert isinstance(value, float)
     return value
 

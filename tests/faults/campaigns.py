@@ -61,7 +61,7 @@ def _images(seed: int, runs: int, folder: Path) -> list[str]:
     file = new_file("9pc", "mill", ["X"])
     for address in list(file.values)[60:]:
         del file.values[address]
-    file.situation.forget()
+    file.evaluation.forget()
     damaged = image_mutations.mutants(encode_image(file), seed, runs)
     return texts.violations(damaged, image_mutations.fault_of, ())
 

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from amp_studio.files import (
     Document,
-    FileFault,
     ParameterFile,
+    ParameterFileError,
     Project,
     content_of,
     new_file,
@@ -26,9 +26,9 @@ from amp_studio.files.storage import readable_content
 from amp_studio.schema import (
     Address,
     BuilderRule,
+    InvalidValueError,
     Suppression,
     Value,
-    ValueFault,
     family_ids,
     load_schema,
     read_entries,
@@ -165,7 +165,7 @@ def fuzz_yaml(seed: int, count: int) -> list[str]:
 def fuzz_parameter_files(seed: int, count: int) -> list[str]:
     """Open damaged parameter files; what opens is saved with a change, which is all that differs afterwards."""
     return violations(
-        mutants([*[SMALL] * 60, *examples("*/*.amp")], seed, count), _open_and_save, (FileFault,)
+        mutants([*[SMALL] * 60, *examples("*/*.amp")], seed, count), _open_and_save, (ParameterFileError,)
     )
 
 
@@ -211,7 +211,9 @@ def fuzz_projects(folder: Path, seed: int, count: int) -> list[str]:
         assert again.info == project.info
         assert repr(again.info.extra) == repr(project.info.extra)
 
-    return violations(mutants([PROJECT, *examples("*/project.yaml")], seed, count), look, (FileFault,))
+    return violations(
+        mutants([PROJECT, *examples("*/project.yaml")], seed, count), look, (ParameterFileError,)
+    )
 
 
 RULES = """\
@@ -318,7 +320,7 @@ def fuzz_entries(seed: int, count: int) -> list[str]:
             file.set(address, file.read(address, text))
             readable_content(file, Path("x.amp"))
 
-        found += violations(iter([text]), look, (ValueFault,))
+        found += violations(iter([text]), look, (InvalidValueError,))
     return found
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
-from amp_studio.files import Document, SaveFault, backup_path, open_file, write_atomic
+from amp_studio.files import Document, SaveError, backup_path, open_file, write_atomic
 from amp_studio.files.paths import history_path
 from amp_studio.schema import Value
 
@@ -125,7 +125,7 @@ def test_the_mask_of_the_user_is_asked_of_nobody(tmp_path: Path, monkeypatch) ->
 def test_a_write_protected_file_is_not_replaced(small: Path, monkeypatch) -> None:
     old = small.read_bytes()
     monkeypatch.setattr(os, "access", lambda *_, **__: False)
-    with pytest.raises(SaveFault, match=r"small\.amp cannot be written: Is write-protected"):
+    with pytest.raises(SaveError, match=r"small\.amp cannot be written: Is write-protected"):
         write_atomic(small, b"new")
     assert small.read_bytes() == old
 

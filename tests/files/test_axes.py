@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.files import (
-    AxisFault,
+    AxisError,
     ParameterFile,
     axis_instances,
     axis_title,
@@ -30,7 +30,7 @@ def taken_back(file: ParameterFile, changes) -> dict:
 def axis_values(file: ParameterFile, axis: str) -> dict[str, Value]:
     """Return the values of an axis, by parameter."""
     scope = "axis"
-    return {a[0]: v for a, v in file.values.items() if a[1] == axis and file.situation.scope(a) == scope}
+    return {a[0]: v for a, v in file.values.items() if a[1] == axis and file.evaluation.scope(a) == scope}
 
 
 def test_axes_are_named_in_order_and_the_rest_is_unfitted(mill: ParameterFile) -> None:
@@ -80,14 +80,14 @@ def test_lengths_become_angles_with_the_same_figures_and_back(mill: ParameterFil
 
 def test_a_type_or_an_axis_that_does_not_exist_is_refused(mill: ParameterFile) -> None:
     before = dict(mill.values)
-    with pytest.raises(AxisFault, match="there is no axis type 'square': linear, rotary, spindle, unfitted"):
+    with pytest.raises(AxisError, match="there is no axis type 'square': linear, rotary, spindle, unfitted"):
         retype_axis(mill, "1", "square")
     for operation in (
         lambda: retype_axis(mill, "9", "linear"),
         lambda: delete_axis(mill, "9"),
         lambda: copy_axis(mill, "1", "9"),
     ):
-        with pytest.raises(AxisFault, match="there is no axis 9"):
+        with pytest.raises(AxisError, match="there is no axis 9"):
             operation()
     assert before == mill.values
 
@@ -115,7 +115,7 @@ def test_a_copied_axis_is_the_same_in_all_but_its_name(mill: ParameterFile) -> N
 )
 def test_only_axes_of_one_type_are_copied(mill: ParameterFile, source: str, target: str, said: str) -> None:
     before = dict(mill.values)
-    with pytest.raises(AxisFault, match=said):
+    with pytest.raises(AxisError, match=said):
         copy_axis(mill, source, target)
     assert before == mill.values
 
@@ -159,5 +159,5 @@ def test_a_family_without_axes_says_so(family) -> None:
     )
     file = new_file("plain")
     assert (axis_instances(file), fitted_axes(file)) == ((), ())
-    with pytest.raises(AxisFault, match="Plain control has no axes to configure"):
+    with pytest.raises(AxisError, match="Plain control has no axes to configure"):
         name_axes(file, ["X"])

@@ -15,10 +15,10 @@ from amp_studio.files import (
     Change,
     ChangedOnDisk,
     Document,
-    FileFault,
     InUse,
     ParameterFile,
-    SaveFault,
+    ParameterFileError,
+    SaveError,
     Unsaved,
     backup_path,
     open_file,
@@ -140,7 +140,7 @@ def test_what_another_program_saved_is_noticed_and_not_overwritten(
 def test_a_file_that_cannot_be_used_is_not_left_locked(on_disk: Path) -> None:
     good = on_disk.read_bytes()
     on_disk.write_bytes(good[:100])
-    with pytest.raises(FileFault):
+    with pytest.raises(ParameterFileError):
         Document.open(on_disk)
     on_disk.write_bytes(good)
     Document.open(on_disk).close()
@@ -351,7 +351,7 @@ def test_a_full_disk_does_not_cost_the_journal_that_was_there(on_disk: Path, dis
         kept = document.journal_path.read_bytes()
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         disk.fail(1, for_ever=True)
-        with pytest.raises(SaveFault):
+        with pytest.raises(SaveError):
             document.keep_unsaved()
         disk.mend()
         assert kept == document.journal_path.read_bytes()

@@ -15,7 +15,7 @@ from amp_studio.files import (
     ParameterFile,
     Project,
     ProjectInfo,
-    SaveFault,
+    SaveError,
     open_file,
     recover_backup,
     write_atomic,
@@ -61,12 +61,12 @@ def test_a_save_leaves_the_old_file_or_the_new_one(tmp_path: Path) -> None:
         elif ended.error is None:
             assert (content, backup) == (NEW, OLD), ended
         else:
-            assert isinstance(ended.error, SaveFault), ended
+            assert isinstance(ended.error, SaveError), ended
             assert (content, backup) in ((OLD, b"older"), (OLD, OLD)), ended
             assert str(ended.error).startswith(f"{path} cannot be written: "), ended
         assert not temporaries_left(ended, tmp_path), ended
         ends[type(ended.error).__name__] += 1
-    assert ends["SaveFault"] > 100
+    assert ends["SaveError"] > 100
     assert ends["KeyboardInterrupt"] > 30
     assert ends["NoneType"] > 7
 
@@ -80,7 +80,7 @@ def test_a_first_save_leaves_no_file_or_the_whole_of_it(tmp_path: Path) -> None:
     ):
         if ended.error is None:
             assert path.read_bytes() == NEW, ended
-        elif isinstance(ended.error, SaveFault):
+        elif isinstance(ended.error, SaveError):
             assert not path.exists(), ended
         else:
             assert not path.exists() or path.read_bytes() == NEW, ended
@@ -125,7 +125,7 @@ def test_a_document_whose_save_fails_can_be_saved_again(tmp_path: Path, small: P
         if ended.error is None:
             assert (on_disk, documents[0].is_dirty) == (Value(7.0, "mm"), False), ended
         elif isinstance(ended.error, OSError):
-            assert isinstance(ended.error, SaveFault), ended
+            assert isinstance(ended.error, SaveError), ended
             assert (on_disk, documents[0].is_dirty) == (Value(1.5, "mm"), True), ended
             documents[0].save()
         assert not temporaries_left(ended, folder), ended

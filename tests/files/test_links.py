@@ -12,7 +12,7 @@ from amp_studio.files import (
     InUse,
     Project,
     ProjectInfo,
-    SaveFault,
+    SaveError,
     backup_path,
     recover_backup,
     write_atomic,
@@ -77,7 +77,7 @@ def test_a_link_that_leads_to_nothing_is_not_written_through(tmp_path: Path, mil
     link = tmp_path / "link.amp"
     link.symlink_to("nowhere.amp")
     with pytest.raises(
-        SaveFault, match=r"link\.amp cannot be written: Is a link to a file that does not exist"
+        SaveError, match=r"link\.amp cannot be written: Is a link to a file that does not exist"
     ):
         write_atomic(link, b"new")
     with pytest.raises(FileExistsError, match=r"link\.amp is a link to a file that does not exist"):
@@ -92,7 +92,7 @@ def test_a_link_that_cannot_be_followed_stays_a_link(tmp_path: Path, leads_to: s
     link.symlink_to(leads_to)
     (tmp_path / "file").write_bytes(b"")
     for write in (lambda: write_atomic(link, b"new"), lambda: write_atomic(link, b"new", None)):
-        with pytest.raises(SaveFault, match=r"loop\.amp cannot be written: "):
+        with pytest.raises(SaveError, match=r"loop\.amp cannot be written: "):
             write()
     with pytest.raises(InUse, match=r"loop\.amp cannot be locked"):
         EditLock(link).take()
@@ -163,8 +163,8 @@ def test_renaming_a_link_moves_nothing_of_the_file(project: Project, on_disk: Pa
 
 
 def test_a_link_that_leads_nowhere_keeps_its_name_in_a_project(project: Project, on_disk: Path) -> None:
-    from amp_studio.files import NameFault
+    from amp_studio.files import InvalidNameError
 
     (project.folder / "taken.amp").symlink_to("nowhere")
-    with pytest.raises(NameFault, match="there is a file 'taken' already"):
+    with pytest.raises(InvalidNameError, match="there is a file 'taken' already"):
         project.copy(on_disk, "taken")

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from amp_studio.files import FileFault, ParameterFile, content_of, open_file, read_content, save_file
+from amp_studio.files import ParameterFile, ParameterFileError, content_of, open_file, read_content, save_file
 from amp_studio.schema import Value, load_schema
 
 HERE = Path("small.amp")
@@ -23,10 +23,10 @@ def edited(path: Path, old: str, new: str) -> Path:
     return path
 
 
-def refused(path: Path) -> FileFault:
+def refused(path: Path) -> ParameterFileError:
     """Return how a file is refused; it is not touched by that."""
     before = path.read_bytes()
-    with pytest.raises(FileFault) as fault:
+    with pytest.raises(ParameterFileError) as fault:
         open_file(path)
     assert before == path.read_bytes()
     assert (path, 1) == (fault.value.path, len(str(fault.value).splitlines()))
@@ -86,7 +86,7 @@ def test_a_file_cut_off_at_any_byte_is_refused_or_whole(small: Path) -> None:
         if content[:length] + b"\n" == content:  # only the last line end is missing
             assert whole == read_content(small, content[:length]).values
             continue
-        with pytest.raises(FileFault):
+        with pytest.raises(ParameterFileError):
             read_content(small, content[:length])
 
 
@@ -94,14 +94,14 @@ def test_a_file_cut_off_in_a_letter_of_two_bytes_is_refused(small: Path) -> None
     edited(small, "family: 9pc", "family: 9pc\nnotes: für Prüfstand °")
     content = small.read_bytes()
     for length in range(len(content) - 1):
-        with pytest.raises(FileFault):
+        with pytest.raises(ParameterFileError):
             read_content(small, content[:length])
 
 
 def test_a_saved_file_cut_off_at_a_line_end_says_so(on_disk: Path) -> None:
     lines = on_disk.read_bytes().splitlines(keepends=True)
     for count in range(3, len(lines) - 1, 40):
-        with pytest.raises(FileFault, match="it has been cut off"):
+        with pytest.raises(ParameterFileError, match="it has been cut off"):
             read_content(on_disk, b"".join(lines[:count]))
 
 
@@ -184,13 +184,13 @@ def test_the_line_of_a_byte_that_is_no_text_is_told(small: Path) -> None:
 
 def test_what_cannot_be_read_at_all_is_refused(tmp_path: Path) -> None:
     for path, said in ((tmp_path / "none.amp", "No such file"), (tmp_path, "Is a directory")):
-        with pytest.raises(FileFault, match=f"cannot be read: .*{said}"):
+        with pytest.raises(ParameterFileError, match=f"cannot be read: .*{said}"):
             open_file(path)
 
 
 @given(st.binary(max_size=200))
 def test_no_bytes_whatever_break_the_reader(content: bytes) -> None:
-    with pytest.raises(FileFault):
+    with pytest.raises(ParameterFileError):
         read_content(HERE, content)
 
 
@@ -200,7 +200,7 @@ def test_a_damaged_file_is_refused_or_read_and_never_breaks(at: int, noise: byte
     at %= len(content)
     try:
         said = read_content(HERE, content[:at] + noise + content[at:]).schema.family.family
-    except FileFault as fault:
+    except ParameterFileError as fault:
         said = str(fault)
     assert said == "9pc" or said.startswith("small.amp")
 

@@ -7,16 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.files import (
-    AxisFault,
+    AxisError,
     Change,
     ParameterFile,
-    RangeFault,
+    RangeError,
     describe,
     fill_defaults,
     fitted_axes,
     new_file,
 )
-from amp_studio.schema import UnknownParameter, Value, ValueFault
+from amp_studio.schema import InvalidValueError, UnknownParameterError, Value
 
 POSITIVE, NEGATIVE = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
 CALIBRATION = ("home.calibration", "1")
@@ -60,9 +60,9 @@ def test_without_axes_the_printed_ones_stay() -> None:
     [
         (("no-such",), KeyError, "no-such"),
         (("9pc", "grinder"), ValueError, "has no machine type 'grinder': lathe, mill"),
-        (("9pc", "mill", ["X", "Q"]), AxisFault, "'Q' is not a choice of Axis Name"),
-        (("9pc", "mill", ["X", ""]), AxisFault, "'' is not a choice of Axis Name"),
-        (("9pc", "mill", list("XYZABCUVW")), AxisFault, "9 axes are too many: Allen-Bradley 9/PC AMP has 8"),
+        (("9pc", "mill", ["X", "Q"]), AxisError, "'Q' is not a choice of Axis Name"),
+        (("9pc", "mill", ["X", ""]), AxisError, "'' is not a choice of Axis Name"),
+        (("9pc", "mill", list("XYZABCUVW")), AxisError, "9 axes are too many: Allen-Bradley 9/PC AMP has 8"),
     ],
 )
 def test_a_new_file_that_cannot_be_is_refused(arguments, error, said: str) -> None:
@@ -88,7 +88,7 @@ def test_a_value_is_read_in_the_unit_of_the_file_unless_it_names_its_own(mill: P
     assert Value(2.5, "mm") == mill.read(CALIBRATION, "2.5 mm")
     mill.set(("axis.type", "1"), Value("rotary"))
     assert Value(2.5, "deg") == mill.read(CALIBRATION, "2.5")
-    with pytest.raises(ValueFault, match="Home Calibration is given in °, not in mm"):
+    with pytest.raises(InvalidValueError, match="Home Calibration is given in °, not in mm"):
         mill.read(CALIBRATION, "2.5 mm")
 
 
@@ -118,7 +118,7 @@ def test_setting_what_is_set_changes_nothing_and_calls_nobody(mill: ParameterFil
 def test_an_instance_is_called_by_its_number_or_by_name_and_axis(mill: ParameterFile) -> None:
     assert describe(mill, CALIBRATION) == "1300 Home Calibration"
     assert describe(mill, ("servo.velocity_port", "1")) == "Velocity Loop Feedback Port Axis 1"
-    with pytest.raises(UnknownParameter):
+    with pytest.raises(UnknownParameterError):
         mill.find("home.nothing@1")
 
 
@@ -135,7 +135,7 @@ def test_a_pair_that_bounds_each_other_moves_together(mill: ParameterFile) -> No
 
 def test_a_pair_that_crosses_is_refused_with_both_reasons(mill: ParameterFile) -> None:
     before = dict(mill.values)
-    with pytest.raises(RangeFault) as refused:
+    with pytest.raises(RangeError) as refused:
         mill.set_many({POSITIVE: Value(1.0, "mm"), NEGATIVE: Value(2.0, "mm")})
     assert {POSITIVE, NEGATIVE} == set(refused.value.faults)
     assert "set by 1330 Negative Software Overtravel" in refused.value.faults[POSITIVE]
@@ -146,7 +146,7 @@ def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> Non
     before, heard = dict(mill.values), []
     mill.listen(heard.append)
     with pytest.raises(
-        RangeFault, match=r"Home Calibration 1e\+06 mm is outside|Home Calibration 1000000 mm is outside"
+        RangeError, match=r"Home Calibration 1e\+06 mm is outside|Home Calibration 1000000 mm is outside"
     ):
         mill.set_many({
             ("control.type", ""): Value("lathe"),
@@ -156,7 +156,7 @@ def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> Non
         })  # fmt: skip
     assert before == mill.values
     assert mill.machine == "mill"
-    assert mill.situation.unit(("home.calibration", "2"), "metric") == "mm"
+    assert mill.evaluation.unit(("home.calibration", "2"), "metric") == "mm"
     replayed = dict(before)
     for change in heard:
         assert replayed.get(change.address) == change.old
@@ -167,7 +167,7 @@ def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> Non
 def test_a_range_that_another_change_of_the_same_step_moves_counts_as_moved(mill: ParameterFile) -> None:
     """Excess Error: 214.1 mm on a slide, 1440 degrees on a spindle (page 7-20)."""
     excess = ("servo.excess_error", "1")
-    with pytest.raises(RangeFault):
+    with pytest.raises(RangeError):
         mill.set_many({excess: Value(1000.0, "deg")})
     mill.set_many({excess: Value(1000.0, "deg"), ("axis.type", "1"): Value("spindle")})
     assert Value(1000.0, "deg") == mill.get(excess)
@@ -204,7 +204,7 @@ def test_the_mark_goes_when_the_value_is_changed_or_fits_again(mill: ParameterFi
 
 def test_a_refused_step_leaves_the_marks_as_they_were(mill: ParameterFile) -> None:
     mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
-    with pytest.raises(RangeFault):
+    with pytest.raises(RangeError):
         mill.set_many({CALIBRATION: Value(1.0, "mm"), POSITIVE: Value(-1e9, "mm")})
     assert mill.forced == {CALIBRATION: "by a test"}
     assert Value(1e6, "mm") == mill.get(CALIBRATION)
@@ -226,7 +226,7 @@ def test_the_mark_stays_when_the_axis_begins_to_turn(mill: ParameterFile) -> Non
 
 
 def test_a_code_nobody_knows_needs_force(mill: ParameterFile) -> None:
-    with pytest.raises(RangeFault, match="77 is no code of Axis Type"):
+    with pytest.raises(RangeError, match="77 is no code of Axis Type"):
         mill.set_many({("axis.type", "1"): Value("raw:77")})
     mill.set_many({("axis.type", "1"): Value("raw:77")}, force="by a test")
     assert Value("raw:77") == mill.get(("axis.type", "1"))
@@ -261,7 +261,7 @@ def test_a_step_is_done_whole_or_not_at_all(wanted) -> None:
     faults = {}
     try:
         file.set_many(values)
-    except RangeFault as refused:
+    except RangeError as refused:
         faults = refused.faults
     assert file.values == (before if faults else before | values)
     assert set(faults) <= set(values)

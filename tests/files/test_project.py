@@ -8,9 +8,9 @@ import pytest
 
 from amp_studio.files import (
     Document,
-    FileFault,
     InUse,
-    NameFault,
+    InvalidNameError,
+    ParameterFileError,
     Project,
     ProjectInfo,
     backup_path,
@@ -65,7 +65,7 @@ def test_a_project_is_opened_as_it_was_made(project: Project) -> None:
 
 def test_a_folder_that_is_a_project_is_not_made_one_again(project: Project) -> None:
     before = (project.folder / "project.yaml").read_bytes()
-    with pytest.raises(NameFault, match="is a project already"):
+    with pytest.raises(InvalidNameError, match="is a project already"):
         Project.create(project.folder, ProjectInfo("Other", "9pc"))
     assert before == (project.folder / "project.yaml").read_bytes()
 
@@ -81,10 +81,10 @@ def test_a_folder_that_is_a_project_is_not_made_one_again(project: Project) -> N
 def test_a_project_that_cannot_be_is_not_made(
     tmp_path: Path, project: Project, info: ProjectInfo, said: str
 ) -> None:
-    with pytest.raises(NameFault, match=said):
+    with pytest.raises(InvalidNameError, match=said):
         Project.create(tmp_path / "other", info)
     assert not (tmp_path / "other").exists()
-    with pytest.raises(NameFault, match=said):
+    with pytest.raises(InvalidNameError, match=said):
         project.change(name=info.name, family=info.family, machine=info.machine)
     assert "Bench" == project.info.name == Project.open(project.folder).info.name
 
@@ -131,7 +131,7 @@ def test_a_project_file_that_is_not_understood_is_refused(
 ) -> None:
     path = project.folder / "project.yaml"
     path.write_text(text)
-    with pytest.raises(FileFault) as refused:
+    with pytest.raises(ParameterFileError) as refused:
         Project.open(project.folder)
     assert (path, line) == (refused.value.path, line and refused.value.line)
     assert said in refused.value.what
@@ -139,7 +139,7 @@ def test_a_project_file_that_is_not_understood_is_refused(
 
 
 def test_a_folder_without_a_project_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileFault, match=r"project\.yaml: cannot be read: No such file"):
+    with pytest.raises(ParameterFileError, match=r"project\.yaml: cannot be read: No such file"):
         Project.open(tmp_path)
 
 
@@ -172,7 +172,7 @@ def test_a_name_that_every_system_can_keep_is_taken(project: Project, name: str)
      ".hidden", "_under", "-dash", "end ", "end.", "x" * 65, "a\tb", ".amp"],
 )  # fmt: skip
 def test_a_name_that_some_system_cannot_keep_is_refused(project: Project, name: str) -> None:
-    with pytest.raises(NameFault, match="is no file name: letters, digits"):
+    with pytest.raises(InvalidNameError, match="is no file name: letters, digits"):
         project.path(name)
 
 
@@ -181,13 +181,13 @@ def test_a_name_that_some_system_cannot_keep_is_refused(project: Project, name: 
     ["con", "CON", "Aux", "nul", "PRN", "com1", "LPT9", "con.amp", "nul.old", "COM1.a.b", "com¹", "aux .x"],
 )
 def test_a_name_that_windows_keeps_for_itself_is_refused(project: Project, name: str) -> None:
-    with pytest.raises(NameFault, match="is a name that Windows keeps for itself"):
+    with pytest.raises(InvalidNameError, match="is a name that Windows keeps for itself"):
         project.path(name)
 
 
 def test_a_name_that_differs_in_case_only_is_taken_already(project: Project, with_file: Path) -> None:
     for act in (lambda: project.copy(with_file, "FIRST"), lambda: project.rename(with_file, "First")):
-        with pytest.raises(NameFault, match=r"there is a file '(FIRST|First)' already"):
+        with pytest.raises(InvalidNameError, match=r"there is a file '(FIRST|First)' already"):
             act()
     assert {"first.amp", "project.yaml"} == names(project.folder)
 
@@ -223,11 +223,11 @@ def test_what_cannot_be_copied_is_refused_and_leaves_nothing(
     broken = project.folder / "broken.amp"
     broken.write_bytes(with_file.read_bytes()[:99])
     before = names(project.folder)
-    with pytest.raises(FileFault):
+    with pytest.raises(ParameterFileError):
         project.copy(broken, "second")
-    with pytest.raises(FileFault, match="cannot be read"):
+    with pytest.raises(ParameterFileError, match="cannot be read"):
         project.copy(project.path("none"), "second")
-    with pytest.raises(NameFault, match="there is a file 'broken' already"):
+    with pytest.raises(InvalidNameError, match="there is a file 'broken' already"):
         project.copy(with_file, "broken")
     assert before == names(project.folder)
 
@@ -251,7 +251,7 @@ def test_a_file_of_another_family_is_refused(family, tmp_path: Path) -> None:
     path = tmp_path / "one.amp"
     save_file(new_file("one"), path)
     project = Project.create(tmp_path / "project", ProjectInfo("Two", "two"))
-    with pytest.raises(NameFault, match=r"one\.amp is for Control one, this project for Control two"):
+    with pytest.raises(InvalidNameError, match=r"one\.amp is for Control one, this project for Control two"):
         project.copy(path, "first")
     assert project.files() == []
 

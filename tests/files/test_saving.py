@@ -13,9 +13,9 @@ import pytest
 from amp_studio.files import (
     ChangedOnDisk,
     Document,
-    FileFault,
     ParameterFile,
-    SaveFault,
+    ParameterFileError,
+    SaveError,
     backup_path,
     content_of,
     digest_of,
@@ -162,7 +162,7 @@ def test_a_save_that_fails_at_any_call_leaves_the_old_file_and_one_that_passes_t
         old.write_bytes(OLD)
         try:
             write_atomic(old, NEW, digest(OLD))
-        except SaveFault as fault:
+        except SaveError as fault:
             seen.append(str(fault))
             assert old.read_bytes() == OLD
             raise
@@ -170,8 +170,8 @@ def test_a_save_that_fails_at_any_call_leaves_the_old_file_and_one_that_passes_t
 
     ends = failures(disk, save, for_ever)
     assert None is ends[-1]
-    assert 5 < sum(isinstance(end, SaveFault) for end in ends) == len(seen)
-    assert all(isinstance(end, SaveFault | None) for end in ends), ends
+    assert 5 < sum(isinstance(end, SaveError) for end in ends) == len(seen)
+    assert all(isinstance(end, SaveError | None) for end in ends), ends
     assert {f"{old} cannot be written: No space left on device"} == set(seen)
     assert names(old.parent) <= {"machine.amp", "machine.amp.bak"}, "no temporary file is left"
     assert backup_path(old).read_bytes() == OLD
@@ -185,13 +185,13 @@ def test_a_first_save_that_fails_leaves_no_file_at_all(tmp_path: Path, disk, for
         path.unlink(missing_ok=True)
         try:
             write_atomic(path, NEW, None)
-        except SaveFault:
+        except SaveError:
             assert set() == names(tmp_path)
             raise
         assert (NEW, {"new.amp"}) == (path.read_bytes(), names(tmp_path))
 
     ends = failures(disk, save, for_ever)
-    assert sum(isinstance(end, SaveFault) for end in ends) > 3
+    assert sum(isinstance(end, SaveError) for end in ends) > 3
     assert None is ends[-1]
 
 
@@ -214,7 +214,7 @@ def test_a_file_that_grows_too_large_for_the_disk_is_not_saved(old: Path) -> Non
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))
     try:
-        with pytest.raises(SaveFault, match="File too large"):
+        with pytest.raises(SaveError, match="File too large"):
             write_atomic(old, b"x" * 10_000, digest_of(old))
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
@@ -223,7 +223,7 @@ def test_a_file_that_grows_too_large_for_the_disk_is_not_saved(old: Path) -> Non
 
 @pytest.mark.parametrize("place", ["no/such/folder/machine.amp", "machine.amp/below"])
 def test_a_place_that_does_not_exist_is_told_in_one_line(old: Path, place: str) -> None:
-    with pytest.raises(SaveFault) as fault:
+    with pytest.raises(SaveError) as fault:
         write_atomic(old.parent / place, NEW, None)
     assert f"{old.parent / place} cannot be written: " in str(fault.value)
     assert {"machine.amp"} == names(old.parent)
@@ -231,7 +231,7 @@ def test_a_place_that_does_not_exist_is_told_in_one_line(old: Path, place: str) 
 
 def test_a_folder_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     (tmp_path / "machine.amp").mkdir()
-    with pytest.raises(SaveFault, match="Is a directory"):
+    with pytest.raises(SaveError, match="Is a directory"):
         write_atomic(tmp_path / "machine.amp", NEW, None)
     assert ({"machine.amp"}, set()) == (names(tmp_path), names(tmp_path / "machine.amp"))
 
@@ -258,7 +258,7 @@ def test_a_document_whose_save_fails_is_still_open_with_its_changes(
             before = dict(document.file.values)
 
         for end in failures(disk, save, for_ever):
-            assert isinstance(end, SaveFault | None), end
+            assert isinstance(end, SaveError | None), end
         disk.mend()
         assert before == open_file(on_disk).file.values
         document.file.set(CALIBRATION, Value(-1.0, "mm"))
@@ -356,7 +356,7 @@ def test_a_backup_that_cannot_be_read_is_not_put_in_place(on_disk: Path) -> None
         recover_backup(on_disk)
     good = on_disk.read_bytes()
     backup_path(on_disk).write_bytes(good[:200])
-    with pytest.raises(FileFault):
+    with pytest.raises(ParameterFileError):
         recover_backup(on_disk)
     assert (good, good[:200]) == (on_disk.read_bytes(), backup_path(on_disk).read_bytes())
 

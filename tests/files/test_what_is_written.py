@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from amp_studio.files import Document, ParameterFile, SaveFault, content_of, new_file, open_file, read_content
+from amp_studio.files import Document, ParameterFile, SaveError, content_of, new_file, open_file, read_content
 from amp_studio.files.storage import readable_content
-from amp_studio.schema import Value, ValueFault, family_ids, load_schema
+from amp_studio.schema import InvalidValueError, Value, family_ids, load_schema
 
 HERE = Path("x.amp")
 GAIN = ("gain.integral", "X")
@@ -41,7 +41,7 @@ def test_a_value_that_could_not_be_read_back_is_refused_and_nothing_is_changed(
     before = path.read_bytes()
     with Document.open(path) as document:
         document.file.values[GAIN] = value
-        with pytest.raises(SaveFault, match=r"a\.amp was not written: .*gain\.integral@X"):
+        with pytest.raises(SaveError, match=r"a\.amp was not written: .*gain\.integral@X"):
             document.save()
     assert (path.read_bytes(), [p.name for p in tmp_path.iterdir()]) == (before, ["a.amp"])
 
@@ -57,7 +57,7 @@ def test_half_a_character_is_refused_in_a_header_a_mark_and_a_text(tmp_path: Pat
     ):
         file = new_file("57c422b", name="A")
         change(file)
-        with pytest.raises(SaveFault, match="was not written: "):
+        with pytest.raises(SaveError, match="was not written: "):
             readable_content(file, HERE)
 
 
@@ -131,7 +131,7 @@ def test_whatever_a_person_may_say_of_a_value_is_written_and_read_back_equal(fam
     said = data.draw(st.one_of(ODD, st.sampled_from(labels)) if labels else ODD)
     try:
         value = file.read(address, said)
-    except ValueFault:
+    except InvalidValueError:
         return
     file.set(address, value)
     file.forced[address] = "on a day by a test"

@@ -153,7 +153,7 @@ def a_file(family: str) -> ParameterFile:
 def refusal(file: ParameterFile, name: str, text: str) -> str | None:
     """Return why a value cannot be entered."""
     address = file.find(name)
-    return fault(file.situation, address, file.read(address, text))
+    return fault(file.evaluation, address, file.read(address, text))
 
 
 @pytest.mark.parametrize("family", VALUES)

@@ -48,7 +48,7 @@ def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: Paramete
     for axis, section in zip("12345", sections[:-1], strict=True):
         assert {r.instance for part in section.parts for r in part.rows} == {axis}
     rest = {(r.id, r.instance) for part in sections[-1].parts for r in part.rows}
-    assert {mill.situation.scope(address) for address in rest} <= {"global", "process", "spindle"}
+    assert {mill.evaluation.scope(address) for address in rest} <= {"global", "process", "spindle"}
 
 
 def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: ParameterFile) -> None:
@@ -88,7 +88,7 @@ def test_every_existing_value_of_a_fitted_axis_is_printed_once(mill: ParameterFi
     for parameter, instance in mill.addresses():
         layout = mill.schema.layout(mill.schema.parameters[parameter], mill.machine)
         is_fitted = layout is None or layout.scope != "axis" or instance in axes
-        exists = mill.situation.state((parameter, instance)).state != "hidden"
+        exists = mill.evaluation.state((parameter, instance)).state != "hidden"
         assert printed.count((parameter, instance)) == int(is_fitted and exists), (parameter, instance)
 
 

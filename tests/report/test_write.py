@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Header, ParameterFile, SaveFault, new_file
+from amp_studio.files import Header, ParameterFile, SaveError, new_file
 from amp_studio.report import FORMATS, SORTS, write_report
 from amp_studio.report.model import Sort
 from amp_studio.schema import Value, family_ids, load_schema
@@ -98,7 +98,7 @@ def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
 
 
 def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:
-    with pytest.raises(SaveFault, match=r"report\.txt cannot be written: No such file or directory"):
+    with pytest.raises(SaveError, match=r"report\.txt cannot be written: No such file or directory"):
         write_report(mill, tmp_path / "nowhere" / "report.txt")
 
 

@@ -8,7 +8,7 @@ from textwrap import dedent
 
 import pytest
 
-from amp_studio.schema import Address, Schema, Situation, Value, load_schema, read_address
+from amp_studio.schema import Address, Evaluation, Schema, Value, load_schema, read_address
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
 
@@ -59,18 +59,18 @@ class Facts:
 
 
 class Machine:
-    """One machine of a family: its values, and the situation they make."""
+    """One machine of a family: its values, and what follows from them."""
 
     def __init__(self, schema: Schema, values: Mapping[str, Value] = {}, machine: str = "") -> None:
         self.schema = schema
         self.values: dict[Address, Value] = {read_address(name): value for name, value in values.items()}
         self.machine = machine or schema.family.default_machine
-        self.situation = Situation(schema, self.values.get, lambda: self.machine)
+        self.evaluation = Evaluation(schema, self.values.get, lambda: self.machine)
 
     def set(self, name: str, value: Value) -> None:
         """Set one value and say so."""
         self.values[read_address(name)] = value
-        self.situation.changed(read_address(name))
+        self.evaluation.changed(read_address(name))
 
 
 @pytest.fixture

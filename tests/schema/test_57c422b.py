@@ -101,7 +101,7 @@ def test_engineering_units_become_register_numbers(
 ) -> None:
     address = file.find(name)
     value = file.read(address, text)
-    assert fault(file.situation, address, value) is None
+    assert fault(file.evaluation, address, value) is None
     assert stored_number(file.schema.parameters[address[0]], value, turns=False) == stored
 
 
@@ -129,21 +129,21 @@ REFUSED = [
 def test_what_a_register_cannot_hold_or_may_not_is_refused(
     file: ParameterFile, name: str, value: Value
 ) -> None:
-    assert fault(file.situation, file.find(name), value) is not None
+    assert fault(file.evaluation, file.find(name), value) is not None
 
 
 @pytest.mark.parametrize(("mode", "most"), [("0x0000", 3830), ("0x0001", 1915), ("0x0100", 956)])
 def test_a_cam_table_has_so_many_points(file: ParameterFile, mode: str, most: int) -> None:
     """Page 4-57: bytes, words, positions."""
     file.set(file.find("R130"), file.read(file.find("R130"), mode))
-    assert fault(file.situation, file.find("R128"), Value(most)) is None
-    assert fault(file.situation, file.find("R128"), Value(most + 1)) is not None
+    assert fault(file.evaluation, file.find("R128"), Value(most)) is None
+    assert fault(file.evaluation, file.find("R128"), Value(most + 1)) is not None
 
 
 def points_in_force(file: ParameterFile) -> dict[str, int]:
     """Return how many entries of each form of the table of X exist."""
     forms = ("cam.time_points", "cam.byte_points", "cam.position_points")
-    state = file.situation.state
+    state = file.evaluation.state
     return {
         form: sum(state(a).state == "in-force" for a in file.addresses() if a[0] == form and a[1][0] == "X")
         for form in forms
@@ -182,7 +182,7 @@ def test_two_bytes_of_a_table_are_set_one_by_one(file: ParameterFile) -> None:
     assert [field_value(field_at(parameter, n), 0x80FF) for n in (0, 8)] == [-1, -128]
     file.set(file.find("R130"), Value(8))
     file.set(file.find("R128"), Value(4))
-    assert file.situation.find_bit("R133.8") == (("cam.byte_points", "X.1"), 8)
+    assert file.evaluation.find_bit("R133.8") == (("cam.byte_points", "X.1"), 8)
 
 
 def test_gear_ratio_is_one_pair_or_two_numbers(file: ParameterFile) -> None:
@@ -190,8 +190,8 @@ def test_gear_ratio_is_one_pair_or_two_numbers(file: ParameterFile) -> None:
     assert file.find("R25") == ("command.gear_ratio", "X")
     file.set(file.find("R38"), Value(4))
     assert file.find("R25") == ("command.gear_numerator", "X")
-    assert file.situation.state(("command.gear_denominator", "X")).state == "in-force"
-    assert file.situation.state(("command.gear_ratio", "X")).state == "hidden"
+    assert file.evaluation.state(("command.gear_denominator", "X")).state == "in-force"
+    assert file.evaluation.state(("command.gear_ratio", "X")).state == "hidden"
 
 
 @pytest.mark.parametrize(
@@ -208,7 +208,7 @@ def test_what_is_linear_has_limits_and_what_is_rotary_unwinds(
 ) -> None:
     """Pages 4-10, 4-11, 4-19 and 4-20, by bits 4 and 12 of register 0."""
     file.set(file.find("R0"), Value(encoder))
-    out = {a[0] for a in file.addresses() if a[1] == "X" and file.situation.state(a).state == "ignored"}
+    out = {a[0] for a in file.addresses() if a[1] == "X" and file.evaluation.state(a).state == "ignored"}
     assert out == ignored
 
 

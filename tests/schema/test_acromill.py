@@ -7,7 +7,7 @@ import re
 import pytest
 
 from amp_studio.files import new_file
-from amp_studio.schema import Schema, Value, ValueFault, convert, load_schema, read_value, show_value
+from amp_studio.schema import InvalidValueError, Schema, Value, convert, load_schema, read_value, show_value
 
 
 @pytest.fixture(scope="module")
@@ -91,10 +91,10 @@ def test_a_table_has_as_many_entries_as_the_guide_says(acromill: Schema, paramet
 
 def test_an_axis_beyond_the_number_of_axes_is_not_there() -> None:
     file = new_file("acromill")
-    states = [file.situation.state(("servo.p_gain", axis)).state for axis in "XYZABCUV"]
+    states = [file.evaluation.state(("servo.p_gain", axis)).state for axis in "XYZABCUV"]
     assert states == ["in-force"] * 8, "unset, all eight are there"
     file.set(("view.number_of_axes", ""), Value(3))
-    states = [file.situation.state(("servo.p_gain", axis)).state for axis in "XYZABCUV"]
+    states = [file.evaluation.state(("servo.p_gain", axis)).state for axis in "XYZABCUV"]
     assert states == ["in-force"] * 3 + ["hidden"] * 5
 
 
@@ -110,7 +110,7 @@ def test_pulses_per_unit_know_their_unit() -> None:
     file = new_file("acromill")
     address = ("axes.pulses_per_unit", "X")
     assert file.get(address) == Value(10000.0, "counts/in")
-    assert [file.situation.unit(address, system) for system in ("metric", "inch")] == [
+    assert [file.evaluation.unit(address, system) for system in ("metric", "inch")] == [
         "counts/mm",
         "counts/in",
     ]
@@ -137,7 +137,7 @@ def test_a_gain_is_read_with_and_without_its_unit(acromill: Schema, text: str, e
 def test_a_gain_is_not_taken_for_another() -> None:
     parameter = load_schema("acromill").parameter("servo.d_gain")
     assert show_value(parameter, Value(0.00021, "Vs/count")) == "0.00021 V·s/count"
-    with pytest.raises(ValueFault, match=r"D Gain is given in V·s/count, not in V/count"):
+    with pytest.raises(InvalidValueError, match=r"D Gain is given in V·s/count, not in V/count"):
         read_value(parameter, "0.08 V/count", "Vs/count")
 
 

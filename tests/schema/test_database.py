@@ -10,9 +10,9 @@ import pytest
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import (
     Address,
+    Evaluation,
     Parameter,
     Schema,
-    Situation,
     Value,
     canonical,
     dimension,
@@ -140,11 +140,11 @@ def test_every_condition_reads_what_exists_and_uses_what_it_reads(schema: Schema
     for name, condition in schema.family.conditions.items():
         assert set() == set(condition.reads) - set(program(condition.when).variables()), name
         for machine in machines_of(schema):
-            situation = Situation(schema, lambda _: None, lambda machine=machine: machine)
+            evaluation = Evaluation(schema, lambda _: None, lambda machine=machine: machine)
             for text in condition.reads.values():
                 parameter = schema.parameter(read_address(text)[0])
                 for instance in schema.instances(parameter, machine):
-                    assert situation.reading(text, instance).addresses is not None, (name, text)
+                    assert evaluation.reading(text, instance).addresses is not None, (name, text)
         assert condition.why.strip(), name
 
 
@@ -162,9 +162,9 @@ def filled(schema: Schema) -> Iterator[ParameterFile]:
 def test_every_state_can_be_told_on_every_machine_with_every_axis_type(schema: Schema) -> None:
     for file in filled(schema):
         for address in file.addresses():
-            found = file.situation.state(address)
+            found = file.evaluation.state(address)
             assert (found.state == "in-force") == (found.why == ""), address
-            assert file.situation.unit(address, "metric") in UNITS
+            assert file.evaluation.unit(address, "metric") in UNITS
 
 
 def test_every_range_runs_from_low_to_high_in_a_unit_of_its_quantity(schema: Schema) -> None:
@@ -218,7 +218,7 @@ def test_every_printed_default_is_in_its_printed_range(schema: Schema) -> None:
         faults = {
             a[0]: said
             for a in file.addresses()
-            if (d := file.default(a)) and (said := fault(file.situation, a, d))
+            if (d := file.default(a)) and (said := fault(file.evaluation, a, d))
         }
         assert set(known) == set(faults), faults
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import FileFault, NameFault, Project, ProjectInfo, open_file
+from amp_studio.files import InvalidNameError, ParameterFileError, Project, ProjectInfo, open_file
 from amp_studio.schema import UnknownFamilyError, database_folder, family_ids, load_schema
 from amp_studio.schema import load as loading
 from amp_studio.schema.load import compile_family
@@ -39,7 +39,7 @@ def test_what_is_no_family_id_is_refused_in_one_short_sentence_wherever_it_stand
     assert sentence.startswith("Unknown family '")
     assert sentence.endswith("'. Known: " + ", ".join(family_ids()))
     assert (len(sentence) < 200, sentence.isprintable()) == (True, True)
-    with pytest.raises(NameFault):
+    with pytest.raises(InvalidNameError):
         Project.create(tmp_path / "p", ProjectInfo("x", said))
     (tmp_path / "x.csv").write_text("id,value,unit\n")
     if said:
@@ -57,7 +57,7 @@ def test_a_file_that_names_none_is_refused_and_touches_nothing(tmp_path: Path, s
     (folder / "a.amp").write_text(f"amp_studio: 1\nfamily: {said}\nvalues: {{}}\n...\n")
     before = {p: p.read_bytes() if p.is_file() else b"" for p in tmp_path.rglob("*")}
     with pytest.raises(
-        FileFault, match=r"a\.amp(, line 2)?: (Unknown family|names no control family)"
+        ParameterFileError, match=r"a\.amp(, line 2)?: (Unknown family|names no control family)"
     ) as error:
         open_file(folder / "a.amp")
     assert len(str(error.value)) < 500

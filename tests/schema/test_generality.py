@@ -9,9 +9,9 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.schema import (
-    UnknownParameter,
+    InvalidValueError,
+    UnknownParameterError,
     Value,
-    ValueFault,
     clip,
     fault,
     limits,
@@ -61,17 +61,17 @@ def test_one_number_of_two_parameters_is_told_apart_by_the_axis_type(facts, head
         facts.schema(SHARED, head + SPINDLE_AXIS),
         {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
     )
-    assert here.situation.find("1013") == ("servo.motor_teeth", "1")
-    assert here.situation.find("2013") == ("spindle.motor_teeth", "2")
-    assert "outside 1 to 99" in str(fault(here.situation, here.situation.find("2013"), Value(100)))
-    assert fault(here.situation, here.situation.find("1013"), Value(100)) is None
+    assert here.evaluation.find("1013") == ("servo.motor_teeth", "1")
+    assert here.evaluation.find("2013") == ("spindle.motor_teeth", "2")
+    assert "outside 1 to 99" in str(fault(here.evaluation, here.evaluation.find("2013"), Value(100)))
+    assert fault(here.evaluation, here.evaluation.find("1013"), Value(100)) is None
 
 
 def test_the_number_follows_when_the_axis_becomes_a_spindle(facts, head, machine) -> None:
     here = machine(facts.schema(SHARED, head + SPINDLE_AXIS), {"axis.type@1": Value("linear")})
-    assert here.situation.find("1013") == ("servo.motor_teeth", "1")
+    assert here.evaluation.find("1013") == ("servo.motor_teeth", "1")
     here.set("axis.type@1", Value("spindle"))
-    assert here.situation.find("1013") == ("spindle.motor_teeth", "1")
+    assert here.evaluation.find("1013") == ("spindle.motor_teeth", "1")
 
 
 def test_a_shared_number_is_found_even_where_something_else_hides_both(facts, head, machine) -> None:
@@ -84,9 +84,9 @@ def test_a_shared_number_is_found_even_where_something_else_hides_both(facts, he
         facts.schema(text, head + conditions),
         {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
     )
-    assert here.situation.state(("servo.motor_teeth", "1")).state == "hidden"
-    assert here.situation.find("1013") == ("servo.motor_teeth", "1")
-    assert here.situation.find("2013") == ("spindle.motor_teeth", "2")
+    assert here.evaluation.state(("servo.motor_teeth", "1")).state == "hidden"
+    assert here.evaluation.find("1013") == ("servo.motor_teeth", "1")
+    assert here.evaluation.find("2013") == ("spindle.motor_teeth", "2")
 
 
 def test_a_number_that_nothing_tells_apart_is_refused_with_both_ids(facts, machine) -> None:
@@ -94,8 +94,8 @@ def test_a_number_that_nothing_tells_apart_is_refused_with_both_ids(facts, machi
         "states: [{state: hidden, unless: spindle_axis}]", ""
     )
     here = machine(facts.schema(text))
-    with pytest.raises(UnknownParameter, match=r"servo\.motor_teeth@1 or spindle\.motor_teeth@1.*by id"):
-        here.situation.find("1013")
+    with pytest.raises(UnknownParameterError, match=r"servo\.motor_teeth@1 or spindle\.motor_teeth@1.*by id"):
+        here.evaluation.find("1013")
 
 
 def test_a_number_printed_for_two_parameters_belongs_to_the_undisputed_one(facts, machine) -> None:
@@ -116,7 +116,7 @@ def test_a_number_printed_for_two_parameters_belongs_to_the_undisputed_one(facts
         page: "7-46"
     """)
     here = machine(schema)
-    assert here.situation.find("3020") == ("zone.overtravel_used", "3")
+    assert here.evaluation.find("3020") == ("zone.overtravel_used", "3")
     assert schema.short(("zone.overtravel_used", "3"), "mill") == "3020"
     assert schema.short(("servo.velocity_port", "3"), "mill") == "servo.velocity_port@3"
     assert schema.label(("servo.velocity_port", "3"), "mill") == "Velocity Loop Feedback Port Axis 3"
@@ -143,13 +143,13 @@ def test_the_numbers_of_a_parameter_may_differ_between_mill_and_lathe(facts, mac
         help: {what: The life of a tool on a mill.}
         page: "20-4"
     """)
-    assert machine(schema, machine="mill").situation.find("97") == ("tool.wear", "")
-    assert machine(schema, machine="mill").situation.find("98") == ("tool.life", "")
-    assert machine(schema, machine="lathe").situation.find("98") == ("tool.wear", "")
-    with pytest.raises(UnknownParameter, match="'97' is no parameter"):
-        machine(schema, machine="lathe").situation.find("97")
-    with pytest.raises(UnknownParameter, match="does not exist on this machine type"):
-        machine(schema, machine="lathe").situation.find("tool.life")
+    assert machine(schema, machine="mill").evaluation.find("97") == ("tool.wear", "")
+    assert machine(schema, machine="mill").evaluation.find("98") == ("tool.life", "")
+    assert machine(schema, machine="lathe").evaluation.find("98") == ("tool.wear", "")
+    with pytest.raises(UnknownParameterError, match="'97' is no parameter"):
+        machine(schema, machine="lathe").evaluation.find("97")
+    with pytest.raises(UnknownParameterError, match="does not exist on this machine type"):
+        machine(schema, machine="lathe").evaluation.find("tool.life")
 
 
 def test_the_scope_of_a_parameter_may_differ_between_mill_and_lathe(facts, machine) -> None:
@@ -168,11 +168,11 @@ def test_the_scope_of_a_parameter_may_differ_between_mill_and_lathe(facts, machi
     assert schema.addresses("mill") == (("plane.radius", ""),)
     assert schema.addresses("lathe") == (("plane.radius", "1"), ("plane.radius", "2"), ("plane.radius", "3"))
     mill, lathe = machine(schema, machine="mill"), machine(schema, machine="lathe")
-    assert mill.situation.find("100") == ("plane.radius", "")
-    assert lathe.situation.find("2100") == ("plane.radius", "2")
+    assert mill.evaluation.find("100") == ("plane.radius", "")
+    assert lathe.evaluation.find("2100") == ("plane.radius", "2")
     for here, address in ((mill, ("plane.radius", "")), (lathe, ("plane.radius", "2"))):
-        assert fault(here.situation, address, Value(10.0, "mm")) is None
-        assert "outside 0 to 10 mm" in str(fault(here.situation, address, Value(10.1, "mm")))
+        assert fault(here.evaluation, address, Value(10.0, "mm")) is None
+        assert "outside 0 to 10 mm" in str(fault(here.evaluation, address, Value(10.1, "mm")))
 
 
 def test_axis_1_is_not_taken_for_process_1(facts, head, machine) -> None:
@@ -205,12 +205,12 @@ def test_axis_1_is_not_taken_for_process_1(facts, head, machine) -> None:
         + "conditions:\n  no_groups: {reads: {groups: zone.groups}, when: groups == 0.0, why: no groups}\n",
     )
     here = machine(schema, {"zone.groups": Value(1), "zone.groups@1": Value(0), "zone.groups@2": Value(1)})
-    assert here.situation.state(("zone.limit", "1")).state == "in-force"
-    assert here.situation.state(("zone.speed", "1")).state == "ignored"
-    assert here.situation.state(("zone.speed", "2")).state == "in-force"
+    assert here.evaluation.state(("zone.limit", "1")).state == "in-force"
+    assert here.evaluation.state(("zone.speed", "1")).state == "ignored"
+    assert here.evaluation.state(("zone.speed", "2")).state == "in-force"
     here.set("zone.groups", Value(0))
-    assert here.situation.state(("zone.limit", "1")).state == "ignored"
-    assert {("zone.groups", "")} == here.situation.state_reads(("zone.limit", "1"))
+    assert here.evaluation.state(("zone.limit", "1")).state == "ignored"
+    assert {("zone.groups", "")} == here.evaluation.state_reads(("zone.limit", "1"))
 
 
 # -- ranges ---------------------------------------------------------------------------------------
@@ -236,12 +236,12 @@ def test_a_bound_may_be_another_parameter_of_the_same_axis(facts, machine) -> No
         page: "6-8"
     """)
     here = machine(schema, {"zone.min@1": Value(25.4, "mm"), "zone.min@2": Value(50.0, "mm")})
-    assert fault(here.situation, ("zone.max", "1"), Value(25.4, "mm")) is None
-    assert fault(here.situation, ("zone.max", "1"), Value(1.0, "in")) is None
-    said = fault(here.situation, ("zone.max", "1"), Value(0.9, "in"))
+    assert fault(here.evaluation, ("zone.max", "1"), Value(25.4, "mm")) is None
+    assert fault(here.evaluation, ("zone.max", "1"), Value(1.0, "in")) is None
+    said = fault(here.evaluation, ("zone.max", "1"), Value(0.9, "in"))
     assert said == "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum, 25.4 mm)"
-    assert fault(here.situation, ("zone.max", "2"), Value(49.0, "mm")) is not None
-    assert fault(here.situation, ("zone.max", "3"), Value(-1e9, "mm")) is None, (
+    assert fault(here.evaluation, ("zone.max", "2"), Value(49.0, "mm")) is not None
+    assert fault(here.evaluation, ("zone.max", "3"), Value(-1e9, "mm")) is None, (
         "an unset bound bounds nothing"
     )
 
@@ -267,10 +267,10 @@ def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
         {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
     )
     slide, spindle = ("servo.excess_error", "1"), ("servo.excess_error", "2")
-    assert (here.situation.unit(slide, "metric"), here.situation.unit(spindle, "inch")) == ("mm", "deg")
-    assert fault(here.situation, spindle, Value(1440.0, "deg")) is None
-    assert "outside 0 to 1440 °" in str(fault(here.situation, spindle, Value(1440.1, "deg")))
-    assert "outside 0 to 214.1 mm" in str(fault(here.situation, slide, Value(1440.0, "mm")))
+    assert (here.evaluation.unit(slide, "metric"), here.evaluation.unit(spindle, "inch")) == ("mm", "deg")
+    assert fault(here.evaluation, spindle, Value(1440.0, "deg")) is None
+    assert "outside 0 to 1440 °" in str(fault(here.evaluation, spindle, Value(1440.1, "deg")))
+    assert "outside 0 to 214.1 mm" in str(fault(here.evaluation, slide, Value(1440.0, "mm")))
 
 
 def test_a_value_is_entered_in_one_unit_and_stored_in_another(facts, machine) -> None:
@@ -288,11 +288,14 @@ def test_a_value_is_entered_in_one_unit_and_stored_in_another(facts, machine) ->
     """)
     here, rapid = machine(schema), ("feedrate.rapid", "1")
     parameter = schema.parameter("feedrate.rapid")
-    assert (here.situation.unit(rapid, "metric"), here.situation.unit(rapid, "inch")) == ("mm/min", "in/min")
+    assert (here.evaluation.unit(rapid, "metric"), here.evaluation.unit(rapid, "inch")) == (
+        "mm/min",
+        "in/min",
+    )
     assert parameter.storage.unit == "mm/s"
     assert Value(100.0, "mm/s") == read_value(parameter, "100 mm/s", "mm/min")
-    assert fault(here.situation, rapid, Value(169.333334, "mm/s")) is None
-    assert fault(here.situation, rapid, Value(169.33334, "mm/s")) is not None, "10160.0004 mm/min"
+    assert fault(here.evaluation, rapid, Value(169.333334, "mm/s")) is None
+    assert fault(here.evaluation, rapid, Value(169.33334, "mm/s")) is not None, "10160.0004 mm/min"
 
 
 # -- forms of values ------------------------------------------------------------------------------
@@ -325,7 +328,7 @@ def test_a_number_format_is_no_fraction(word_format, text: str, expected: str) -
 
 @pytest.mark.parametrize("text", ["3", "3.", ".4", "3.4 mm", "-3.4", "3.4.5", "three", ""])
 def test_what_is_no_number_format_is_refused(word_format, text: str) -> None:
-    with pytest.raises(ValueFault, match="digits before and behind the point"):
+    with pytest.raises(InvalidValueError, match="digits before and behind the point"):
         read_value(word_format.parameter("word.format"), text, "")
 
 
@@ -335,7 +338,7 @@ def test_what_is_no_number_format_is_refused(word_format, text: str) -> None:
 def test_each_part_of_a_number_format_has_its_own_bound(
     word_format, machine, form: str, allowed: bool
 ) -> None:
-    said = fault(machine(word_format).situation, ("word.format", ""), Value(form))
+    said = fault(machine(word_format).evaluation, ("word.format", ""), Value(form))
     assert (None if allowed else f"X Word Format {form} is outside 0.0 to 6.4") == said
 
 
@@ -357,9 +360,9 @@ def test_a_whole_number_is_mended_to_a_whole_number_inside(
         page: "1"
     """)
     here = machine(schema)
-    assert expected == clip(here.situation, ("a.whole", ""), value)
-    assert fault(here.situation, ("a.whole", ""), clip(here.situation, ("a.whole", ""), value)) is None
+    assert expected == clip(here.evaluation, ("a.whole", ""), value)
+    assert fault(here.evaluation, ("a.whole", ""), clip(here.evaluation, ("a.whole", ""), value)) is None
     assert (
-        limits(here.situation, ("a.whole", ""), "").low,
-        limits(here.situation, ("a.whole", ""), "").high,
+        limits(here.evaluation, ("a.whole", ""), "").low,
+        limits(here.evaluation, ("a.whole", ""), "").high,
     ) == (0.5, 3.5)

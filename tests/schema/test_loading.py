@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.schema import DatabaseFault, compiled_cache, family_ids, load_schema
+from amp_studio.schema import DatabaseError, compiled_cache, family_ids, load_schema
 from amp_studio.schema import load as loading
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family, database_folder, load_compiled
@@ -80,7 +80,7 @@ def test_good_facts_load(facts, head) -> None:
 def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
     text = GOOD.replace(old, new, 1)
     assert text != GOOD
-    with pytest.raises(DatabaseFault) as refused:
+    with pytest.raises(DatabaseError) as refused:
         facts.schema(text, head + SLOW)
     assert (facts.folder / "groups" / "all.yaml") == refused.value.path
     assert said in refused.value.what
@@ -118,7 +118,7 @@ def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, mar
 )
 def test_a_fault_in_the_family_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
     text = (head + SLOW).replace(old, new, 1)
-    with pytest.raises(DatabaseFault) as refused:
+    with pytest.raises(DatabaseError) as refused:
         facts.schema(GOOD, text)
     assert (refused.value.path.name, said in refused.value.what) == ("family.yaml", True)
     assert line_with(refused.value.path, marked) == refused.value.line
@@ -126,16 +126,16 @@ def test_a_fault_in_the_family_is_told_with_file_and_line(facts, head, old, new,
 
 def test_a_group_file_that_is_missing_empty_or_another_is_told(facts, head) -> None:
     facts.write("family.yaml", head)
-    with pytest.raises(DatabaseFault, match=r"all\.yaml: .*No such file"):
+    with pytest.raises(DatabaseError, match=r"all\.yaml: .*No such file"):
         compile_family(facts.folder)
     facts.write("groups/all.yaml", "")
-    with pytest.raises(DatabaseFault, match=r"all\.yaml, line 1: "):
+    with pytest.raises(DatabaseError, match=r"all\.yaml, line 1: "):
         compile_family(facts.folder)
     facts.group("  []", key="all").write_text('key: other\nname: All\nchapter: "1"\nparameters: []\n')
-    with pytest.raises(DatabaseFault, match=r"all\.yaml, line 1: its key is 'other'"):
+    with pytest.raises(DatabaseError, match=r"all\.yaml, line 1: its key is 'other'"):
         compile_family(facts.folder)
     (facts.folder / "groups" / "all.yaml").write_bytes(b"key: all\nname: \xff\n")
-    with pytest.raises(DatabaseFault, match=r"all\.yaml, line 2: is not UTF-8 text"):
+    with pytest.raises(DatabaseError, match=r"all\.yaml, line 2: is not UTF-8 text"):
         compile_family(facts.folder)
 
 
@@ -155,7 +155,7 @@ def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts, head) -> None:
             page: "1"
         """,
     )
-    with pytest.raises(DatabaseFault) as refused:
+    with pytest.raises(DatabaseError) as refused:
         compile_family(facts.folder)
     assert (4, path) == (refused.value.line, refused.value.path)
     assert refused.value.what.startswith("small.order: severity: ")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.schema import UnknownParameter
+from amp_studio.schema import UnknownParameterError
 
 NUMBERS = {
     "password.character": {"1": "101", "2": "102", "3": "103", "4": "104", "5": "105", "6": "106"},
@@ -23,7 +23,9 @@ def test_every_instance_has_the_number_that_is_printed(ninepc, machine, name: st
     """Pages 33-10 to 33-13, 34-5, 37-3 and A-5."""
     numbers = {i: ninepc.number((name, i), "mill") for i in ninepc.instances(ninepc.parameter(name), "mill")}
     assert {i: str(number) for i, number in numbers.items()} == NUMBERS[name]
-    assert [(name, i) for i in numbers] == [machine(ninepc).situation.find(n) for n in NUMBERS[name].values()]
+    assert [(name, i) for i in numbers] == [
+        machine(ninepc).evaluation.find(n) for n in NUMBERS[name].values()
+    ]
 
 
 def test_the_factory_password_is_ab_d4_and_a_space(ninepc) -> None:
@@ -34,16 +36,16 @@ def test_the_factory_password_is_ab_d4_and_a_space(ninepc) -> None:
 
 @pytest.mark.parametrize(("buffer", "state"), [("1", "in-force"), ("2", "ignored"), ("4", "ignored")])
 def test_only_the_first_background_buffer_is_in_use(ninepc, machine, buffer: str, state: str) -> None:
-    assert machine(ninepc).situation.state(("oci.background_buffer", buffer)).state == state
+    assert machine(ninepc).evaluation.state(("oci.background_buffer", buffer)).state == state
 
 
 @pytest.mark.parametrize(("kind", "state"), [("lathe", "in-force"), ("mill", "hidden")])
 def test_the_threading_word_is_one_of_the_lathe(ninepc, machine, kind: str, state: str) -> None:
     here = machine(ninepc, machine=kind)
-    assert here.situation.state(("control.threading_word", "")).state == state
+    assert here.evaluation.state(("control.threading_word", "")).state == state
 
 
 def test_chapter_35_adds_no_number(ninepc, machine) -> None:
     assert "35" not in {group.chapter for group in ninepc.groups}
-    with pytest.raises(UnknownParameter):
-        machine(ninepc).situation.find("340")
+    with pytest.raises(UnknownParameterError):
+        machine(ninepc).evaluation.find("340")

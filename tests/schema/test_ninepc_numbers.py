@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from amp_studio.schema import Schema, Situation, UnknownParameter, Value
+from amp_studio.schema import Evaluation, Schema, UnknownParameterError, Value
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import Compiled, load_compiled
 from amp_studio.schema.model import Parameter
@@ -36,12 +36,12 @@ def test_a_number_means_what_the_axis_is(
     if loop is not None:
         values |= {f"servo.hardware_type@{axis}": Value("sercos"), f"servo.loop_type@{axis}": Value(loop)}
     name, _, instance = expected.partition("@")
-    assert (name, instance) == machine(ninepc, values).situation.find(number)
+    assert (name, instance) == machine(ninepc, values).evaluation.find(number)
 
 
 def test_the_parameter_whose_number_is_disputed_is_reached_by_its_id(ninepc, machine) -> None:
     here = machine(ninepc, {"axis.type@1": Value("linear")})
-    assert here.situation.find("servo.velocity_port@1") == ("servo.velocity_port", "1")
+    assert here.evaluation.find("servo.velocity_port@1") == ("servo.velocity_port", "1")
     assert ninepc.short(("servo.velocity_port", "1"), "mill") == "servo.velocity_port@1"
     assert ninepc.short(("servo.velocity_gear_teeth", "1"), "mill") == "servo.velocity_gear_teeth@1"
     assert ninepc.short(("home.calibration", "1"), "mill") == "1300"
@@ -51,22 +51,22 @@ def test_the_parameter_whose_number_is_disputed_is_reached_by_its_id(ninepc, mac
     "text", ["9999", "0", "", "home.calibration@9", "home.calibration", "home.calibratio@1", "P3N0"]
 )
 def test_what_the_family_does_not_have_is_refused_in_one_sentence(ninepc, machine, text: str) -> None:
-    with pytest.raises(UnknownParameter) as refused:
-        machine(ninepc).situation.find(text)
+    with pytest.raises(UnknownParameterError) as refused:
+        machine(ninepc).evaluation.find(text)
     assert str(refused.value).startswith(f"'{text}'")
     assert "\n" not in str(refused.value)
 
 
 def test_every_address_is_found_again_by_what_it_is_called(ninepc) -> None:
     for kind in ("mill", "lathe"):
-        situation = Situation(ninepc, lambda _: None, lambda kind=kind: kind)
+        evaluation = Evaluation(ninepc, lambda _: None, lambda kind=kind: kind)
         for address in ninepc.addresses(kind):
-            assert address == situation.find(ninepc.short(address, kind))
+            assert address == evaluation.find(ninepc.short(address, kind))
 
 
 def test_the_processes_have_numbers_of_their_own(ninepc, machine) -> None:
     """Number of Limit 2,3 Groups: [20], [20020], [21020] (page 6-6)."""
-    find = machine(ninepc).situation.find
+    find = machine(ninepc).evaluation.find
     assert [("zone.group_count", i) for i in ("", "1", "2")] == [find(n) for n in ("20", "20020", "21020")]
 
 

@@ -30,13 +30,13 @@ def test_a_number_of_an_array_names_its_instance(
 ) -> None:
     """Pages 17-3 to 17-8, 19-2, 20-3 to 20-11, 25-5."""
     name, _, instance = expected.partition("@")
-    assert machine(ninepc, machine=kind).situation.find(number) == (name, instance)
+    assert machine(ninepc, machine=kind).evaluation.find(number) == (name, instance)
 
 
 def test_behind_a_call_that_is_not_used_all_the_rest_are_not_used(ninepc, machine) -> None:
     """Page 20-9: with call 6 NOT USED the control takes 7 to 15 as NOT USED."""
     values = {f"macro.type2_call@{n}": Value("not-modal") for n in range(1, 16)}
-    state = machine(ninepc, values | {"macro.type2_call@6": Value("not-used")}).situation.state
+    state = machine(ninepc, values | {"macro.type2_call@6": Value("not-used")}).evaluation.state
     assert state(("macro.type2_call", "6")).state == "in-force"
     for name, unused in (("call", range(7, 16)), ("g_code", range(6, 16)), ("program", range(6, 16))):
         ignored = {n for n in range(1, 16) if state((f"macro.type2_{name}", str(n))).state == "ignored"}
@@ -59,11 +59,11 @@ def test_the_modality_counts_for_modal_calls_only(ninepc, machine, changes, expe
     choices |= {"macro.type2_call@1": "not-modal", "macro.type2_call@2": "not-modal"}
     choices |= {"macro.type2_call@3": "not-used"} | changes
     values = {name: Value(choice) for name, choice in choices.items() if choice is not None}
-    assert machine(ninepc, values).situation.state(("macro.modality", "")).state == expected
+    assert machine(ninepc, values).evaluation.state(("macro.modality", "")).state == expected
 
 
 def test_a_type_1_call_that_is_not_used_makes_its_g_code_ignored(ninepc, machine) -> None:
     """Page 20-6."""
     here = machine(ninepc, {"macro.type1_call@9011": Value("not-used")})
-    assert here.situation.state(("macro.type1_g_code", "9011")).state == "ignored"
-    assert here.situation.state(("macro.type1_g_code", "9012")).state == "in-force"
+    assert here.evaluation.state(("macro.type1_g_code", "9011")).state == "ignored"
+    assert here.evaluation.state(("macro.type1_g_code", "9012")).state == "in-force"

@@ -25,7 +25,7 @@ def pair(of: str, master: str | None = "x", slave: str | None = "u") -> dict[str
 def test_a_slave_takes_what_page_32_4_lists_from_its_master_and_nothing_else(
     ninepc, machine, kind: str, of: str
 ) -> None:
-    here = machine(ninepc, NAMES | pair(of), machine=kind).situation
+    here = machine(ninepc, NAMES | pair(of), machine=kind).evaluation
     copied = {
         address[0]
         for address in ninepc.addresses(kind)
@@ -53,14 +53,14 @@ def test_a_slave_takes_what_page_32_4_lists_from_its_master_and_nothing_else(
     ],
 )
 def test_without_another_servo_as_master_of_its_own_set_nobody_is_a_slave(ninepc, machine, values) -> None:
-    here = machine(ninepc, NAMES | values).situation
+    here = machine(ninepc, NAMES | values).evaluation
     assert here.state(("feedrate.rapid", "4")).state == "in-force"
 
 
 @pytest.mark.parametrize("of", SETS)
 def test_gain_and_limit_count_for_the_set_that_names_two_servos(ninepc, machine, of: str) -> None:
     other = "2" if of == "1" else "1"
-    here = machine(ninepc, pair(of) | pair(other, slave="none")).situation
+    here = machine(ninepc, pair(of) | pair(other, slave="none")).evaluation
     for name in ("deskew.gain", "deskew.skew_limit"):
         assert here.state((name, of)).state == "in-force"
         assert here.state((name, other)).state == "ignored"
@@ -98,4 +98,4 @@ def test_patch_amp_has_codes_for_names_with_dollar_in_set_1_only(ninepc) -> None
 )
 def test_the_numbers_of_the_sets(ninepc, machine, number: str, expected: tuple[str, str]) -> None:
     """Pages 32-4 to 32-10 and 37-3: set 1 has the higher numbers."""
-    assert machine(ninepc).situation.find(number) == expected
+    assert machine(ninepc).evaluation.find(number) == expected

@@ -23,7 +23,7 @@ def put(file: ParameterFile, **words: int) -> None:
 
 
 def state(file: ParameterFile, number: str) -> str:
-    return file.situation.state(file.find(number)).state
+    return file.evaluation.state(file.find(number)).state
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_each_bit_of_a_mask_is_an_axis(
     fields = [field_at(parameter, n) for n in range(32)]
     assert [field.label for field in fields] == [f"Axis {n}" for n in range(32)]
     assert [n for n in range(32) if field_value(fields[n], word)] == list(bits), f"page {page}"
-    assert file.situation.find_bit(f"{number}.5") == (file.find(number), 5)
+    assert file.evaluation.find_bit(f"{number}.5") == (file.find(number), 5)
 
 
 @pytest.mark.parametrize(
@@ -219,7 +219,7 @@ def test_p36_counts_with_coded_rules_and_combined_sensors(file) -> None:
 
 def test_a_rotary_axis_is_one_by_its_list_or_by_its_name(file) -> None:
     put(file, P1N0=0b0001, P1N1=0b0010, P9N0=0, P9N1=1, P9N2=2, P9N3=0x16, P9N4=8, P9N5=0xFF)
-    turns = [file.situation.turns(("axes.increment", str(n))) for n in range(6)]
+    turns = [file.evaluation.turns(("axes.increment", str(n))) for n in range(6)]
     assert turns == [True, True, False, True, True, False]
 
 

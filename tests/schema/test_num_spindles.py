@@ -7,7 +7,7 @@ import re
 import pytest
 
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.schema import Schema, Value, ValueFault, fault, load_schema, read_value, write_value
+from amp_studio.schema import InvalidValueError, Schema, Value, fault, load_schema, read_value, write_value
 from amp_studio.schema.model import Guide
 
 WORDS = {
@@ -90,8 +90,8 @@ def test_a_limit_speed_is_at_most_the_highest_speed_of_its_range() -> None:
     file = new_file("num")
     file.set(file.find("P46N5"), Value(2000, "rpm"))
     limit = file.find("P46N14")
-    assert fault(file.situation, limit, Value(2000, "rpm")) is None
-    assert "2001 rpm is outside 0 to 2000 rpm" in str(fault(file.situation, limit, Value(2001, "rpm")))
+    assert fault(file.evaluation, limit, Value(2000, "rpm")) is None
+    assert "2001 rpm is outside 0 to 2000 rpm" in str(fault(file.evaluation, limit, Value(2001, "rpm")))
 
 
 def test_the_group_of_a_spindle_is_written_as_a_name_or_as_the_word(num: Schema) -> None:
@@ -99,12 +99,12 @@ def test_the_group_of_a_spindle_is_written_as_a_name_or_as_the_word(num: Schema)
     group = num.parameter("spindle.group")
     assert read_value(group, "1", "") == read_value(group, "Group 2", "") == Value("group_2")
     assert write_value(group, Value("group_1")) == "Group 1"
-    with pytest.raises(ValueFault, match="'8' is not a choice"):
+    with pytest.raises(InvalidValueError, match="'8' is not a choice"):
         read_value(group, "8", "")
 
 
 def test_bits_of_a_word_whose_figure_is_lost_are_kept_and_marked(num: Schema, file: ParameterFile) -> None:
-    assert file.situation.find_bit("P6N1.5") == (("spindle.type", "1"), 5)
+    assert file.evaluation.find_bit("P6N1.5") == (("spindle.type", "1"), 5)
     known = {bit.bit for bit in num.parameter("spindle.type").bits if not bit.unknown}
     assert known == {0, 5, 6, 7}
     for name in ("comm.master_settings", "comm.slave_settings", "comm.dnc1_settings", "misc.graphics"):

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.schema import (
+    InvalidValueError,
     UnitError,
     Value,
-    ValueFault,
     angular,
     canonical,
     canonical_unit,
@@ -68,12 +68,12 @@ def test_a_number_is_read_with_comma_or_point(text: str, expected: tuple[float, 
 
 @pytest.mark.parametrize("text", ["1,234", "-1,234", "+999,000", "12,345 mm", "123,456e3"])
 def test_a_comma_that_could_be_either_is_refused_with_both_ways(text: str) -> None:
-    with pytest.raises(ValueFault, match=r"can be read two ways: write .* or .*"):
+    with pytest.raises(InvalidValueError, match=r"can be read two ways: write .* or .*"):
         read_number(text)
 
 
 def test_the_two_ways_of_an_ambiguous_number_are_those_a_person_can_write() -> None:
-    with pytest.raises(ValueFault) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         read_number("1,234e2")
     assert str(refused.value) == "'1,234e2' can be read two ways: write 1234e2 or 1.234e2"
 
@@ -104,12 +104,12 @@ def test_the_two_ways_of_an_ambiguous_number_are_those_a_person_can_write() -> N
     ],
 )
 def test_what_is_no_number_is_refused(text: str) -> None:
-    with pytest.raises(ValueFault, match="is not a number"):
+    with pytest.raises(InvalidValueError, match="is not a number"):
         read_number(text)
 
 
 def test_a_number_that_no_double_holds_is_refused() -> None:
-    with pytest.raises(ValueFault, match="too large"):
+    with pytest.raises(InvalidValueError, match="too large"):
         read_number("1e400")
 
 
@@ -121,7 +121,7 @@ def read_or_refused(text: str) -> tuple[float, str] | str:
     """Return the number and what follows it, or the sentence by which the text is refused."""
     try:
         return read_number(text)
-    except ValueFault as refused:
+    except InvalidValueError as refused:
         return str(refused)
 
 
@@ -315,7 +315,7 @@ def test_a_code_nobody_knows_is_kept_as_it_is(ninepc) -> None:
     parameter = ninepc.parameter("axis.type")
     assert Value("raw:-7") == read_value(parameter, "raw:-7", "") == read_value(parameter, "RAW: -7", "")
     assert write_value(parameter, Value("raw:-7")) == "raw:-7"
-    with pytest.raises(ValueFault, match="is not 'raw:' and a whole number"):
+    with pytest.raises(InvalidValueError, match="is not 'raw:' and a whole number"):
         read_value(parameter, "raw:x", "")
 
 
@@ -330,7 +330,7 @@ def test_no_is_said_in_many_ways(ninepc, word: str) -> None:
 
 
 def test_a_word_that_is_no_choice_is_refused_with_all_there_are(ninepc) -> None:
-    with pytest.raises(ValueFault) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         read_value(ninepc.parameter("axis.type"), "turret", "")
     assert (
         str(refused.value)
@@ -349,7 +349,7 @@ def test_a_word_that_is_no_choice_is_refused_with_all_there_are(ninepc) -> None:
     ],
 )
 def test_a_value_in_a_wrong_unit_is_refused_with_the_right_one(ninepc, text: str, said: str) -> None:
-    with pytest.raises(ValueFault) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         read_value(ninepc.parameter("home.calibration"), text, "mm")
     assert said == str(refused.value)
 
@@ -366,7 +366,7 @@ def test_a_value_keeps_the_unit_it_was_entered_in(ninepc, text: str, expected: V
 def test_a_whole_number_takes_no_fraction(ninepc) -> None:
     parameter = ninepc.parameter("servo.velocity_gear_teeth")
     assert Value(3) == read_value(parameter, "3.0", "") == read_value(parameter, "0x3", "")
-    with pytest.raises(ValueFault, match=r"takes whole numbers, not 3\.5"):
+    with pytest.raises(InvalidValueError, match=r"takes whole numbers, not 3\.5"):
         read_value(parameter, "3.5", "")
-    with pytest.raises(ValueFault, match="too large for Teeth"):
+    with pytest.raises(InvalidValueError, match="too large for Teeth"):
         read_value(parameter, "9007199254740993.0e1", "")

@@ -64,8 +64,8 @@ def spindles(facts, head) -> Schema:
 
 def test_the_number_of_a_gear_finds_it_and_its_label_names_it(spindles, machine) -> None:
     here = machine(spindles)
-    assert here.situation.find("931") == ("spindle.max_speed", "2.2")
-    assert here.situation.find("spindle.max_speed@2.2") == ("spindle.max_speed", "2.2")
+    assert here.evaluation.find("931") == ("spindle.max_speed", "2.2")
+    assert here.evaluation.find("spindle.max_speed@2.2") == ("spindle.max_speed", "2.2")
     assert spindles.instance_label(("spindle.max_speed", "2.2"), "mill") == "Spindle 2, Gear 2"
     assert spindles.instance_label(("spindle.gears", "2"), "mill") == "Spindle 2"
     assert spindles.instance_label(("macro.g_code", "2"), "mill") == "Macro call 2"
@@ -76,7 +76,7 @@ def test_a_gear_reads_the_values_of_its_own_spindle(spindles, machine) -> None:
 
     def ignored() -> list[str]:
         every = spindles.instances(spindles.parameters["spindle.max_speed"], "mill")
-        return [i for i in every if here.situation.state(("spindle.max_speed", i)).state == "ignored"]
+        return [i for i in every if here.evaluation.state(("spindle.max_speed", i)).state == "ignored"]
 
     assert ignored() == ["1.2", "1.3", "2.3"]
     here.set("spindle.gears@1", Value(2))
@@ -87,17 +87,17 @@ def test_a_bound_is_that_of_the_same_gear(spindles, machine) -> None:
     here = machine(
         spindles, {"spindle.max_speed@1.1": Value(900.0, "rpm"), "spindle.max_speed@2.1": Value(90.0, "rpm")}
     )
-    assert None is fault(here.situation, ("spindle.min_speed", "1.1"), Value(900.0, "rpm"))
+    assert None is fault(here.evaluation, ("spindle.min_speed", "1.1"), Value(900.0, "rpm"))
     assert "(set by 930 Max. Spindle Speed, 90 rpm)" in str(
-        fault(here.situation, ("spindle.min_speed", "2.1"), Value(91.0, "rpm"))
+        fault(here.evaluation, ("spindle.min_speed", "2.1"), Value(91.0, "rpm"))
     )
 
 
 def test_a_rule_may_read_the_gears_of_its_spindle(spindles, machine) -> None:
-    situation = machine(spindles).situation
-    of_one = situation.reading("spindle.max_speed@.", "1", "spindle")
+    evaluation = machine(spindles).evaluation
+    of_one = evaluation.reading("spindle.max_speed@.", "1", "spindle")
     assert [instance for _, instance in of_one.addresses] == ["1.1", "1.2", "1.3"]
-    assert of_one == situation.reading("spindle.max_speed@.", "1.2", "spindle")
+    assert of_one == evaluation.reading("spindle.max_speed@.", "1.2", "spindle")
     assert of_one.is_list
 
 
@@ -105,7 +105,7 @@ def test_a_rule_over_gears_runs_once_a_gear_and_one_over_spindles_once_a_spindle
     def runs(reads: dict[str, str], check: str) -> list[str]:
         plain = {"id": "own.rule", "title": "Ours", "severity": "error", "message": "{part} no", "page": "1"}
         rule = Rule.model_validate({**plain, "reads": reads, "check": check})
-        return [c.instance for c in checks_of(machine(spindles).situation, (rule,))]
+        return [c.instance for c in checks_of(machine(spindles).evaluation, (rule,))]
 
     assert runs({"most": "spindle.max_speed", "gears": "spindle.gears"}, "part <= gears && most > 0.0") == [
         "1.1",

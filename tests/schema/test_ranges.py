@@ -19,7 +19,7 @@ def here(ninepc, machine):
 
 def allowed(here, name: str, value: Value) -> bool:
     """Tell whether a value is allowed."""
-    return fault(here.situation, tuple(name.split("@")), value) is None
+    return fault(here.evaluation, tuple(name.split("@")), value) is None
 
 
 @pytest.mark.parametrize(
@@ -50,22 +50,22 @@ def test_inch_and_metric_edges_differ_in_the_last_digit_and_each_holds_in_its_ow
 
 
 def test_a_unit_without_a_printed_range_takes_the_one_of_its_own_system(here) -> None:
-    found = limits(here.situation, ("accdec.velocity_step", "1"), "in/s")
+    found = limits(here.evaluation, ("accdec.velocity_step", "1"), "in/s")
     assert (found.low, found.high) == (0.0, 400 / 60)
-    found = limits(here.situation, ("accdec.velocity_step", "1"), "mm/s")
+    found = limits(here.evaluation, ("accdec.velocity_step", "1"), "mm/s")
     assert (found.low, pytest.approx(found.high, abs=1e-12)) == (0.0, 10160.00004 / 60)
 
 
 def test_degrees_are_borrowed_from_the_metric_figures_where_none_are_printed(here) -> None:
-    found = limits(here.situation, ("home.calibration", "2"), "deg")
+    found = limits(here.evaluation, ("home.calibration", "2"), "deg")
     assert (found.low, found.high, found.borrowed) == (-999999.99, 999999.99, True)
     assert not allowed(here, "home.calibration@2", Value(1e6, "deg"))
-    printed = limits(here.situation, ("accdec.linear_acceleration", "2"), "deg/s2")
+    printed = limits(here.evaluation, ("accdec.linear_acceleration", "2"), "deg/s2")
     assert (printed.high, printed.borrowed) == (20000.0, False)
 
 
 def test_borrowed_speeds_keep_their_time(here) -> None:
-    found = limits(here.situation, ("accdec.velocity_step", "2"), "deg/s")
+    found = limits(here.evaluation, ("accdec.velocity_step", "2"), "deg/s")
     assert (True, pytest.approx(10160.00004 / 60, abs=1e-12)) == (found.borrowed, found.high)
 
 
@@ -74,7 +74,7 @@ def test_borrowed_speeds_keep_their_time(here) -> None:
 )
 def test_excess_error_has_three_limits_by_axis_type(here, axis: str, unit: str, high: float) -> None:
     """Page 7-20: 214.1 mm linear, 214 degrees rotary, 1440 degrees on a spindle."""
-    assert high == limits(here.situation, ("servo.excess_error", axis), unit).high
+    assert high == limits(here.evaluation, ("servo.excess_error", axis), unit).high
     assert allowed(here, f"servo.excess_error@{axis}", Value(high, unit))
     assert not allowed(here, f"servo.excess_error@{axis}", Value(high + 0.00001, unit))
 
@@ -82,7 +82,7 @@ def test_excess_error_has_three_limits_by_axis_type(here, axis: str, unit: str, 
 def test_an_edge_that_another_parameter_sets_moves_with_it(here) -> None:
     """Positive Software Overtravel runs from Negative Software Overtravel to 2540000 mm (page 6-10)."""
     here.set("zone.overtravel_negative@1", Value(1.0, "in"))
-    said = fault(here.situation, ("zone.overtravel_positive", "1"), Value(25.3, "mm"))
+    said = fault(here.evaluation, ("zone.overtravel_positive", "1"), Value(25.3, "mm"))
     named = "1330 Negative Software Overtravel"
     assert (
         f"Positive Software Overtravel 25.3 mm is outside 25.4 to 2540000 mm (set by {named}, 1 in)" == said
@@ -93,7 +93,7 @@ def test_an_edge_that_another_parameter_sets_moves_with_it(here) -> None:
 
 
 def test_an_unset_edge_bounds_nothing_and_is_not_blamed(here) -> None:
-    said = fault(here.situation, ("zone.overtravel_positive", "1"), Value(3e6, "mm"))
+    said = fault(here.evaluation, ("zone.overtravel_positive", "1"), Value(3e6, "mm"))
     assert said == "Positive Software Overtravel 3000000 mm is outside at most 2540000 mm"
 
 
@@ -101,9 +101,9 @@ def test_an_unset_edge_bounds_nothing_and_is_not_blamed(here) -> None:
 def test_a_value_equal_to_its_bound_is_inside_in_either_unit(ninepc, machine, bound: float) -> None:
     here = machine(ninepc, LINEAR | {"zone.overtravel_negative@1": Value(bound, "in")})
     address = ("zone.overtravel_positive", "1")
-    assert fault(here.situation, address, Value(bound, "in")) is None
-    found = limits(here.situation, address, "mm")
-    assert fault(here.situation, address, Value(found.low, "mm")) is None
+    assert fault(here.evaluation, address, Value(bound, "in")) is None
+    found = limits(here.evaluation, address, "mm")
+    assert fault(here.evaluation, address, Value(found.low, "mm")) is None
 
 
 @given(st.sampled_from(["mm", "in"]), st.floats(min_value=-1e9, max_value=1e9))
@@ -112,17 +112,17 @@ def test_what_is_mended_is_inside_and_what_is_inside_is_not_touched(
 ) -> None:
     here, address = machine(ninepc, LINEAR), ("home.calibration", "1")
     value = Value(number, unit)
-    mended = clip(here.situation, address, value)
-    assert fault(here.situation, address, mended) is None
-    assert (mended == value) == (fault(here.situation, address, value) is None)
+    mended = clip(here.evaluation, address, value)
+    assert fault(here.evaluation, address, mended) is None
+    assert (mended == value) == (fault(here.evaluation, address, value) is None)
     assert unit == mended.unit
 
 
 def test_choices_and_texts_have_no_range_to_be_mended_into(here) -> None:
     for name, value in (("axis.type", Value("linear")), ("zone.overtravel_used", Value(True))):
-        assert value == clip(here.situation, (name, "1"), value)
-        assert fault(here.situation, (name, "1"), value) is None
-    assert fault(here.situation, ("axis.type", "1"), Value("raw:9")) == "9 is no code of Axis Type"
+        assert value == clip(here.evaluation, (name, "1"), value)
+        assert fault(here.evaluation, (name, "1"), value) is None
+    assert fault(here.evaluation, ("axis.type", "1"), Value("raw:9")) == "9 is no code of Axis Type"
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_choices_and_texts_have_no_range_to_be_mended_into(here) -> None:
     ],
 )
 def test_a_range_is_told_as_printed(here, text: str, name: str, unit: str) -> None:
-    assert text == limits(here.situation, (name, "1"), unit).text()
+    assert text == limits(here.evaluation, (name, "1"), unit).text()
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pydantic import ValidationError
 
-from amp_studio.schema import MASKED, Parameter, Value, ValueFault, load_schema, read_value, show_value
+from amp_studio.schema import MASKED, InvalidValueError, Parameter, Value, load_schema, read_value, show_value
 from amp_studio.schema.consistency import faults_between
 from amp_studio.schema.model import Group
 
@@ -33,13 +33,13 @@ def test_a_secret_is_masked_whatever_its_type(kind: str) -> None:
 @pytest.mark.parametrize("kind", ["text", "integer", "real"])
 @pytest.mark.parametrize("text", [MASKED, f" {MASKED} ", "••••"])
 def test_the_mask_is_no_value(kind: str, text: str) -> None:
-    with pytest.raises(ValueFault, match="is no value"):
+    with pytest.raises(InvalidValueError, match="is no value"):
         read_value(parameter(type=kind), text, "")
 
 
 @pytest.mark.parametrize("text", ["x77", "1.5", "1,234", "77 mm", "1e400", "99999999999999999999"])
 def test_what_cannot_be_read_is_not_repeated(text: str) -> None:
-    with pytest.raises(ValueFault) as refused:
+    with pytest.raises(InvalidValueError) as refused:
         read_value(parameter(type="integer"), text, "")
     assert str(refused.value) == "Code takes a whole number; what stands there is secret and not shown"
     assert refused.value.__suppress_context__

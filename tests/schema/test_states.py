@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from amp_studio.schema import (
     IN_FORCE,
-    Situation,
+    Evaluation,
     StateInfo,
-    UnknownParameter,
+    UnknownParameterError,
     Value,
     load_schema,
     program,
@@ -61,28 +61,28 @@ def test_a_parameter_is_in_one_of_four_states_and_says_why(
 ) -> None:
     schema = facts.schema(FOUR, head + CONDITIONS)
     here = machine(schema, {"device.kind": Value(kind), "device.limit": Value(limit)})
-    assert expected == here.situation.state(("device.speed", ""))
+    assert expected == here.evaluation.state(("device.speed", ""))
 
 
 def test_the_first_rule_that_holds_decides(facts, head, machine) -> None:
     here = machine(
         facts.schema(FOUR, head + CONDITIONS), {"device.kind": Value("scale"), "device.limit": Value(1.0)}
     )
-    assert here.situation.state(("device.speed", "")).state == "unusable"
+    assert here.evaluation.state(("device.speed", "")).state == "unusable"
     here.set("device.kind", Value("motor"))
-    assert here.situation.state(("device.speed", "")).state == "ignored"
+    assert here.evaluation.state(("device.speed", "")).state == "ignored"
 
 
 def test_a_condition_over_an_unset_value_does_not_hold(facts, head, machine) -> None:
     here = machine(facts.schema(FOUR, head + CONDITIONS))
-    assert (here.situation.holds("nothing", ""), here.situation.holds("fast", "")) == (False, False)
-    assert here.situation.state(("device.speed", "")).state == "ignored", "because 'fast' does not hold"
+    assert (here.evaluation.holds("nothing", ""), here.evaluation.holds("fast", "")) == (False, False)
+    assert here.evaluation.state(("device.speed", "")).state == "ignored", "because 'fast' does not hold"
 
 
 def test_a_state_knows_what_can_change_it(facts, head, machine) -> None:
     here = machine(facts.schema(FOUR, head + CONDITIONS))
-    assert {("device.kind", ""), ("device.limit", "")} == here.situation.state_reads(("device.speed", ""))
-    assert set() == here.situation.state_reads(("device.limit", ""))
+    assert {("device.kind", ""), ("device.limit", "")} == here.evaluation.state_reads(("device.speed", ""))
+    assert set() == here.evaluation.state_reads(("device.limit", ""))
 
 
 def test_a_condition_may_read_what_this_machine_type_does_not_have(facts, head, machine) -> None:
@@ -105,9 +105,9 @@ def test_a_condition_may_read_what_this_machine_type_does_not_have(facts, head, 
         head
         + "conditions:\n  lathe_a: {reads: {kind: lathe.kind}, when: kind == 'a', why: only on a lathe A}\n",
     )
-    assert machine(schema, machine="mill").situation.state(("axis.name", "")).state == "ignored"
+    assert machine(schema, machine="mill").evaluation.state(("axis.name", "")).state == "ignored"
     lathe = machine(schema, {"lathe.kind": Value("a")}, machine="lathe")
-    assert lathe.situation.state(("axis.name", "")) == IN_FORCE
+    assert lathe.evaluation.state(("axis.name", "")) == IN_FORCE
 
 
 def test_readings_before_and_after_an_axis_are_told_apart(facts, head, machine) -> None:
@@ -134,12 +134,12 @@ conditions:
     here = machine(
         schema, {f"axis.type@{n}": Value(t) for n, t in (("1", "linear"), ("2", "none"), ("3", "linear"))}
     )
-    assert [here.situation.state(("axis.type", n)).state for n in "123"] == [
+    assert [here.evaluation.state(("axis.type", n)).state for n in "123"] == [
         "in-force",
         "in-force",
         "ignored",
     ]
-    readings = {which: here.situation.reading(f"axis.type@{which}", "2").addresses for which in "*<>3"}
+    readings = {which: here.evaluation.reading(f"axis.type@{which}", "2").addresses for which in "*<>3"}
     expected = {
         "*": tuple(("axis.type", n) for n in "123"),
         "<": (("axis.type", "1"),),
@@ -147,10 +147,10 @@ conditions:
         "3": (("axis.type", "3"),),
     }
     assert expected == readings
-    with pytest.raises(UnknownParameter, match=r"axis\.type has no instance '9'"):
-        here.situation.reading("axis.type@9", "1")
+    with pytest.raises(UnknownParameterError, match=r"axis\.type has no instance '9'"):
+        here.evaluation.reading("axis.type@9", "1")
     here.set("axis.type@2", Value("linear"))
-    assert here.situation.state(("axis.type", "3")).state == "in-force"
+    assert here.evaluation.state(("axis.type", "3")).state == "in-force"
 
 
 def test_an_expression_with_a_fault_is_refused() -> None:
@@ -182,7 +182,7 @@ def test_a_9pc_parameter_is_out_of_force_for_a_reason(ninepc, machine, name, val
     here = machine(
         ninepc, {key: Value(value) for key, value in values.items()}, str(values.get("control.type", ""))
     )
-    found = here.situation.state(read_address(name))
+    found = here.evaluation.state(read_address(name))
     assert state == found.state
     assert (found.why == "") == (state == "in-force")
 
@@ -225,11 +225,11 @@ def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
         kind = values.get(("control.type", ""))
         return str(kind.value) if kind and kind.value in ("mill", "lathe") else "lathe"
 
-    kept = Situation(schema, values.get, control)
+    kept = Evaluation(schema, values.get, control)
     watched = [a for a in schema.addresses("mill") if a[1] in ("", "1", "2")]
 
-    def seen(situation: Situation) -> list[object]:
-        return [(situation.state(a), situation.unit(a, "metric"), situation.canonical(a)) for a in watched]
+    def seen(evaluation: Evaluation) -> list[object]:
+        return [(evaluation.state(a), evaluation.unit(a, "metric"), evaluation.canonical(a)) for a in watched]
 
     seen(kept)
     for address, value in changes:
@@ -238,7 +238,7 @@ def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
         else:
             values[address] = value
         kept.changed(address)
-        assert seen(Situation(schema, values.get, control)) == seen(kept), address
+        assert seen(Evaluation(schema, values.get, control)) == seen(kept), address
 
 
 @settings(max_examples=40)
@@ -247,13 +247,13 @@ def test_only_what_a_state_reads_can_change_it(changes) -> None:
     schema = load_schema("9pc")
     values: dict[tuple[str, str], Value] = {("axis.type", "1"): Value("linear")}
     for address, value in changes:
-        situation = Situation(schema, values.get, lambda: "mill")
+        evaluation = Evaluation(schema, values.get, lambda: "mill")
         watched = [a for a in schema.addresses("mill") if a[1] in ("", "1")]
-        unread = [a for a in watched if address not in situation.state_reads(a)]
-        before = {a: situation.state(a) for a in unread}
+        unread = [a for a in watched if address not in evaluation.state_reads(a)]
+        before = {a: evaluation.state(a) for a in unread}
         if value is None:
             values.pop(address, None)
         else:
             values[address] = value
-        after = Situation(schema, values.get, lambda: "mill")
+        after = Evaluation(schema, values.get, lambda: "mill")
         assert before == {a: after.state(a) for a in unread}, address

@@ -18,7 +18,7 @@ from amp_studio.files import (
     new_file,
 )
 from amp_studio.report import page_of
-from amp_studio.schema import Schema, Value, ValueFault, fault, load_schema, read_value, show_value
+from amp_studio.schema import InvalidValueError, Schema, Value, fault, load_schema, read_value, show_value
 
 
 @pytest.fixture(scope="module")
@@ -138,21 +138,21 @@ def test_the_first_limits_have_the_range_and_the_defaults_of_their_table(mill: P
         address = mill.find(number)
         assert mill.default(address) == Value(default, "BLU")
         assert mill.schema.parameter(address[0]).effect.level == "reset"
-        assert fault(mill.situation, address, Value(999999999, "BLU")) is None
-        assert fault(mill.situation, address, Value(-1000000000, "BLU")) is not None
+        assert fault(mill.evaluation, address, Value(999999999, "BLU")) is None
+        assert fault(mill.evaluation, address, Value(-1000000000, "BLU")) is not None
 
 
 @pytest.mark.parametrize("name", ["home.direction", "limit.second_scope", "limit.third_scope", "control.blu"])
 def test_a_code_that_is_not_printed_may_stand(mill: ParameterFile, name: str) -> None:
     address = mill.find(f"{name}@1" if name.startswith("home") else name)
-    assert fault(mill.situation, address, Value("raw:0")) is None
+    assert fault(mill.evaluation, address, Value("raw:0")) is None
     assert "raw:0" in show_value(mill.schema.parameter(name), Value("raw:0"))
 
 
 def test_a_code_is_refused_where_all_of_them_are_printed(mill: ParameterFile) -> None:
     """Section 1.2.5: one, two or four times."""
-    assert fault(mill.situation, mill.find("Pr81"), Value("raw:3")) is not None
-    with pytest.raises(ValueFault, match=r"one time \(1\), two times \(2\), four times \(4\)"):
+    assert fault(mill.evaluation, mill.find("Pr81"), Value("raw:3")) is not None
+    with pytest.raises(InvalidValueError, match=r"one time \(1\), two times \(2\), four times \(4\)"):
         read_value(mill.schema.parameter("resolution.multiplication"), "3", "")
 
 
@@ -160,19 +160,19 @@ def test_lengths_are_in_blu_and_in_nothing_else(mill: ParameterFile) -> None:
     """Section 1.2.6: the unit of the pitch is BLU, and what that is depends on Pr17."""
     pitch = mill.find("Pr161")
     assert mill.read(pitch, "10000") == mill.read(pitch, "10000 blu") == Value(10000, "BLU")
-    with pytest.raises(ValueFault, match="is given in BLU, not in mm"):
+    with pytest.raises(InvalidValueError, match="is given in BLU, not in mm"):
         mill.read(pitch, "10 mm")
 
 
 def test_speeds_are_degrees_on_an_axis_that_turns(mill: ParameterFile) -> None:
     mill.set_many({("axis.type", "3"): Value("rotary2")})
-    assert mill.situation.unit(("feed.rapid", "2"), "metric") == "mm/min"
-    assert mill.situation.unit(("feed.rapid", "3"), "metric") == "deg/min"
+    assert mill.evaluation.unit(("feed.rapid", "2"), "metric") == "mm/min"
+    assert mill.evaluation.unit(("feed.rapid", "3"), "metric") == "deg/min"
 
 
 def out_of_force(file: ParameterFile) -> Iterator[tuple[str, str]]:
     for address in file.addresses():
-        if (state := file.situation.state(address).state) != "in-force":
+        if (state := file.evaluation.state(address).state) != "in-force":
             yield address[0], state
 
 
@@ -185,7 +185,7 @@ def test_what_a_kind_of_axis_does_not_use_is_ignored(mill: ParameterFile) -> Non
     # The zero point of an absolute encoder is set on the screen of the serial parameters (2.1.1); the alarm limits
     # (1.5.3) go on looking at the first homing speed.
     mill.header.machine = "serial"
-    mill.situation.forget()
+    mill.evaluation.forget()
     ignored = [name for name, state in out_of_force(mill) if state == "ignored"]
     homing = {p.id for p in mill.schema.parameters.values() if p.id.startswith("home.")} - {
         "home.first_speed"
@@ -201,7 +201,7 @@ def test_named_axes_are_fitted_and_all_others_have_no_port(mill: ParameterFile) 
     assert mill.get(("axis.port", "4")) == Value(0)
     assert mill.get(("axis.port", "1")) is None, "which port an axis has is for its wiring to say"
     assert axis_title(mill, "1") == "1 X linear"
-    assert mill.situation.state(("resolution.pitch", "4")).why == "the axis has no port and is not there"
+    assert mill.evaluation.state(("resolution.pitch", "4")).why == "the axis has no port and is not there"
     assert fitted_axes(new_file("syntec")) == tuple(str(n) for n in range(1, 21))
 
 

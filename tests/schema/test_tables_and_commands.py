@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.schema import DatabaseFault
+from amp_studio.schema import DatabaseError
 
 FILTER = """
   - id: notch.frequency
@@ -52,13 +52,13 @@ def test_a_value_knows_the_command_that_sets_it(facts) -> None:
 
 def test_a_command_of_a_parameter_that_does_not_exist_is_told(facts) -> None:
     with pytest.raises(
-        DatabaseFault, match=r"all\.yaml, line \d+: notch\.frequency: there is no .*'notch\.depth'"
+        DatabaseError, match=r"all\.yaml, line \d+: notch\.frequency: there is no .*'notch\.depth'"
     ):
         facts.schema(FILTER.replace("{notch.width}", "{notch.depth}", 1))
 
 
 def test_the_unit_of_bare_figures_is_named_by_a_parameter_that_exists(facts, head) -> None:
-    with pytest.raises(DatabaseFault, match=r"family\.yaml, line \d+: there is no parameter 'system\.units'"):
+    with pytest.raises(DatabaseError, match=r"family\.yaml, line \d+: there is no parameter 'system\.units'"):
         facts.schema(FILTER, head + "unit_parameter: system.units\n")
 
 

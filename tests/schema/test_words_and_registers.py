@@ -8,10 +8,10 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.schema import (
-    DatabaseFault,
-    UnknownParameter,
+    DatabaseError,
+    InvalidValueError,
+    UnknownParameterError,
     Value,
-    ValueFault,
     fault,
     field_at,
     field_value,
@@ -63,13 +63,13 @@ def test_a_parameter_may_be_an_array_of_words(facts, machine) -> None:
     )
     here = machine(schema)
     assert len(schema.addresses("mill")) == 32
-    assert ("servo.gain", "3") == here.situation.find("P21N3") == here.situation.find("p21n3")
-    assert here.situation.find("P21N31") == ("servo.gain", "31")
+    assert ("servo.gain", "3") == here.evaluation.find("P21N3") == here.evaluation.find("p21n3")
+    assert here.evaluation.find("P21N31") == ("servo.gain", "31")
     assert schema.label(("servo.gain", "3"), "mill") == "P21N3 Servo-System Loop Gain"
-    assert fault(here.situation, ("servo.gain", "31"), Value(-32768)) is None
-    assert fault(here.situation, ("servo.gain", "31"), Value(32768)) is not None
-    with pytest.raises(UnknownParameter, match="'P21N32' is no parameter"):
-        here.situation.find("P21N32")
+    assert fault(here.evaluation, ("servo.gain", "31"), Value(-32768)) is None
+    assert fault(here.evaluation, ("servo.gain", "31"), Value(32768)) is not None
+    with pytest.raises(UnknownParameterError, match="'P21N32' is no parameter"):
+        here.evaluation.find("P21N32")
 
 
 @pytest.fixture
@@ -104,39 +104,39 @@ def test_a_mask_has_a_bit_an_axis_and_is_written_in_hexadecimal(mask, machine) -
     assert write_value(parameter, value) == "0x8000001F"
     assert write_value(parameter, Value(7)) == "0x00000007"
     assert tuple(field_value(field_at(parameter, n), 0x8000001F) for n in (31, 0, 5)) == (1, 1, 0)
-    assert fault(here.situation, ("axes.displayed", "0"), Value(0xFFFFFFFF)) is None
-    assert "does not fit its 32 bits" in str(fault(here.situation, ("axes.displayed", "0"), Value(2**32)))
-    assert "does not fit its 32 bits" in str(fault(here.situation, ("axes.displayed", "0"), Value(-1)))
+    assert fault(here.evaluation, ("axes.displayed", "0"), Value(0xFFFFFFFF)) is None
+    assert "does not fit its 32 bits" in str(fault(here.evaluation, ("axes.displayed", "0"), Value(2**32)))
+    assert "does not fit its 32 bits" in str(fault(here.evaluation, ("axes.displayed", "0"), Value(-1)))
 
 
 def test_a_word_in_hexadecimal_is_not_guessed_from_digits_that_mean_two_numbers(mask) -> None:
     """NUM P10: the manual prints 00000044 for bits 2 and 6 (page 5-4)."""
     parameter = mask.parameter("axes.displayed")
-    with pytest.raises(ValueFault, match="'00000044' can be read two ways: write 0x00000044 or 44"):
+    with pytest.raises(InvalidValueError, match="'00000044' can be read two ways: write 0x00000044 or 44"):
         read_value(parameter, "00000044", "")
     assert read_value(parameter, "00000001", "") == Value(1), "the same either way"
     assert read_value(parameter, "44", "") == Value(44)
-    with pytest.raises(ValueFault, match="'7F' is not a decimal number: write 0x7F"):
+    with pytest.raises(InvalidValueError, match="'7F' is not a decimal number: write 0x7F"):
         read_value(parameter, "7F", "")
 
 
 def test_a_bit_of_a_mask_is_addressed_and_changed_by_itself(mask, machine) -> None:
     here, parameter = machine(mask), mask.parameter("axes.displayed")
-    assert here.situation.find_bit("P3N0.5") == (("axes.displayed", "0"), 5)
-    assert here.situation.find_bit("axes.displayed@0.5") == (("axes.displayed", "0"), 5)
-    assert here.situation.find_bit("P3N0") == (("axes.displayed", "0"), None)
+    assert here.evaluation.find_bit("P3N0.5") == (("axes.displayed", "0"), 5)
+    assert here.evaluation.find_bit("axes.displayed@0.5") == (("axes.displayed", "0"), 5)
+    assert here.evaluation.find_bit("P3N0") == (("axes.displayed", "0"), None)
     assert with_field(field_at(parameter, 5), 0b000011, "yes") == 0b100011
     assert with_field(field_at(parameter, 0), 0b000011, "0") == 0b000010
-    with pytest.raises(ValueFault, match="bits 0 to 31, not 32"):
+    with pytest.raises(InvalidValueError, match="bits 0 to 31, not 32"):
         field_at(parameter, 32)
-    with pytest.raises(ValueFault, match="Axis 3, which takes 0 to 1"):
+    with pytest.raises(InvalidValueError, match="Axis 3, which takes 0 to 1"):
         with_field(field_at(parameter, 3), 0, "2")
 
 
 @pytest.mark.parametrize("text", ["P3N1.5", "P3N0.x", "P3N0.", "1.5"])
 def test_what_is_no_bit_of_a_word_is_refused_as_it_was_written(mask, machine, text: str) -> None:
-    with pytest.raises(UnknownParameter, match=rf"'{text}' is no parameter"):
-        machine(mask).situation.find_bit(text)
+    with pytest.raises(UnknownParameterError, match=rf"'{text}' is no parameter"):
+        machine(mask).evaluation.find_bit(text)
 
 
 def test_pairs_of_words_belong_to_one_axis(facts, machine) -> None:
@@ -162,7 +162,7 @@ def test_pairs_of_words_belong_to_one_axis(facts, machine) -> None:
         """,
         NUM,
     )
-    find = machine(schema).situation.find
+    find = machine(schema).evaluation.find
     assert [find("P11N6"), find("P11N7")] == [("measure.multi", "3"), ("measure.divi", "3")]
     assert [find("P11N0"), find("P11N1")] == [("measure.multi", "0"), ("measure.divi", "0")]
 
@@ -191,8 +191,10 @@ def test_a_word_may_hold_a_code_in_each_nibble(facts, machine) -> None:
     parameter, address = schema.parameter("sensor.kind"), ("sensor.kind", "0")
     here = machine(schema)
     assert [field_value(field_at(parameter, n), 0xF081) for n in (0, 4, 8, 12)] == [1, 8, 0, 15]
-    assert fault(here.situation, address, Value(0xF081)) is None
-    assert fault(here.situation, address, Value(0xF021)) == "2 is no code of Axis 1 in Sensors of Axes 0 to 3"
+    assert fault(here.evaluation, address, Value(0xF081)) is None
+    assert (
+        fault(here.evaluation, address, Value(0xF021)) == "2 is no code of Axis 1 in Sensors of Axes 0 to 3"
+    )
     assert (
         with_field(field_at(parameter, 8), with_field(field_at(parameter, 4), 0xF081, "Sine  Wave"), "ssi")
         == 0xF811
@@ -225,9 +227,9 @@ def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, mac
     assert [field_value(field_at(parameter, n), word) for n in (0, 5, 6, 16)] == [25, 0, 0x3FF, 5]
     changed = with_field(field_at(parameter, 0), word, "13")
     assert changed == 0xABC5_FFCD, "every other bit stays, known or not"
-    assert fault(here.situation, ("sensor.registers", "1"), Value(changed)) is None
+    assert fault(here.evaluation, ("sensor.registers", "1"), Value(changed)) is None
     assert field_at(parameter, 20).unknown, "a bit that the database does not name can still be read"
-    with pytest.raises(ValueFault, match="Length of the frame, which takes 0 to 31"):
+    with pytest.raises(InvalidValueError, match="Length of the frame, which takes 0 to 31"):
         with_field(field_at(parameter, 0), word, "32")
 
 
@@ -268,12 +270,12 @@ conditions:
     assert schema.parameter("axes.servoed").storage.code == 6
     values = {"axes.servoed": Value(0x80000004), "sensor.kind@2": Value(0x04000000)}
     here = machine(schema, values)
-    states = [here.situation.state(("sensor.graduation", axis)).state for axis in "0123"]
+    states = [here.evaluation.state(("sensor.graduation", axis)).state for axis in "0123"]
     assert states == ["hidden", "hidden", "in-force", "hidden"]
     here.set("sensor.kind@2", Value(0x02000000))
-    assert here.situation.state(("sensor.graduation", "2")).state == "ignored"
+    assert here.evaluation.state(("sensor.graduation", "2")).state == "ignored"
     here.set("axes.servoed", Value(0x80000008))
-    states = [here.situation.state(("sensor.graduation", axis)).state for axis in "23"]
+    states = [here.evaluation.state(("sensor.graduation", axis)).state for axis in "23"]
     assert states == ["hidden", "ignored"], "axis 3 has no sensor yet"
 
 
@@ -283,7 +285,7 @@ conditions:
   odd: {reads: {word: axes.word}, when: "bits(word, 0.0)", why: it is odd}
 """
     with pytest.raises(
-        DatabaseFault, match=r"family\.yaml, line \d+: condition odd calls 'bits', which is no function"
+        DatabaseError, match=r"family\.yaml, line \d+: condition odd calls 'bits', which is no function"
     ):
         facts.schema(
             """
@@ -348,7 +350,7 @@ def test_registers_are_read_on_a_command_and_the_second_axis_lies_2048_higher(fa
         groups: [all]
         """,
     )
-    find = machine(schema).situation.find
+    find = machine(schema).evaluation.find
     assert [find("R3"), find("R2051")] == [("gain.proportional", "X"), ("gain.proportional", "Y")]
     assert [find("r11"), find("r2059")] == [("limit.positive", "X"), ("limit.positive", "Y")]
     effect = schema.parameter("gain.proportional").effect
@@ -359,7 +361,7 @@ def test_registers_are_read_on_a_command_and_the_second_axis_lies_2048_higher(fa
     assert Value(2**31 - 1, "counts") == read_value(
         schema.parameter("limit.positive"), "2147483647", "counts"
     )
-    assert fault(machine(schema).situation, find("R2059"), Value(2**31, "counts")) is not None
+    assert fault(machine(schema).evaluation, find("R2059"), Value(2**31, "counts")) is not None
     assert schema.units_of(schema.parameter("homing.low_speed")) == ("counts/s",)
     assert Value(2000.0, "counts/s") == read_value(
         schema.parameter("homing.low_speed"), "2000 counts/sec", "counts/s"
@@ -419,7 +421,7 @@ conditions:
 def test_the_points_of_a_table_are_parts_of_their_axis(facts, machine) -> None:
     schema = facts.schema(CAM, MODULE + POINT_USED)
     here = machine(schema, {"cam.points@Y": Value(3)})
-    find, state = here.situation.find, here.situation.state
+    find, state = here.evaluation.find, here.evaluation.state
     assert [find(n) for n in ("R132", "R2046", "R2180", "R4094")] == [
         ("cam.data", i) for i in ("X.0", "X.1914", "Y.0", "Y.1914")
     ]
@@ -430,7 +432,7 @@ def test_the_points_of_a_table_are_parts_of_their_axis(facts, machine) -> None:
     assert [state(("cam.data", i)).state for i in ("X.0", "X.1")] == ["in-force", "hidden"]
     assert schema.label(("cam.data", "Y.7"), "module") == "R2187 Cam Data"
     assert schema.instance_label(("cam.data", "Y.7"), "module") == "Y axis, point 7"
-    assert len(here.situation.reading("cam.data@.", "Y", "axis").addresses) == 1915
+    assert len(here.evaluation.reading("cam.data@.", "Y", "axis").addresses) == 1915
 
 
 def test_a_field_of_a_word_may_hold_a_number_with_its_sign(facts) -> None:
@@ -440,7 +442,7 @@ def test_a_field_of_a_word_may_hold_a_number_with_its_sign(facts) -> None:
     assert [field_value(field_at(parameter, n), word) for n in (0, 8)] == [-1, -128]
     assert with_field(field_at(parameter, 8), word, "127") == 0x7FFF
     for text in ("128", "-129", "x"):
-        with pytest.raises(ValueFault, match="First, which takes -128 to 127"):
+        with pytest.raises(InvalidValueError, match="First, which takes -128 to 127"):
             with_field(field_at(parameter, 0), 0, text)
 
 
@@ -466,7 +468,7 @@ def test_a_value_has_to_fit_the_words_of_the_control(facts, machine) -> None:
         """,
         MODULE,
     )
-    here = machine(schema).situation
+    here = machine(schema).evaluation
     for parameter_id, value, allowed in (
         ("move.speed", Value(32767999.9, "counts/s"), True),
         ("move.speed", Value(32768000.0, "counts/s"), False),
@@ -500,7 +502,7 @@ def test_what_can_only_be_read_is_not_set_and_not_asked_for(facts, machine) -> N
         """,
         MODULE,
     )
-    here = machine(schema).situation
+    here = machine(schema).evaluation
     assert here.state(("status.fault", "X")).state == "unusable"
     assert "only be read" in here.state(("status.fault", "X")).why
     assert "only be read" in str(fault(here, ("status.fault", "X"), Value(0)))
@@ -531,7 +533,7 @@ def test_odd_and_even_numbers_may_be_a_pair_that_takes_effect_on_reset(facts, ma
         help: {what: Teeth at the motor.}
         page: "99"
     """)
-    find = machine(schema).situation.find
+    find = machine(schema).evaluation.find
     expected = [("gear.screw", "1"), ("gear.motor", "1"), ("gear.screw", "2"), ("gear.motor", "3")]
     assert expected == [find(number) for number in ("Pr121", "Pr122", "Pr123", "pr126")]
     levels = [
@@ -569,7 +571,7 @@ def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
         groups: [all]
         """,
     )
-    find = machine(schema).situation.find
+    find = machine(schema).evaluation.find
     assert find("axes.pulses_per_unit@Y") == ("axes.pulses_per_unit", "Y")
     assert find("system.units") == ("system.units", "")
     assert schema.number(("axes.pulses_per_unit", "X"), "mill") is None
@@ -581,5 +583,5 @@ def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
         ("system.units@X", "without '@'"),
         ("axes.pulses@X", "is no parameter of Small mill"),
     ):
-        with pytest.raises(UnknownParameter, match=said):
+        with pytest.raises(UnknownParameterError, match=said):
             find(text)

@@ -30,7 +30,7 @@ def small(family: str) -> ParameterFile:
         instances = file.schema.instances(parameter, file.machine)
         if parameter.type == "text" and instances:
             file.values[parameter.id, instances[0]] = Value("X")
-    file.situation.forget()
+    file.evaluation.forget()
     file.header.application, file.header.revision = "Mill Lathe", "3.05"
     return file
 
@@ -91,7 +91,7 @@ def test_a_whole_number_is_one(number: str) -> None:
     address = next(a for a in file.addresses() if file.schema.parameters[a[0]].type == "integer")
     unit = file.schema.units_of(file.schema.parameters[address[0]])[0]
     file.values = {address: Value(0, unit)}
-    file.situation.forget()
+    file.evaluation.forget()
     image = encode_image(file)
     line = next(line for line in image.decode().split("\n") if "\t" in line)
 

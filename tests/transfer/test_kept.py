@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Document, SaveFault, new_file, open_file
+from amp_studio.files import Document, SaveError, new_file, open_file
 from amp_studio.transfer import kept as kept_module
 from amp_studio.transfer.image import encode_image
 from amp_studio.transfer.kept import CopyFault, digest_path, keep_image, open_copy, save_image
@@ -102,12 +102,12 @@ def test_a_copy_that_cannot_be_written_whole_leaves_nothing(
 
     def full(path: Path, *arguments: object, **options: object) -> object:
         if path.name.endswith(broken):
-            raise SaveFault("No space left on device")
+            raise SaveError("No space left on device")
         return real(path, *arguments, **options)  # type: ignore[arg-type]
 
     monkeypatch.setattr(kept_module, "write_atomic", full)
 
-    with pytest.raises(SaveFault):
+    with pytest.raises(SaveError):
         keep_image(GARBAGE, tmp_path, "mill")
 
     assert list(tmp_path.iterdir()) == []

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from amp_studio.schema import Parameter, Schema, Value, load_schema, read_value
 from amp_studio.schema.register_words import (
-    WordFault,
+    WordError,
     exact,
     is_signed,
     number_of,
@@ -106,7 +106,7 @@ def test_engineering_units_become_the_words_of_the_manual(
 )
 def test_what_a_register_cannot_hold_is_told(module: Schema, name: str, value: Value, said: str) -> None:
     parameter = module.parameter(name)
-    with pytest.raises(WordFault, match=said):
+    with pytest.raises(WordError, match=said):
         number_of(parameter, value, module.units_of(parameter)[0])
 
 
@@ -124,5 +124,5 @@ def test_choices_are_their_codes(module: Schema) -> None:
 
 @pytest.mark.parametrize("text", ["", "FFH", "0x14", "1.5", "1e3", "-0FH", "12 34", "65536.*256.", "PGAIN%"])
 def test_what_is_no_whole_number_is_told(text: str) -> None:
-    with pytest.raises(WordFault, match="is no whole number"):
+    with pytest.raises(WordError, match="is no whole number"):
         read_word(text)

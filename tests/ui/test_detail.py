@@ -73,9 +73,9 @@ def test_the_range_that_another_parameter_sets_names_it(window: MainWindow) -> N
 
 def test_why_a_parameter_is_out_of_force(window: MainWindow) -> None:
     file = window.workspace.file
-    ignored = next(a for a in file.addresses() if file.situation.state(a).state == "ignored" and a[1] == "1")
+    ignored = next(a for a in file.addresses() if file.evaluation.state(a).state == "ignored" and a[1] == "1")
     window.go_to(ignored)
-    assert f"Ignored: {file.situation.state(ignored).why}" in page(window, "Help")
+    assert f"Ignored: {file.evaluation.state(ignored).why}" in page(window, "Help")
 
 
 def test_a_link_leads_to_the_parameter_on_the_same_axis(window: MainWindow) -> None:

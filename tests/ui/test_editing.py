@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 from PySide6.QtGui import QGuiApplication
 
-from amp_studio.files import ParameterFile, RangeFault, copy_axis, delete_axis, retype_axis
+from amp_studio.files import ParameterFile, RangeError, copy_axis, delete_axis, retype_axis
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.workspace import Workspace
@@ -138,7 +138,7 @@ def test_what_changes_nothing_is_no_step(workspace: Workspace) -> None:
 def test_out_of_range_is_refused_unless_it_is_forced(workspace: Workspace, whole: Whole) -> None:
     before = whole()
 
-    with pytest.raises(RangeFault):
+    with pytest.raises(RangeError):
         workspace.edit("value", {CALIBRATION: Value(1e9, "mm")})
 
     assert whole() == before
@@ -193,7 +193,9 @@ def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, 
     assert file.get(EXCESS) is None
 
     no_default = next(
-        a for a in file.addresses() if file.default(a) is None and file.situation.state(a).state == "in-force"
+        a
+        for a in file.addresses()
+        if file.default(a) is None and file.evaluation.state(a).state == "in-force"
     )
     before = file.get(no_default)
     window.go_to(no_default)

@@ -66,8 +66,8 @@ def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: P
     }
     for address in shown:
         assert table.index_of(address).data(AddressRole) == address
-    existing = {a for a in file.addresses() if file.situation.state(a).state != "hidden"}
-    unfitted = {a for a in existing if a[1] in "678" and file.situation.scope(a) == "axis"}
+    existing = {a for a in file.addresses() if file.evaluation.state(a).state != "hidden"}
+    unfitted = {a for a in existing if a[1] in "678" and file.evaluation.scope(a) == "axis"}
     assert existing - unfitted <= shown
 
 
@@ -109,7 +109,7 @@ def test_what_is_not_for_this_configuration_cannot_be_edited(
     hidden = next(
         a
         for a in file.addresses()
-        if file.situation.state(a).state == "hidden" and table.index_of(a).isValid()
+        if file.evaluation.state(a).state == "hidden" and table.index_of(a).isValid()
     )
     index = table.index_of(hidden)
     assert index.data() == "·"

@@ -48,7 +48,7 @@ def each(name: str) -> list[str]:
 
 def value_of(file: ParameterFile, address: Address, text: str) -> Value:
     """Return what a person means who writes millimetres also for what turns."""
-    return file.read(address, text.replace("mm", "deg") if file.situation.turns(address) else text)
+    return file.read(address, text.replace("mm", "deg") if file.evaluation.turns(address) else text)
 
 
 def change(file: ParameterFile, texts: Change) -> list[Address]:
@@ -86,7 +86,7 @@ def sound(family: str, name: str) -> ParameterFile:
         (path,) = (examples_folder() / one["example"]).glob("*.amp")
         file = open_file(path).file
         file.header.machine = one.get("type", file.header.machine)
-        file.situation.forget()
+        file.evaluation.forget()
     else:
         file = new_file(family, one.get("type"), [axis["name"] for axis in one.get("axes", ())])
     for part in values(one):
@@ -104,7 +104,7 @@ class Stand:
         self.file = sound(family, machine)
         if application:
             self.file.header.application = application
-            self.file.situation.forget()
+            self.file.evaluation.forget()
         self.validator = Validator(self.file)
         self._findings = self.validator.run()
         self._changed: set[Address] = set()

@@ -10,7 +10,7 @@ from rule_stands import FAMILIES, cases, stand
 from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json
 from amp_studio.schema import Rule, Value, load_schema
-from amp_studio.validate import BuilderRules, Finding, RuleFault, Validator
+from amp_studio.validate import BuilderRules, Finding, RuleError, Validator
 
 ALWAYS_SO = {
     ("57c422b.command.leds-twice", "leds", False),  # there are two axes, and both are at fault
@@ -188,7 +188,7 @@ def test_where_no_condition_is_met_all_that_were_named_are_wrong(mill) -> None:
     "wrong", [{"blames": ["fast"]}, {"blames": {"slow": "fast > 1.0"}}, {"compares": {"slow": "it >"}}]
 )
 def test_a_slip_in_what_a_rule_blames_is_a_fault_of_the_rule(mill, wrong: dict[str, object]) -> None:
-    with pytest.raises(RuleFault, match=r"own\.pair"):
+    with pytest.raises(RuleError, match=r"own\.pair"):
         own(mill, **wrong)
 
 

@@ -31,7 +31,7 @@ def test_a_mask_has_the_bit_of_each_axis(file: ParameterFile, word: str, axes, p
     assert write_value(parameter, Value(number)) == f"0x{printed}"
     bits = [axis for axis in range(32) if field_value(field_at(parameter, axis), int(printed, 16))]
     assert bits == list(axes)
-    assert file.situation.find_bit(f"{word}.5") == (address, 5)
+    assert file.evaluation.find_bit(f"{word}.5") == (address, 5)
 
 
 @pytest.mark.parametrize(
@@ -62,9 +62,9 @@ def test_hundredths_of_a_ms_can_be_given_in_ms(file: ParameterFile) -> None:
     """5000 hundredths (page 6-34) are 50 ms."""
     address = file.find("P19N64")
     file.set(address, file.read(address, "50 ms"))
-    assert file.situation.canonical(address) == 50.0
+    assert file.evaluation.canonical(address) == 50.0
     file.set(address, file.read(address, "5000"))
-    assert file.situation.canonical(address) == 50.0
+    assert file.evaluation.canonical(address) == 50.0
 
 
 def test_6_11_words_48_to_54_are_those_of_a_spindle_where_p6_declares_it(file: ParameterFile) -> None:
@@ -81,7 +81,7 @@ def test_6_11_words_48_to_54_are_those_of_a_spindle_where_p6_declares_it(file: P
 
 def test_4_12_a_modulo_axis_has_no_travel_limits(file: ParameterFile) -> None:
     file.set(("axes.modulo", ""), Value(0b100))
-    states = [file.situation.state(("travel.limit_min", axis)).state for axis in ("1", "2")]
+    states = [file.evaluation.state(("travel.limit_min", axis)).state for axis in ("1", "2")]
     assert states == ["in-force", "ignored"]
 
 

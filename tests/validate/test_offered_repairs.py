@@ -40,7 +40,7 @@ def broken_promises(case: Case) -> Iterator[str]:
             with here.recorded():
                 here.set({repair.address: repair.value for repair in finding.repairs})
                 said = [
-                    fault(here.file.situation, repair.address, repair.value) for repair in finding.repairs
+                    fault(here.file.evaluation, repair.address, repair.value) for repair in finding.repairs
                 ]
                 yield from filter(None, (*said, *unkept(finding, before, here.findings)))
 

@@ -8,10 +8,10 @@ from textwrap import dedent
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Rule, Schema, Situation, Value, load_schema
+from amp_studio.schema import Evaluation, Rule, Schema, Value, load_schema
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
-from amp_studio.validate import BuilderRules, RuleFault, Validator
+from amp_studio.validate import BuilderRules, RuleError, Validator
 from amp_studio.validate.plan import checks_of, make_plan
 
 FAMILY = """
@@ -75,11 +75,11 @@ def rule(reads: dict[str, str], check: str = "true", **more: object) -> Rule:
 
 def seen(schema: Schema, reads: dict[str, str], machine: str = "mill") -> dict[str, dict[str, object]]:
     """Return instance -> name -> the instances a rule reads there."""
-    situation = Situation(schema, lambda _: None, lambda: machine)
+    evaluation = Evaluation(schema, lambda _: None, lambda: machine)
     return {
         check.instance: {s.name: s.address[1] for s in check.singles}
         | {name: [a[1] for a in listed.addresses] for name, listed in check.lists}
-        for check in checks_of(situation, (rule(reads),))
+        for check in checks_of(evaluation, (rule(reads),))
     }
 
 
@@ -132,7 +132,7 @@ def test_a_rule_does_not_run_where_what_it_reads_does_not_exist(small) -> None:
 
 def test_scopes_that_do_not_go_together_are_a_fault(small) -> None:
     with pytest.raises(
-        RuleFault, match=r"rule own.rule: reads axis.length and spindle.speed, whose instances"
+        RuleError, match=r"rule own.rule: reads axis.length and spindle.speed, whose instances"
     ):
         seen(small, {"length": "axis.length", "speed": "spindle.speed"})
 
@@ -239,14 +239,14 @@ LENGTH = {"length": "axis.length"}
     ids=lambda given: given if isinstance(given, str) else "",
 )
 def test_a_rule_that_cannot_be_meant_is_refused(small, wrong: Rule, said: str) -> None:
-    with pytest.raises(RuleFault) as caught:
+    with pytest.raises(RuleError) as caught:
         Validator(ParameterFile(small), BuilderRules((wrong,)))
     assert str(caught.value).startswith(f"rule own.rule: {said}")
     assert caught.value.rule == "own.rule"
 
 
 def test_two_rules_of_one_name_are_refused(small) -> None:
-    with pytest.raises(RuleFault, match=r"rule own.rule: there are two rules of this name"):
+    with pytest.raises(RuleError, match=r"rule own.rule: there are two rules of this name"):
         make_plan(small, "mill", (rule(LENGTH), rule(LENGTH)))
 
 

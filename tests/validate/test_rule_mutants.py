@@ -89,7 +89,7 @@ class Campaign:
         found = self._checks.get((here, rule))
         if found is None:
             found = self._checks[here, rule] = {}
-            for check in checks_of(here.file.situation, tuple(mutant.rule for mutant in self.alive[rule])):
+            for check in checks_of(here.file.evaluation, tuple(mutant.rule for mutant in self.alive[rule])):
                 found.setdefault(check.rule.id, []).append(check)
         return found
 

@@ -117,7 +117,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
     with here.changed(case.given), here.changed(case.breaks or {}):
         values = RuleChecks(here.file, here.file.machine)
         broken = [
-            check for check in checks_of(here.file.situation, (rule,)) if values.finding(check) is not None
+            check for check in checks_of(here.file.evaluation, (rule,)) if values.finding(check) is not None
         ]
         mends = any(one.repairs for check in broken if (one := values.finding(check)) is not None)
         for mutant in mutants:

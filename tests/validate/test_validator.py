@@ -180,7 +180,7 @@ def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
 def test_what_the_control_does_not_look_at_is_not_checked_unless_it_was_forced(
     mill, address: Address
 ) -> None:
-    mill.set(address, Value(10**6, mill.situation.unit(address, "metric")))
+    mill.set(address, Value(10**6, mill.evaluation.unit(address, "metric")))
     assert found(mill, "schema.range") == []
     mill.forced[address] = "by hand"
     assert [finding.addresses for finding in found(mill, "schema.range")] == [(address,)]
@@ -188,7 +188,7 @@ def test_what_the_control_does_not_look_at_is_not_checked_unless_it_was_forced(
 
 def test_what_cannot_be_used_is_still_checked(mill) -> None:
     address = ("servo.reversal_error", "3")
-    assert mill.situation.state(address).state == "unusable"
+    assert mill.evaluation.state(address).state == "unusable"
     mill.set(address, Value(10.0, "mm"))
     assert [finding.addresses for finding in found(mill, "schema.range")] == [(address,)]
 

@@ -69,7 +69,7 @@ class Guides(Model):
     guides: tuple[Guide, ...]
 
 
-class Reading(Model):
+class Statement(Model):
     """What one place of the manual says."""
 
     page: str
@@ -81,7 +81,7 @@ class Erratum(Model):
 
     id: Key
     params: tuple[ParameterId, ...]
-    readings: tuple[Reading, ...]
+    readings: tuple[Statement, ...]
     taken: str
     why: str
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from amp_studio.files import Header, ParameterFile, SaveFault, Tell, secret_values, write_atomic
+from amp_studio.files import Header, ParameterFile, SaveError, Tell, secret_values, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.regular_file import read_file
@@ -75,7 +75,7 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     if machine_parameter and read.machine and (machine_parameter, "") not in read.values:
         file.set((machine_parameter, ""), Value(read.machine))
     file.values.update(read.values)
-    file.situation.forget()
+    file.evaluation.forget()
     file.unknown.update(read.unknown)
     file.header.extra.update(read.extra)
     return file
@@ -88,7 +88,7 @@ def export_file(
     """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
 
     Secret values are left out unless ``secrets`` asks for them; ``tell`` is called with what of the old file could not be
-    kept. Raises FormatFault for a format that is not offered or a value it cannot write, SaveFault.
+    kept. Raises FormatFault for a format that is not offered or a value it cannot write, SaveError.
     """
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
     text = chosen.write(file if secrets else without_secrets(file)).replace("\n", chosen.newline)
@@ -155,7 +155,7 @@ __all__ = [
     "FORMATS",
     "FamilyUntold",
     "FormatFault",
-    "SaveFault",
+    "SaveError",
     "TextFormat",
     "TextRead",
     "export_file",

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value, load_schema, written
-from amp_studio.schema.register_words import WordFault
+from amp_studio.schema.register_words import WordError
 
 from .acr_command import Argument, Command, Setting, commands_of
 from .bare_figures import default_system, read_figure, system_of, write_figure
@@ -152,7 +152,7 @@ def _values(schema: Schema, argument: Argument, line: int, system: str) -> dict[
     for address, (text, column) in zip(argument.setting.addresses, argument.figures, strict=True):
         try:
             values[address] = read_figure(schema, schema.parameters[address[0]], text, system)
-        except WordFault as error:
+        except WordError as error:
             raise FormatFault(str(error), line, column) from None
     return values
 
@@ -207,7 +207,7 @@ def _settings(file: ParameterFile) -> list[Setting]:
 def _row(file: ParameterFile, setting: Setting, system: str) -> str:
     """Return the line of a setting; empty where it is not set, or does not exist for this machine."""
     unset = [a for a in setting.addresses if file.get(a) is None]
-    hidden = any(file.situation.state(a).state == "hidden" for a in setting.addresses)
+    hidden = any(file.evaluation.state(a).state == "hidden" for a in setting.addresses)
     if hidden or len(unset) == len(setting.addresses):
         return ""
     if unset:
@@ -218,7 +218,7 @@ def _row(file: ParameterFile, setting: Setting, system: str) -> str:
         parameter, value = file.schema.parameters[address[0]], file.values[address]
         try:
             figures.append(write_figure(file.schema, parameter, value, system))
-        except WordFault as error:
+        except WordError as error:
             raise FormatFault(f"{written(address)}: {error}") from None
     return setting.write(figures)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Schema, Value, ValueFault
+from amp_studio.schema import InvalidValueError, Schema, Value
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.values import checked
 
@@ -49,7 +49,7 @@ def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
         return TextRead(
             {(_TABLE, axis): checked(table, Value(" ".join(words))) for axis, words in tables.items()}
         )
-    except ValueFault as error:
+    except InvalidValueError as error:
         raise FormatFault(str(error)) from None
 
 

@@ -11,9 +11,9 @@ from decimal import Decimal
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Parameter, Schema, Value, ValueFault, dimension, shown
+from amp_studio.schema import InvalidValueError, Parameter, Schema, Value, dimension, shown
 from amp_studio.schema.quoting import quoted, short
-from amp_studio.schema.register_words import WordFault, choice_of, code_of, exact
+from amp_studio.schema.register_words import WordError, choice_of, code_of, exact
 from amp_studio.schema.units import UNITS
 from amp_studio.schema.values import checked, exact_number
 
@@ -35,14 +35,14 @@ def default_system(schema: Schema) -> str:
 
 
 def write_figure(schema: Schema, parameter: Parameter, value: Value, system: str) -> str:
-    """Write the bare figure of a value, without an exponent; raises WordFault."""
+    """Write the bare figure of a value, without an exponent; raises WordError."""
     if parameter.choices:
         return str(code_of(parameter, value.value))
     if isinstance(value.value, str):
-        raise WordFault(f"{parameter.name} is a text, which is no figure")
+        raise WordError(f"{parameter.name} is a text, which is no figure")
     unit, scale = _kept_in(schema, parameter, system)
     if dimension(value.unit) != dimension(unit):
-        raise WordFault(
+        raise WordError(
             f"{parameter.name} is kept in {shown(unit) or 'a bare number'}, not in {shown(value.unit) or 'a bare number'}"
         )
     number = float(exact(value.value) * UNITS[value.unit][1] / UNITS[unit][1] * scale)
@@ -53,28 +53,28 @@ def write_figure(schema: Schema, parameter: Parameter, value: Value, system: str
 
 
 def read_figure(schema: Schema, parameter: Parameter, text: str, system: str) -> Value:
-    """Return the value that a bare figure means; raises WordFault."""
+    """Return the value that a bare figure means; raises WordError."""
     unit, scale = _kept_in(schema, parameter, system)
     try:
         number = exact_number(text) / scale
         is_double = math.isfinite(float(number)) and (float(number) != 0 or number == 0)
-    except ValueFault as error:
-        raise WordFault(str(error)) from None
+    except InvalidValueError as error:
+        raise WordError(str(error)) from None
     except OverflowError:
         is_double = False
     if not is_double:
-        raise WordFault(f"{quoted(text)} is no number that a value can be")
+        raise WordError(f"{quoted(text)} is no number that a value can be")
     is_whole = number.denominator == 1
     if not is_whole and (parameter.choices or parameter.type in ("integer", "bits")):
-        raise WordFault(f"{parameter.name} takes whole numbers, not {short(text)}")
+        raise WordError(f"{parameter.name} takes whole numbers, not {short(text)}")
     try:
         if parameter.choices:
             return checked(parameter, choice_of(parameter, int(number)))
         return checked(
             parameter, Value(int(number) if parameter.type in ("integer", "bits") else float(number), unit)
         )
-    except ValueFault as error:
-        raise WordFault(str(error)) from None
+    except InvalidValueError as error:
+        raise WordError(str(error)) from None
 
 
 def _kept_in(schema: Schema, parameter: Parameter, system: str) -> tuple[str, Fraction]:

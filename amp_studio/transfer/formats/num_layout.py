@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from amp_studio.schema import ValueFault
+from amp_studio.schema import InvalidValueError
 
 from .num_words import Form, Word, name_of
 from .text_format import FormatFault
@@ -188,6 +188,6 @@ def _data(block: Placed, cells: Cells, forms: Mapping[int, Form]) -> str:
         try:
             if [form.spell(form.read(text)) for text in own] == spelled:
                 return block.data
-        except ValueFault:
+        except InvalidValueError:
             pass  # a person changed it: the values count
     return " ".join(spelled)

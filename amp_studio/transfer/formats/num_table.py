@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Schema, ValueFault
+from amp_studio.schema import InvalidValueError, Schema
 
 from .num_layout import MOST_VALUES, Cells, Layout, Placed, compose, runs
 from .num_lines import HEADER, Block, blocks_of, split_table
@@ -76,7 +76,7 @@ class _Reader:
                 raise FormatFault("a value is missing: values have one blank between them", line, column)
             try:
                 content = text if form is None else form.read(text)
-            except ValueFault as error:
+            except InvalidValueError as error:
                 raise FormatFault(f"{name_of(word)}: {error}", line, column) from None
             if meanings := self.known.meanings.get(word):
                 content = self.contents[word] = text if meanings[0].parameter.type == "text" else content
@@ -156,7 +156,7 @@ class _Reader:
                 later.append(word)
             else:
                 self._value(file, word, meanings[0])
-        file.situation.forget()
+        file.evaluation.forget()
         for word in later:
             self._value(file, word, meant_by(file, self.known.meanings[word]))
         self.found.values = file.values
@@ -164,7 +164,7 @@ class _Reader:
     def _value(self, file: ParameterFile, word: Word, meaning: Meaning) -> None:
         try:
             file.values[meaning.address] = meaning.value(file, self.contents[word])
-        except ValueFault as error:
+        except InvalidValueError as error:
             raise FormatFault(f"{name_of(word)}: {error}", *self.places[word]) from None
 
     def missing(self) -> Iterator[str]:
@@ -269,7 +269,7 @@ def _spelled(file: ParameterFile, meaning: Meaning, form: Form | None) -> str:
     try:
         content = meaning.content(file, file.values[meaning.address])
         return spelled_text(str(content)) if form is None else form.spell(content)
-    except ValueFault as error:
+    except InvalidValueError as error:
         raise FormatFault(f"{file.schema.label(meaning.address, file.machine)}: {error}") from None
 
 

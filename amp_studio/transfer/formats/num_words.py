@@ -16,11 +16,11 @@ from functools import lru_cache
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
+    InvalidValueError,
     Parameter,
     Schema,
     UnitError,
     Value,
-    ValueFault,
     angular,
     convert,
     dimension,
@@ -82,7 +82,7 @@ class Form:
         return cls(storage.code, storage.notation == "ascii", floating, low, high, 10, 1, re.compile(number))
 
     def read(self, text: str) -> Content:
-        """Read one word as a table spells it; raises ValueFault with what is allowed."""
+        """Read one word as a table spells it; raises InvalidValueError with what is allowed."""
         if self.is_text:
             return text
         if self.pattern.fullmatch(text):
@@ -90,32 +90,32 @@ class Form:
             if math.isfinite(number) if self.is_floating else self.low <= number <= self.high:
                 return number
         if self.is_floating:
-            raise ValueFault(f"'{text}' is not a number with a decimal point")
+            raise InvalidValueError(f"'{text}' is not a number with a decimal point")
         if self.base == 16:
-            raise ValueFault(f"'{text}' is not hexadecimal from 0 to {self.high:X}")
-        raise ValueFault(f"'{text}' is not a whole number from {self.low} to {self.high}")
+            raise InvalidValueError(f"'{text}' is not hexadecimal from 0 to {self.high:X}")
+        raise InvalidValueError(f"'{text}' is not a whole number from {self.low} to {self.high}")
 
     def spell(self, content: Content) -> str:
-        """Spell a word as the control does; raises ValueFault for what the word cannot hold."""
+        """Spell a word as the control does; raises InvalidValueError for what the word cannot hold."""
         if isinstance(content, str):
             self.read(spelled_text(content))
             return content
         if not math.isfinite(content):
-            raise ValueFault(f"{content} is no number that a word holds")
+            raise InvalidValueError(f"{content} is no number that a word holds")
         if self.is_text or self.is_floating:
             return write_number(content).upper()
         number = round(content)
         if not self.low <= number <= self.high:
-            raise ValueFault(
+            raise InvalidValueError(
                 f"{write_number(content)} is outside {self.low} to {self.high}, which the word holds"
             )
         return f"{number:0{self.digits}X}" if self.base == 16 else str(number)
 
 
 def spelled_text(text: str) -> str:
-    """Return a text that a word may hold; raises ValueFault."""
+    """Return a text that a word may hold; raises InvalidValueError."""
     if not (text.isascii() and text.isprintable()):
-        raise ValueFault(f"'{text}' holds characters that are not ASCII")
+        raise InvalidValueError(f"'{text}' holds characters that are not ASCII")
     return text
 
 
@@ -165,15 +165,15 @@ class Meaning:
             return self.unit
         unit = self.parameter.storage.unit if self.parameter.storage else None
         if unit is None:
-            return file.situation.unit(self.address, "metric")
-        return angular(unit) if file.situation.turns(self.address) else unit
+            return file.evaluation.unit(self.address, "metric")
+        return angular(unit) if file.evaluation.turns(self.address) else unit
 
     def value(self, file: ParameterFile, content: Content) -> Value:
-        """Return the value that the word means; raises ValueFault."""
+        """Return the value that the word means; raises InvalidValueError."""
         parameter = self.parameter
         if isinstance(content, str):
             if parameter.type != "text":
-                raise ValueFault(f"{parameter.name} is no text")
+                raise InvalidValueError(f"{parameter.name} is no text")
             return checked(parameter, Value(content))
         if parameter.choices:
             return checked(parameter, patched_value(file, self.address, parameter, content))
@@ -185,12 +185,12 @@ class Meaning:
         return checked(parameter, Value(number, self.unit_in(file)))
 
     def content(self, file: ParameterFile, value: Value) -> Content:
-        """Return what the word of a value holds, before it is made a whole number; raises ValueFault."""
+        """Return what the word of a value holds, before it is made a whole number; raises InvalidValueError."""
         found = value.value
         if self.parameter.choices:
             raw = stored_number(self.parameter, value, turns=False)
             if raw is None:
-                raise ValueFault(f"no code is printed for {show_value(self.parameter, value)}")
+                raise InvalidValueError(f"no code is printed for {show_value(self.parameter, value)}")
             return raw
         if isinstance(found, str):
             return found
@@ -202,14 +202,14 @@ class Meaning:
         try:
             return convert(float(found), said, unit) * self.scale
         except UnitError as error:
-            raise ValueFault(str(error)) from None
+            raise InvalidValueError(str(error)) from None
 
 
 def meant_by(file: ParameterFile, meanings: tuple[Meaning, ...]) -> Meaning:
     """Return the value a word is: the first that this configuration has, where several share the word."""
     if len(meanings) > 1:
         for meaning in meanings:
-            if file.situation.state(meaning.address).state != "hidden":
+            if file.evaluation.state(meaning.address).state != "hidden":
                 return meaning
     return meanings[0]
 

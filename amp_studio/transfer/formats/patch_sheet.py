@@ -11,11 +11,11 @@ import re
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
+    InvalidValueError,
     Schema,
     UnitError,
-    UnknownParameter,
+    UnknownParameterError,
     Value,
-    ValueFault,
     angular,
     dimension,
     show_value,
@@ -44,11 +44,11 @@ def _write(file: ParameterFile) -> str:
     ]
     for address in file.addresses():
         parameter, value = file.schema.parameters[address[0]], file.get(address)
-        if value is None or not parameter.patchable or file.situation.state(address).state == "hidden":
+        if value is None or not parameter.patchable or file.evaluation.state(address).state == "hidden":
             continue
         number = file.schema.number(address, file.machine) or ""
         name = f"{parameter.name} {file.schema.instance_label(address, file.machine)}".rstrip()
-        turns = file.situation.turns(address)
+        turns = file.evaluation.turns(address)
         stored = stored_number(parameter, value, turns)
         if stored is None:
             lines.append(f"# {number}\t{show_value(parameter, value)}: no code is printed\t\t{name}")
@@ -75,7 +75,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
             raise FormatFault("a line is number, value, unit and name, with tabs between them", n)
         try:
             address = file.find(number)
-        except UnknownParameter as error:
+        except UnknownParameterError as error:
             if not keep_unknown:
                 raise FormatFault(str(error), n, 1) from None
             if number.strip() in found.unknown:
@@ -95,15 +95,15 @@ def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line
     try:
         number, rest = read_number(cells[0])
         if rest.strip():
-            raise ValueFault(f"{quoted(cells[0])} is no plain number")
+            raise InvalidValueError(f"{quoted(cells[0])} is no plain number")
         value = checked(parameter, patched_value(file, address, parameter, number))
-    except ValueFault as error:
+    except InvalidValueError as error:
         raise FormatFault(str(error), line, column) from None
     if parameter.choices or len(cells) < 2 or not cells[1].strip():
         return value
     try:
         unit = unit_named(cells[1])
-    except (ValueFault, UnitError) as error:
+    except (InvalidValueError, UnitError) as error:
         raise FormatFault(str(error), line, column + len(cells[0]) + 1) from None
     if dimension(unit) not in (dimension(value.unit), dimension(angular(value.unit))):
         said = f"{parameter.name} is stored in {value.unit or 'a bare number'}, not in {unit}"

@@ -15,7 +15,7 @@ from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import Address, Parameter, Schema, Value, written
 from amp_studio.schema.register_words import (
     WORD,
-    WordFault,
+    WordError,
     is_low_first,
     number_of,
     value_of,
@@ -111,7 +111,7 @@ def held_by(file: ParameterFile, registers: Registers) -> list[Held]:
                 raise FormatFault(f"register {register} holds one of two values: {said}")
         try:
             number, words = number_of(parameter, value, unit), words_of(parameter, value, unit)
-        except WordFault as error:
+        except WordError as error:
             raise FormatFault(f"register {registers.first[address]}, {written(address)}: {error}") from None
         found.append(Held(address, registers.first[address], number, words))
     return sorted(found, key=lambda held: held.register)
@@ -121,7 +121,7 @@ def is_writable(file: ParameterFile, address: Address) -> bool:
     """Tell whether a value exists for this machine, and the control lets it be written."""
     return (
         file.schema.parameters[address[0]].access != "read"
-        and file.situation.state(address).state != "hidden"
+        and file.evaluation.state(address).state != "hidden"
     )
 
 
@@ -174,8 +174,8 @@ class Meaning:
         file.values.update(self.values)
         for register in several:
             claims = self.registers.claims[register]
-            existing = [a for a in claims if file.situation.state(a).state != "hidden"]
-            why = dict.fromkeys(file.situation.state(a).why for a in claims)
+            existing = [a for a in claims if file.evaluation.state(a).state != "hidden"]
+            why = dict.fromkeys(file.evaluation.state(a).why for a in claims)
             self._decide(register, existing, f"stands for nothing here: {'; '.join(w for w in why if w)}")
 
     def _decide(self, register: int, claims: list[Address], said: str) -> None:
@@ -212,7 +212,7 @@ class Meaning:
             if is_whole and not source.is_pattern and not is_low_first(parameter):
                 return value_of_number(parameter, source.number, unit)
             return value_of(parameter, tuple(cell.word for cell in cells), unit)
-        except WordFault as error:
+        except WordError as error:
             raise FormatFault(str(error), source.line, source.value_column) from None
 
     def _leave(self, register: int, said: str) -> None:

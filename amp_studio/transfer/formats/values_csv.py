@@ -12,7 +12,7 @@ import io
 from amp_studio.files import ParameterFile
 from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.files.storage import read_stored
-from amp_studio.schema import Address, Schema, Value, ValueFault, is_mask, write_value, written
+from amp_studio.schema import Address, InvalidValueError, Schema, Value, is_mask, write_value, written
 from amp_studio.schema.quoting import short
 
 from .text_format import FormatFault, TextFormat, TextRead
@@ -88,7 +88,7 @@ def _take(
         return
     try:
         found.values[address] = read_stored(schema, parameter, said)
-    except ValueFault as error:
+    except InvalidValueError as error:
         raise FormatFault(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
 
 

@@ -1,6 +1,6 @@
 """What holds for one machine's values: conditions, states, units.
 
-A ``Situation`` looks at values through a callable and remembers what it found
+An ``Evaluation`` looks at values through a callable and remembers what it found
 until it is told that an address changed; it never changes a value.
 """
 
@@ -10,13 +10,13 @@ import contextlib
 import re
 from collections.abc import Callable
 
-from .catalog import Address, Schema, UnknownParameter, part_of, read_address
+from .catalog import Address, Schema, UnknownParameterError, part_of, read_address
 from .cel_engine import WORD_FUNCTIONS, Context
 from .conditions import (
     Asked,
     Canonical,
     Conditions,
-    Reading,
+    Reference,
     StateInfo,
     StatePlan,
     conditions_of,
@@ -30,7 +30,7 @@ from .units import canonical, dimension
 from .values import Value
 
 
-class Situation:
+class Evaluation:
     """Conditions and states of one file."""
 
     def __init__(
@@ -73,21 +73,21 @@ class Situation:
         """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""
         return self._conditions.scopes[address[0]]
 
-    def reading(self, text: str, instance: str, scope: str | None = None) -> Reading:
-        """Resolve one entry of ``reads`` for an instance; raises UnknownParameter.
+    def reference(self, text: str, instance: str, scope: str | None = None) -> Reference:
+        """Resolve one entry of ``reads`` for an instance; raises UnknownParameterError.
 
         With the ``scope`` of the instance, axis 1 is not taken for process 1; without it equal names are enough.
         """
-        return self._conditions.reading(text, instance, scope)
+        return self._conditions.reference(text, instance, scope)
 
     # -- conditions ------------------------------------------------------------
 
     def condition(self, name: str) -> Condition:
-        """Return a named condition of the family; raises UnknownParameter."""
+        """Return a named condition of the family; raises UnknownParameterError."""
         try:
             return self.schema.family.conditions[name]
         except KeyError:
-            raise UnknownParameter(f"the family has no condition '{name}'") from None
+            raise UnknownParameterError(f"the family has no condition '{name}'") from None
 
     def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
         """Tell whether a named condition holds for an instance (of a ``scope``); one over an unset value does not."""
@@ -103,13 +103,13 @@ class Situation:
         name, instance, _ = asked
         when = self.condition(name).when
         got: list[Canonical | list[Canonical]] = []
-        for reading in self._conditions.reads(asked):
-            if reading is None:
+        for reference in self._conditions.reads(asked):
+            if reference is None:
                 got.append(None)
-            elif reading.is_list:
-                got.append([self.canonical(a) for a in reading.addresses])
+            elif reference.is_list:
+                got.append([self.canonical(a) for a in reference.addresses])
             else:
-                got.append(self.canonical(reading.addresses[0]))
+                got.append(self.canonical(reference.addresses[0]))
         verdicts = self._conditions.verdicts
         key = name, instance if names_instance(when) else "", same_values(got)
         found = verdicts.get(key)
@@ -153,8 +153,8 @@ class Situation:
         for name in names:
             for text in self.condition(name).reads.values():
                 try:
-                    found.update(self.reading(text, address[1], self.scope(address)).addresses)
-                except UnknownParameter:
+                    found.update(self.reference(text, address[1], self.scope(address)).addresses)
+                except UnknownParameterError:
                     continue
         by_machine = parameter.layouts or any("machine" in self.condition(n).when for n in names)
         if by_machine and self.schema.family.machine_parameter:
@@ -176,7 +176,7 @@ class Situation:
         """Return the instance a person means by a number or ``id@instance``.
 
         Where a number means several parameters, the one that exists for this
-        machine counts. Raises UnknownParameter with one clear sentence.
+        machine counts. Raises UnknownParameterError with one clear sentence.
         """
         text = text.strip()
         parameter_id, instance = read_address(text)
@@ -185,28 +185,28 @@ class Situation:
             instances = self.schema.instances(parameter, self.machine)
             if instance in instances:
                 return parameter_id, instance
-            raise UnknownParameter(f"'{text}': {parameter.name} {_offered(instances)}")
+            raise UnknownParameterError(f"'{text}': {parameter.name} {_offered(instances)}")
         claims = self.schema.addressed_by(text, self.machine)
         existing = [a for a in claims if self.state(a).state != "hidden"] or self._nearest(claims)
         if not existing:
-            raise UnknownParameter(f"'{text}' is no parameter of {self.schema.family.name}")
+            raise UnknownParameterError(f"'{text}' is no parameter of {self.schema.family.name}")
         if len(existing) > 1:
             names = " or ".join(f"{a[0]}@{a[1]}" for a in existing)
-            raise UnknownParameter(f"number {text} means {names} here: say which by id")
+            raise UnknownParameterError(f"number {text} means {names} here: say which by id")
         return existing[0]
 
     def find_bit(self, text: str) -> tuple[Address, int | None]:
         """Return the instance a person means and, where he names a bit of a word (``P3N0.5``), its number.
 
-        Raises UnknownParameter.
+        Raises UnknownParameterError.
         """
         try:
             return self.find(text), None
-        except UnknownParameter:
+        except UnknownParameterError:
             head, _, bit = text.strip().rpartition(".")
             if not re.fullmatch("[0-9]{1,2}", bit):
                 raise
-            with contextlib.suppress(UnknownParameter):
+            with contextlib.suppress(UnknownParameterError):
                 address = self.find(head)
                 if self.schema.parameters[address[0]].type == "bits":
                     return address, int(bit)
