@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
-from .model import BoundRef, Family, Group, Parameter
+from .model import BoundRef, Family, Group, Parameter, StateRule
 from .yaml_reader import KeyPath
 
 
@@ -27,12 +27,17 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
     yield from _in_family(family, ids)
     seen: set[str] = set()
     for group in groups:
+        yield from _in_group_states(family, group)
         for position, parameter in enumerate(group.parameters):
             here: KeyPath = ("parameters", position)
             if parameter.id in seen:
                 yield Inconsistency(group.key, (*here, "id"), f"{parameter.id} stands twice")
             seen.add(parameter.id)
-            for place, what in (*_in_parameter(family, parameter, ids), *_secret_bounds(parameter, secrets)):
+            own = group.own_states(parameter)
+            for place, what in (
+                *_in_parameter(family, parameter, own, ids),
+                *_secret_bounds(parameter, secrets),
+            ):
                 yield Inconsistency(group.key, (*here, *place), f"{parameter.id}: {what}")
 
 
@@ -63,11 +68,36 @@ def _first_line(error: Exception) -> str:
     return str(error).splitlines()[0]
 
 
-def _in_parameter(family: Family, parameter: Parameter, ids: set[str]) -> Iterator[tuple[KeyPath, str]]:
-    for n, state in enumerate(parameter.states):
-        key = "when" if state.when else "unless"
-        if (state.when or state.unless) not in family.conditions:
-            yield ("states", n, key), f"there is no condition '{state.when or state.unless}'"
+def _in_group_states(family: Family, group: Group) -> Iterator[Inconsistency]:
+    """Yield what is wrong with the states of a group: an unknown condition, and one that no parameter gets."""
+    ids = {p.id for p in group.parameters}
+    scopes = {scope for p in group.parameters for scope in p.scopes}
+    for key in ("states", "last_states"):
+        for n, state in enumerate(getattr(group, key)):
+            for place, what in _in_state(family, state):
+                yield Inconsistency(group.key, (key, n, *place), what)
+            if state.scope is not None and state.scope not in scopes:
+                yield Inconsistency(
+                    group.key, (key, n, "scope"), f"no parameter here has scope '{state.scope}'"
+                )
+            for at, named in enumerate(state.not_for):
+                if named not in ids:
+                    yield Inconsistency(
+                        group.key, (key, n, "not_for", at), f"there is no parameter '{named}' here"
+                    )
+
+
+def _in_state(family: Family, state: StateRule) -> Iterator[tuple[KeyPath, str]]:
+    if (state.when or state.unless) not in family.conditions:
+        yield ("when" if state.when else "unless",), f"there is no condition '{state.when or state.unless}'"
+
+
+def _in_parameter(
+    family: Family, parameter: Parameter, own_states: range, ids: set[str]
+) -> Iterator[tuple[KeyPath, str]]:
+    for n, state in enumerate(parameter.states[i] for i in own_states):
+        for place, what in _in_state(family, state):
+            yield ("states", n, *place), what
     for n, variant in enumerate(parameter.range_variants):
         if variant.when not in family.conditions:
             yield ("range_variants", n, "when"), f"there is no condition '{variant.when}'"

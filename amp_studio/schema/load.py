@@ -96,7 +96,7 @@ def load_compiled(family_id: str) -> Compiled:
 def compile_family(folder: Path) -> Compiled:
     """Parse and check every fact file of one family; raises DatabaseError with file and line."""
     family = _read(folder / "family.yaml", Family)
-    groups = tuple(_read(folder / "groups" / f"{key}.yaml", Group) for key in family.groups)
+    groups = tuple(_read(folder / "groups" / f"{key}.yaml", Group, family) for key in family.groups)
     for key, group in zip(family.groups, groups, strict=True):
         if group.key != key:
             raise DatabaseError(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
@@ -108,6 +108,9 @@ def compile_family(folder: Path) -> Compiled:
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
         raise DatabaseError(path, _parsed(path).line(fault.place), fault.what)
+    # What stands in one place for several parameters has reached them.
+    family = family.model_copy(update={"choice_lists": {}, "bit_lists": {}})
+    groups = tuple(group.model_copy(update={"states": (), "last_states": ()}) for group in groups)
     return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables, guides=guides)
 
 
@@ -155,9 +158,10 @@ def _line_of(document: YamlDocument, entry: KeyPath, place: KeyPath) -> int:
     return document.line((*entry, *place))
 
 
-def _read(path: Path, model: type[T]) -> T:
+def _read(path: Path, model: type[T], family: Family | None = None) -> T:
+    """Return a fact file as a model; names of lists mean those of the family."""
     document = _parsed(path)
-    return _valid(path, document, document.data, model)
+    return _valid(path, document, document.data, model, family)
 
 
 def _parsed(path: Path) -> YamlDocument:
@@ -165,16 +169,15 @@ def _parsed(path: Path) -> YamlDocument:
     return read_yaml_file(path, DatabaseError, references=True)
 
 
-def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], place: KeyPath = ()) -> T:
-    """Return data of a file as a model; raises DatabaseError. ``place`` is where the data stand in the file."""
+def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], family: Family | None) -> T:
     try:
-        return model.model_validate(data)
+        return model.model_validate(data, context=family)
     except ValidationError as error:
         first = error.errors()[0]
-        line = document.line((*place, *first["loc"]))
+        line = document.line(first["loc"])
         raise DatabaseError(path, line, f"{_place(data, first)}{_told(first)}") from None
     except RecursionError:
-        raise DatabaseError(path, document.line(place), "is too deep") from None
+        raise DatabaseError(path, 1, "is too deep") from None
 
 
 def _told(fault: ErrorDetails) -> str:

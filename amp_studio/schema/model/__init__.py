@@ -24,6 +24,7 @@ from .family import (
     Machine,
     ScopeInfo,
 )
+from .group import Group, GroupState
 from .parameter import (
     Bit,
     Bound,
@@ -31,7 +32,6 @@ from .parameter import (
     Choice,
     Default,
     Effect,
-    Group,
     Help,
     Layout,
     Need,
@@ -80,6 +80,7 @@ __all__ = [
     "Family",
     "Fix",
     "Group",
+    "GroupState",
     "Guide",
     "GuideStep",
     "Guides",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from .parameter import Effect
+from .parameter import Bit, Choice, Effect
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
 
 
@@ -83,4 +83,8 @@ class Family(Model):
     axes: AxisProfile | None = None
     effect: Effect
     groups: tuple[str, ...]
+    choice_lists: dict[Key, tuple[Choice, ...]] = {}
+    """Choices that several parameters have, by the name that stands there under ``choices``."""
+    bit_lists: dict[Key, tuple[Bit, ...]] = {}
+    """Bits that several words have, by the name that stands there under ``bits``."""
     conditions: dict[str, Condition] = {}

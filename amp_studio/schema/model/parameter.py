@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import model_validator
+from pydantic import BeforeValidator, ValidationInfo, model_validator
 
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
 
@@ -60,17 +60,44 @@ class Choice(Model):
     note: str | None = None
 
 
+def _choice_list(given: object, info: ValidationInfo) -> object:
+    return _named_list(given, "choice", getattr(info.context, "choice_lists", {}))
+
+
+def _bit_list(given: object, info: ValidationInfo) -> object:
+    return _named_list(given, "bit", getattr(info.context, "bit_lists", {}))
+
+
+def _named_list(given: object, kind: str, lists: dict[str, Any]) -> object:
+    """Return the list of the family that a name stands for; the family is the context of the validation."""
+    if not isinstance(given, str):
+        return given
+    if given not in lists:
+        raise ValueError(f"there is no {kind} list '{given}'")
+    return lists[given]
+
+
+Choices = Annotated[
+    tuple[Choice, ...], BeforeValidator(_choice_list, json_schema_input_type=tuple[Choice, ...] | Key)
+]
+"""Choices, or the name of one of the ``choice_lists`` of the family."""
+
+
 class Bit(Model):
     """One bit, or a field of several bits, of a packed word."""
 
     bit: int
     width: int = 1
     label: str
-    choices: tuple[Choice, ...] | None = None
+    choices: Choices | None = None
     signed: bool = False
     """A field of several bits that holds a number with its sign (two's complement)."""
     unknown: bool = False
     """The manual's figure is lost: the bit is kept and shown raw."""
+
+
+Bits = Annotated[tuple[Bit, ...], BeforeValidator(_bit_list, json_schema_input_type=tuple[Bit, ...] | Key)]
+"""Bits, or the name of one of the ``bit_lists`` of the family."""
 
 
 class Storage(Model):
@@ -211,10 +238,10 @@ class Parameter(Model):
     decimals: int | None = None
     ranges: dict[Unit, Range] | None = None
     range_variants: tuple[RangeVariant, ...] = ()
-    choices: tuple[Choice, ...] | None = None
+    choices: Choices | None = None
     more_codes: bool = False
     """The control has codes that the manual does not print: any code may stand, as ``raw:<code>``."""
-    bits: tuple[Bit, ...] | None = None
+    bits: Bits | None = None
     default: Default | None = None
     storage: Storage | None = None
     states: tuple[StateRule, ...] = ()
@@ -237,6 +264,11 @@ class Parameter(Model):
     pages: dict[str, Page] = {}
     """Instance, or what stands before its point -> its page, where the manual has another section for it."""
     errata: tuple[str, ...] = ()
+
+    @property
+    def scopes(self) -> tuple[Scope, ...]:
+        """Every scope it has on some machine type."""
+        return (self.scope,) if self.layouts is None else tuple(layout.scope for layout in self.layouts)
 
     @model_validator(mode="after")
     def _whole(self) -> Parameter:
@@ -262,14 +294,3 @@ class Parameter(Model):
                 if value not in keys:
                     raise ValueError(f"default {value!r} is none of its choices")
         return self
-
-
-class Group(Model):
-    """One file of ``groups/``: the parameters of a group in the manual's order."""
-
-    key: Key
-    name: str
-    section: str = ""
-    """The part of a long group that stands in this file (``Position Loop Parameters``)."""
-    chapter: str
-    parameters: tuple[Parameter, ...]

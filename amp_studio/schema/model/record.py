@@ -38,7 +38,7 @@ def _counted_out(instances: object) -> object:
     return found
 
 
-Instances = Annotated[tuple[str, ...], BeforeValidator(_counted_out)]
+Instances = Annotated[tuple[str, ...], BeforeValidator(_counted_out, json_schema_input_type=tuple[str, ...])]
 
 
 class Model(BaseModel):

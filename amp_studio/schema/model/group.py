@@ -1,0 +1,57 @@
+"""What a group is: a file of parameters, and the states that they share."""
+
+from __future__ import annotations
+
+from pydantic import ValidationInfo, field_validator
+
+from .parameter import Parameter, StateRule
+from .record import Key, Model, ParameterId, Scope
+
+
+class GroupState(StateRule):
+    """A state of all parameters of a group, or of those of one scope."""
+
+    scope: Scope | None = None
+    """Only parameters of this scope; left out: all parameters of the file."""
+    not_for: tuple[ParameterId, ...] = ()
+    """Parameters that do not get it."""
+
+
+class Group(Model):
+    """One file of ``groups/``: the parameters of a group in the manual's order."""
+
+    key: Key
+    name: str
+    section: str = ""
+    """The part of a long group that stands in this file (``Position Loop Parameters``)."""
+    chapter: str
+    states: tuple[GroupState, ...] = ()
+    """Each parameter gets them in front of its own. Compiled, the parameters have them and there are none here."""
+    last_states: tuple[GroupState, ...] = ()
+    """Each parameter gets them behind its own."""
+    parameters: tuple[Parameter, ...]
+
+    @field_validator("parameters")
+    @classmethod
+    def _with_states(cls, parameters: tuple[Parameter, ...], info: ValidationInfo) -> tuple[Parameter, ...]:
+        first, last = info.data.get("states", ()), info.data.get("last_states", ())
+        if not first and not last:
+            return parameters
+        return tuple(
+            p.model_copy(update={"states": (*_states_for(p, first), *p.states, *_states_for(p, last))})
+            for p in parameters
+        )
+
+    def own_states(self, parameter: Parameter) -> range:
+        """Return which of the states of a parameter of this group stand at the parameter itself."""
+        behind = len(parameter.states) - len(_states_for(parameter, self.last_states))
+        return range(len(_states_for(parameter, self.states)), behind)
+
+
+def _states_for(parameter: Parameter, states: tuple[GroupState, ...]) -> tuple[StateRule, ...]:
+    """Return those states of a group that a parameter gets."""
+    return tuple(
+        StateRule(state=s.state, when=s.when, unless=s.unless, page=s.page)
+        for s in states
+        if s.scope in (None, *parameter.scopes) and parameter.id not in s.not_for
+    )
