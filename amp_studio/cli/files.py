@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,6 @@ from amp_studio.files import (
     ParameterFile,
     RangeError,
     compare,
-    describe,
     merge,
     new_file,
     open_file,
@@ -23,13 +22,17 @@ from amp_studio.files.lock import now
 from amp_studio.schema import (
     MASKED,
     Address,
+    Meant,
     Value,
+    all_meant,
     field_at,
     field_value,
+    meant,
     show_value,
     with_field,
     write_value,
 )
+from amp_studio.schema import shown as unit_shown
 from amp_studio.schema.stored import stored_number
 
 from .console import assignments, family, note, print_json, progress
@@ -51,32 +54,43 @@ def set_verb(options: argparse.Namespace) -> int:
     """Change values, all or none."""
     with Document.open(options.path) as document:
         file = document.file
-        values, marks = wanted(file, options.assignments), dict(file.forced)
+        told: list[str] = []
+        values, marks = wanted(file, options.assignments, told.append), dict(file.forced)
         try:
             changes = file.set_many(values, force=f"on {now()} by 'set --force'" if options.force else "")
         except RangeError as error:
             raise UsageError(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
+        for said in told:
+            note(said)
             note_all(document.notes)
         if not changes:
             note("nothing changed: every value was so already")
         for change in changes:
             parameter = file.schema.parameters[change.address[0]]
-            print(f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "
-                  f"{show_value(parameter, change.new)}")  # fmt: skip
+            name = file.schema.named(change.address, file.machine)
+            print(f"{name}: {show_value(parameter, change.old)} -> {show_value(parameter, change.new)}")
             state = file.evaluation.state(change.address)
             if state.state != "in-force":
-                note(f"{describe(file, change.address)} is {state.state}: {state.why}")
+                note(f"{name} is {state.state}: {state.why}")
     return 0
 
 
-def wanted(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Value | None]:
-    """Read assignments in order, each in the light of those before it; the file itself is not changed."""
+def wanted(
+    file: ParameterFile, texts: Sequence[str], tell: Callable[[str], object] = note
+) -> dict[Address, Value | None]:
+    """Read assignments in order, each in the light of those before it; the file itself is not changed.
+
+    ``tell`` is called with which parameter a number means that is printed for several.
+    """
     trial = file.copy()
     found: dict[Address, Value | None] = {}
     for param, text in assignments(texts):
-        address, bit = trial.evaluation.find_bit(param)
+        found_here = meant(trial.evaluation, param)
+        address, bit = found_here.address, found_here.bit
+        if said := found_here.said(trial.schema):
+            tell(said)
         if bit is not None:
             found[address] = _with_bit(trial, address, bit, text)
         else:
@@ -126,12 +140,14 @@ def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
     file = open_file(options.path).file
     if options.params:
-        found = [file.evaluation.find_bit(p) for p in options.params]
+        found = [m for p in options.params for m in all_meant(file.evaluation, p)]
     else:
-        found = [(a, None) for a in file.addresses()
+        found = [Meant(a) for a in file.addresses()
                  if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")]  # fmt: skip
+    for said in dict.fromkeys(said for m in found if (said := m.said(file.schema))):
+        note(said)
     rows = []
-    for address, bit in found:
+    for address, bit in ((m.address, m.bit) for m in found):
         if bit is not None:
             rows.append(_bit_row(file, address, bit))
             if not options.json:
@@ -144,7 +160,9 @@ def get_verb(options: argparse.Namespace) -> int:
             state = "" if rows[-1]["state"] == "in-force" else f"  ({rows[-1]['state']})"
             parameter = file.schema.parameters[address[0]]
             shown = show_value(parameter, file.get(address), secrets=options.secrets)
-            print(f"{file.schema.label(address, file.machine):52} {shown}{mark}{state}")
+            if file.get(address) is None and rows[-1]["unit"]:
+                shown += f" (in {unit_shown(rows[-1]['unit'])})"
+            print(f"{file.schema.named(address, file.machine):52} {shown}{mark}{state}")
     if options.json:
         print_json({"values": rows})
     return 0
@@ -193,7 +211,7 @@ def print_difference(file: ParameterFile, difference: Difference, secrets: bool)
     """Print one difference."""
     parameter = file.schema.parameters[difference.address[0]]
     sides = (show_value(parameter, v, secrets=secrets) for v in (difference.a, difference.b))
-    print(f"{file.schema.label(difference.address, file.machine):52} {'  |  '.join(sides)}")
+    print(f"{file.schema.named(difference.address, file.machine):52} {'  |  '.join(sides)}")
 
 
 def _side(text: str) -> tuple[ParameterFile, str | None]:
@@ -221,7 +239,7 @@ def merge_verb(options: argparse.Namespace) -> int:
             print(f"conflict at {'@'.join(filter(None, c.address))}: ours stands")
             continue
         was, mine, wanted = (show_value(p, v, secrets=options.secrets) for v in (c.base, c.ours, c.theirs))
-        print(f"conflict at {base.schema.label(c.address, ours.machine)}: base {was}, "
+        print(f"conflict at {base.schema.named(c.address, ours.machine)}: base {was}, "
               f"ours {mine}, theirs {wanted}; ours stands")  # fmt: skip
     print(f"{options.output}: {len(conflicts)} conflicts")
     return 1 if conflicts else 0

@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
-from amp_studio.files import ParameterFile, axis_instances, open_file
-from amp_studio.schema import InvalidValueError, canonical, unit_named, write_value
+from amp_studio.files import axis_instances, open_file
+from amp_studio.schema import InvalidValueError, axis_meant, canonical, unit_named
 from amp_studio.schema.values import read_number
 from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
 
 from .console import assignments, note, print_json
-from .errors import UsageError
 from .files import wanted
 from .output import check_replaced
 
@@ -22,10 +21,13 @@ def simulate_verb(options: argparse.Namespace) -> int:
         check_replaced(options.output, options.path)
     file = open_file(options.path).file
     settings, own = _settings(options.assignments)
-    for address, value in wanted(file, own).items():
+    told: list[str] = []
+    for address, value in wanted(file, own, told.append).items():
         file.set(address, value)
-    axis = _axis(file, options.axis) if options.axis else None
+    axis = axis_meant(file.evaluation, axis_instances(file), options.axis) if options.axis else None
     trace = simulate(file, options.scenario, axis, settings)
+    for said in told:
+        note(said)
     if options.output:
         write_trace(trace, options.output, note)
     if options.json:
@@ -33,17 +35,6 @@ def simulate_verb(options: argparse.Namespace) -> int:
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0
-
-
-def _axis(file: ParameterFile, text: str) -> str:
-    """Return the axis a person means by its number or its name."""
-    profile, instances = file.schema.family.axes, axis_instances(file)
-    for axis in instances:
-        value = file.get((profile.name, axis))
-        name = write_value(file.schema.parameters[profile.name], value)
-        if axis == text or (value is not None and name.casefold() == text.casefold()):
-            return axis
-    raise UsageError(f"there is no axis '{text}'")
 
 
 def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:

@@ -6,18 +6,9 @@ the documenter's three orders; ``build_report`` gives the same as plain data.
 
 from .build import build_report
 from .describe import definition, finding_json, finding_text, suppressed_text
-from .manual_page import (
-    cells_of,
-    facts,
-    formula_lines,
-    help_parts,
-    one_line,
-    page_of,
-    range_text,
-    table_lines,
-    tables_of,
-)
+from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
 from .model import SORTS, Report, Sort
+from .printed_table import cells_of, table_lines, tables_of
 from .why import why_parts, why_text
 from .write import FORMATS, write_report
 

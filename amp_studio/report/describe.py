@@ -18,15 +18,18 @@ from amp_studio.schema import (
 from amp_studio.schema.model import BoundRef, Choice, StateRule
 from amp_studio.validate import Finding, Setting, Suppressed
 
-from .manual_page import erratum_text
+from .manual_page import entry_units, erratum_text, sharing_numbers
 
 
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
     """Return one parameter definition as ``schema --json`` gives it."""
     machines = [m.key for m in schema.family.machines]
     layout = schema.layout(parameter, schema.family.default_machine)
-    numbers = {m: schema.numbers(parameter, m) for m in machines}
+    printed = {m: schema.numbers(parameter, m) for m in machines}
+    # A number that the manual prints by mistake addresses another parameter: it is no number of this one.
+    numbers = {m: {} if schema.is_disputed(parameter.id, m) else n for m, n in printed.items()}
     same = all(n == numbers[machines[0]] for n in numbers.values())
+    instances = {m: list(schema.instances(parameter, m)) for m in machines}
     found: dict[str, Any] = {
         "id": parameter.id,
         "name": parameter.name,
@@ -35,7 +38,9 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         "scope": layout.scope if layout else parameter.scope,
         "type": parameter.type,
         "numbers": numbers[machines[0]] if same else next((n for n in numbers.values() if n), {}),
+        "instances": next((i for i in instances.values() if i), []),
         "unit": parameter.quantity,
+        "units": list(entry_units(schema, parameter)),
         "decimals": parameter.decimals,
         "ranges": {u: [_bound(b) for b in r] for u, r in (parameter.ranges or {}).items()} or None,
         "choices": [_choice(c) for c in parameter.choices] if parameter.choices else None,
@@ -59,8 +64,13 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         found["bits"] = [b.model_dump(exclude_none=True) for b in parameter.bits]
     if not same:
         found["numbers_by_machine"] = numbers
+    if len({tuple(i) for i in instances.values() if i}) > 1:
+        found["instances_by_machine"] = instances
     if any(schema.is_disputed(parameter.id, m) for m in machines):
         found["numbers_disputed"] = True
+        found["printed_numbers"] = next(n for m, n in printed.items() if n != numbers[m])
+    if sharing := sharing_numbers(schema, parameter):
+        found["numbers_also_printed_for"] = sharing
     if parameter.optional:
         found["optional"] = True
     if parameter.secret:
@@ -91,7 +101,15 @@ def _default(parameter: Parameter) -> dict[str, Any] | None:
         found: dict[str, Any] = {"": label_of(parameter, str(default.value))}
         return found | ({"instances": {i: label_of(parameter, str(v)) for i, v in default.instances.items()}}
                         if default.instances else {})  # fmt: skip
-    return {default.unit: default.value}
+
+    def plain(value: float | bool | str) -> float | bool | str:
+        is_whole = parameter.type in ("integer", "bits") and isinstance(value, float)
+        return int(value) if is_whole else value
+
+    numbers: dict[str, Any] = {default.unit: plain(default.value)}
+    if default.instances:
+        numbers["instances"] = {i: plain(v) for i, v in default.instances.items()}
+    return numbers
 
 
 def _available(schema: Schema, states: tuple[StateRule, ...]) -> str:
@@ -156,4 +174,5 @@ def _written(parameter: Parameter, value: Value) -> str:
 
 
 def _named(file: ParameterFile, address: Address) -> str:
-    return file.schema.label(address, file.machine)
+    """Return what a person can look up: number and name, with the address where the number is not its own."""
+    return file.schema.named(address, file.machine)

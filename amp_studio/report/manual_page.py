@@ -5,10 +5,11 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
-from collections.abc import Iterable, Iterator
-from itertools import groupby, pairwise, zip_longest
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby, pairwise
 
 from amp_studio.schema import (
+    Evaluation,
     Parameter,
     Schema,
     UnknownParameterError,
@@ -16,10 +17,13 @@ from amp_studio.schema import (
     labelled,
     read_address,
     shown,
+    unknown,
     write_number,
 )
-from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, Range, Table
+from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, Range
 from amp_studio.validate import formulas
+
+from .printed_table import table_lines, tables_of
 
 _WIDTH = 100
 _INDENT = "  "
@@ -30,16 +34,27 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
 
     Where a number means several parameters, or another one on another machine type, each has its page.
     """
-    parameter_id = read_address(param)[0]
-    if parameter_id in schema.parameters:
-        wanted = [parameter_id]
+    machines = [machine] if machine else [m.key for m in schema.family.machines]
+    found = schema.parameters.get(read_address(param.strip().casefold())[0])
+    if found is not None:
+        _check_instance(schema, found, param, machines)
+        wanted = [found.id]
     else:
-        machines = [machine] if machine else [m.key for m in schema.family.machines]
-        wanted = [a[0] for m in machines for a in schema.addressed_by(param, m)]
+        wanted = [a[0] for m in machines for a in schema.addressed_by(param, m) or schema.words(param, m)]
         if not wanted:
-            raise UnknownParameterError(f"'{param}' is no parameter of {schema.family.name}")
+            raise UnknownParameterError(*unknown(schema, param.strip()))
     pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
     return ("\n" + "=" * _WIDTH + "\n").join(pages)
+
+
+def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: Sequence[str]) -> None:
+    """Raise UnknownParameterError for an instance that the parameter has nowhere; a letter may be that of an axis."""
+    instance = read_address(param.strip())[1]
+    offered = {i.casefold() for m in machines for i in schema.instances(parameter, m)}
+    on_an_axis = any(schema.kin(schema.scopes(m)[parameter.id], "axis") for m in machines)
+    if instance and instance.casefold() not in offered and not (on_an_axis and instance.isalpha()):
+        evaluation = Evaluation(schema, lambda _: None, lambda: machines[0])
+        evaluation.find(param)  # says what it has
 
 
 def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
@@ -101,36 +116,6 @@ def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
     return lines
 
 
-def tables_of(schema: Schema, parameter: Parameter) -> list[Table]:
-    """Return the printed tables in which the value of a parameter is looked up."""
-    return [table for table in schema.tables.values() if parameter.id in table.params]
-
-
-def cells_of(table: Table) -> list[list[str]]:
-    """Return the cells of a table as texts, the head with its units first."""
-    units = table.units or ("",) * len(table.head)
-    head = [f"{name} ({shown(unit)})" if unit else name for name, unit in zip(table.head, units, strict=True)]
-    return [head, *([c if isinstance(c, str) else write_number(c) for c in row] for row in table.rows)]
-
-
-def table_lines(table: Table) -> list[str]:
-    """Return the lines of a printed table; a cell that is too long for its column goes on below."""
-    head, *rows = cells_of(table)
-    room = _WIDTH - len(_INDENT) - 2 * (len(head) - 1)
-    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
-    while sum(widths) > room:  # the widest gives way
-        widths[widths.index(max(widths))] -= 1
-    lines = [line for row in (head, *rows) for line in _row(row, widths)]
-    lines.insert(len(_row(head, widths)), "-" * (sum(widths) + 2 * (len(widths) - 1)))
-    return lines + textwrap.wrap(table.note, _WIDTH - len(_INDENT))
-
-
-def _row(cells: list[str], widths: list[int]) -> list[str]:
-    parts = [textwrap.wrap(cell, width) or [""] for cell, width in zip(cells, widths, strict=True)]
-    rows = zip_longest(*parts, fillvalue="")
-    return ["  ".join(t.ljust(w) for t, w in zip(row, widths, strict=True)).rstrip() for row in rows]
-
-
 # -- facts ---------------------------------------------------------------------
 
 
@@ -142,6 +127,7 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
         ("Id", parameter.id),
         ("Group", f"{group.name}: {group.section}" if group.section else group.name),
     ]
+    found += [("Instances", text) for text in _instances_without_number(schema, parameter, machine)]
     found += [("Range", text) for text in _ranges(schema, parameter)]
     found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
     found += [("Bits", text) for text in _bits(parameter)]
@@ -180,6 +166,26 @@ def _numbers(schema: Schema, parameter: Parameter, machine: str | None) -> Itera
         yield from (f"{text} on a {name.lower()}" for name, text in texts.items() if text)
 
 
+def _instances_without_number(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
+    """Yield ``fov.position@1 to fov.position@16 (Pos 1 to Pos 16)`` for instances that no number addresses."""
+    texts: dict[str, None] = {}
+    for key in [m.key for m in schema.family.machines if machine in (None, m.key)]:
+        numbers = {} if schema.is_disputed(parameter.id, key) else schema.numbers(parameter, key)
+        bare = [i for i in schema.instances(parameter, key) if i and i not in numbers]
+        if bare:
+            ends = list(dict.fromkeys((bare[0], bare[-1])))
+            named = " to ".join(schema.instance_label((parameter.id, i), key) for i in ends)
+            texts[" to ".join(f"{parameter.id}@{i}" for i in ends) + f" ({named})"] = None
+    yield from texts
+
+
+def sharing_numbers(schema: Schema, parameter: Parameter) -> list[str]:
+    """Return the other parameters for which the manual prints numbers of this one."""
+    machines = [m.key for m in schema.family.machines]
+    claims = (a for m in machines for n in schema.numbers(parameter, m).values() for a in schema.claims(n, m))
+    return [i for i in dict.fromkeys(a[0] for a in claims) if i != parameter.id]
+
+
 def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     """Return ``1300, 2300 … 8300 (Axis 1 to Axis 8)``."""
     numbers = schema.numbers(parameter, machine)
@@ -190,8 +196,13 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
         members = list(group)
         runs += [members] if _even(members) else [[member] for member in members]
     text = "; ".join(_run(schema, parameter, machine, run) for run in runs)
-    disputed = schema.is_disputed(parameter.id, machine)
-    return text + (" (printed, but they belong to another parameter)" if disputed else "")
+    others = sharing_numbers(schema, parameter)
+    if not others:
+        return text
+    named = ", ".join(f"{schema.parameters[i].name} ({i})" for i in others)
+    if schema.is_disputed(parameter.id, machine):
+        return f"{text}; printed, but they address {named}"
+    return f"{text}; also printed for {named}"
 
 
 def _even(members: list[tuple[str, str]]) -> bool:
@@ -216,11 +227,31 @@ def _run(schema: Schema, parameter: Parameter, machine: str, run: list[tuple[str
     return ", ".join(written) + (f" ({named})" if named else "")
 
 
+def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
+    """Return the units in which a parameter is entered, in degrees too where it belongs to an axis that may turn."""
+    if parameter.choices or parameter.type in ("text", "format", "bits"):
+        return ()
+    turns = schema.family.angular_when is not None and any(
+        schema.scopes(m.key)[parameter.id] == "axis" for m in schema.family.machines
+    )
+    systems = tuple(schema.family.units) or ("",)
+    units = (schema.unit(parameter, s, t) for t in (False, True)[: 1 + turns] for s in systems)
+    return tuple(dict.fromkeys(u for u in units if u))
+
+
 def _ranges(schema: Schema, parameter: Parameter) -> Iterator[str]:
-    yield from range_text(parameter.ranges, schema)
+    yield from _printed_ranges(schema, parameter)
     for variant in parameter.range_variants:
         why = schema.family.conditions[variant.when].why
         yield from (f"{line}, {why}" for line in range_text(variant.ranges, schema))
+
+
+def _printed_ranges(schema: Schema, parameter: Parameter) -> list[str]:
+    """Return the printed ranges, or the unit alone where there is none."""
+    units = " or ".join(map(shown, entry_units(schema, parameter)))
+    if parameter.ranges or not units:
+        return range_text(parameter.ranges, schema)
+    return [f"no bounds printed, in {units}"]
 
 
 def range_text(ranges: dict[str, Range] | None, schema: Schema) -> list[str]:
@@ -283,10 +314,16 @@ def _default(parameter: Parameter) -> str:
         number = write_number(default.value) if isinstance(default.value, (int, float)) else default.value
         value = f"{number} {shown(default.unit)}".rstrip()
     others = "".join(
-        f", {label_of(parameter, str(v)) if parameter.choices else v} for {labelled(parameter.each or '{i}', i)}"
+        f", {_plain(parameter, v)} for {labelled(parameter.each or '{i}', i)}"
         for i, v in (default.instances or {}).items()
     )
     return f"{value}{others} (page {default.page})"
+
+
+def _plain(parameter: Parameter, value: float | bool | str) -> str:
+    if parameter.choices or isinstance(value, (str, bool)):
+        return label_of(parameter, str(value))
+    return write_number(value)
 
 
 def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
@@ -334,13 +371,18 @@ def erratum_text(erratum: Erratum) -> str:
     return f"{readings}. Taken: {erratum.taken.strip().rstrip('.')}. {why}"
 
 
+def _short_span(schema: Schema, parameter: Parameter, machine: str) -> str:
+    """Return ``1300…8300`` or, where there are no numbers, the instances: ``@1…@16``."""
+    own = {} if schema.is_disputed(parameter.id, machine) else schema.numbers(parameter, machine)
+    every = list(own.values()) or [f"@{i}" for i in schema.instances(parameter, machine) if i]
+    return "" if not every else every[0] if every[0] == every[-1] else f"{every[0]}…{every[-1]}"
+
+
 def one_line(schema: Schema, parameter: Parameter) -> str:
     """Return a parameter in one line: number, id, name, range."""
-    numbers = next((n for m in schema.family.machines if (n := schema.numbers(parameter, m.key))), {})
-    first = next(iter(numbers.values()), "–")
-    last = list(numbers.values())[-1] if numbers else "–"
-    span = first if first == last else f"{first}…{last}"
-    allowed = " / ".join(range_text(parameter.ranges, schema)) or ", ".join(
+    spans = (_short_span(schema, parameter, m.key) for m in schema.family.machines)
+    span = next((s for s in spans if s), "–")
+    allowed = " / ".join(_printed_ranges(schema, parameter)) or ", ".join(
         c.label for c in parameter.choices or ()
     )
     return f"{span:12} {parameter.id:32} {parameter.name}: {allowed}"

@@ -4,6 +4,7 @@ Loads ``parameter_db`` once into a compiled cache and answers questions about
 it; every other room asks here and knows no parameter by heart.
 """
 
+from .addressing import Meant, all_meant, axis_meant, meant, unknown
 from .catalog import (
     Address,
     Schema,
@@ -65,6 +66,7 @@ __all__ = [
     "Group",
     "InvalidValueError",
     "Limits",
+    "Meant",
     "Parameter",
     "Reference",
     "Rule",
@@ -76,7 +78,9 @@ __all__ = [
     "UnknownFamilyError",
     "UnknownParameterError",
     "Value",
+    "all_meant",
     "angular",
+    "axis_meant",
     "bounding",
     "canonical",
     "canonical_unit",
@@ -94,6 +98,7 @@ __all__ = [
     "labelled",
     "limits",
     "load_schema",
+    "meant",
     "not_readable",
     "part_of",
     "program",
@@ -105,6 +110,7 @@ __all__ = [
     "show_value",
     "shown",
     "unit_named",
+    "unknown",
     "with_field",
     "write_number",
     "write_value",

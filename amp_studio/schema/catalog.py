@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
+import string
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -28,10 +31,18 @@ Address = tuple[str, str]
 
 
 class UnknownParameterError(KeyError):
-    """A number or an id that the family does not have; the text is one clear sentence."""
+    """A number or an id that the family does not have; the text is one clear sentence.
+
+    ``nearest`` is asked for the names that come near only when the text is read: many are met and never told.
+    """
+
+    def __init__(self, said: str, nearest: Callable[[], Sequence[str]] = tuple) -> None:
+        super().__init__(said)
+        self._nearest = nearest
 
     def __str__(self) -> str:
-        return str(self.args[0])
+        near = ", ".join(self._nearest())
+        return f"{self.args[0]}. Did you mean: {near}" if near else str(self.args[0])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,9 +120,22 @@ class Schema:
 
     def addressed_by(self, number: str, machine: str) -> list[Address]:
         """Return every instance that claims a number: the undisputed claims where there are any."""
-        claims = self._claims(machine).get(number.strip().casefold(), [])
+        claims = self.claims(number, machine)
         clear = [a for a in claims if not self.is_disputed(a[0], machine)]
         return clear or claims
+
+    def claims(self, number: str, machine: str) -> list[Address]:
+        """Return every instance that the manual prints a number for, with or without the letters before it."""
+        text, table = number.strip().casefold(), self._claims(machine)
+        return table.get(text) or table.get(self._bare_numbers(machine).get(text, ""), [])
+
+    def words(self, number: str, machine: str) -> list[Address]:
+        """Return the words of a number of which each has one of its own: those of ``P21`` are ``P21N0``, ``P21N1``, …."""
+        return self._word_table(machine).get(number.strip().casefold(), [])
+
+    def every_number(self, machine: str) -> Iterable[str]:
+        """Return every number, as the manual writes it."""
+        return self._numbers(machine).values()
 
     def is_disputed(self, parameter_id: str, machine: str) -> bool:
         """Tell whether the manual's number of a parameter really belongs to another one."""
@@ -125,6 +149,23 @@ class Schema:
                 table.setdefault(number.casefold(), []).append(address)
             self._claim_tables[machine] = table
         return self._claim_tables[machine]
+
+    def _bare_numbers(self, machine: str) -> dict[str, str]:
+        """Return a number without the letters before it -> the number: ``61`` -> ``pr61``."""
+        if machine not in self._bare_tables:
+            split = ((number.lstrip(_LETTERS), number) for number in self._claims(machine))
+            self._bare_tables[machine] = {bare: number for bare, number in split if bare not in ("", number)}
+        return self._bare_tables[machine]
+
+    def _word_table(self, machine: str) -> dict[str, list[Address]]:
+        if machine not in self._word_tables:
+            table: dict[str, list[Address]] = {}
+            for address, number in self._numbers(machine).items():
+                if found := re.fullmatch(r"([a-z]*)([0-9]+)[a-z]+[0-9]+", number.casefold()):
+                    for head in {found[1] + found[2], found[2]}:
+                        table.setdefault(head, []).append(address)
+            self._word_tables[machine] = table
+        return self._word_tables[machine]
 
     def _numbers(self, machine: str) -> dict[Address, str]:
         if machine not in self._number_tables:
@@ -168,6 +209,14 @@ class Schema:
     def _claim_tables(self) -> dict[str, dict[str, list[Address]]]:
         return {}
 
+    @cached_property
+    def _bare_tables(self) -> dict[str, dict[str, str]]:
+        return {}
+
+    @cached_property
+    def _word_tables(self) -> dict[str, dict[str, list[Address]]]:
+        return {}
+
     # -- words -----------------------------------------------------------------
 
     def parameter(self, parameter_id: str) -> Parameter:
@@ -175,7 +224,7 @@ class Schema:
         try:
             return self.parameters[parameter_id]
         except KeyError:
-            raise UnknownParameterError(f"'{parameter_id}' is no parameter of {self.family.name}") from None
+            raise UnknownParameterError(f"Unknown parameter '{parameter_id}' of {self.family.name}") from None
 
     def label(self, address: Address, machine: str) -> str:
         """Return ``1300 Home Calibration`` or, without a number, the name and the instance."""
@@ -189,6 +238,11 @@ class Schema:
         """Return what addresses an instance: its own number, else ``id@instance``."""
         claims = self.addressed_by(self.number(address, machine) or "", machine)
         return str(self.number(address, machine)) if claims == [address] else written(address)
+
+    def named(self, address: Address, machine: str) -> str:
+        """Return the label and, where that has no number by which the instance is addressed, its address too."""
+        label, short = self.label(address, machine), self.short(address, machine)
+        return label if label.startswith(f"{short} ") else f"{label} ({short})"
 
     def instance_label(self, address: Address, machine: str) -> str:
         """Return ``Axis 3``, ``Spindle 1, Gear 3``; empty for the only instance of a global parameter."""
@@ -241,6 +295,10 @@ class Schema:
                           instances, numbers, choices, bits, storage])  # fmt: skip
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+_LETTERS = string.ascii_lowercase + "$"
+"""What may stand before a number: Pr61, R3, $130."""
 
 
 def _codes(choices: tuple[Choice, ...] | None) -> list[tuple[str, str, int | None]]:

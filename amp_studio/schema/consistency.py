@@ -58,6 +58,9 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
                 )
     if family.angular_when is not None and family.angular_when not in family.conditions:
         yield Inconsistency(None, ("angular_when",), f"there is no condition '{family.angular_when}'")
+    if family.axis_names is not None and family.axis_names.param not in ids:
+        what = f"there is no parameter '{family.axis_names.param}'"
+        yield Inconsistency(None, ("axis_names", "param"), what)
     for key in ("machine_parameter", "unit_parameter"):
         named = getattr(family, key)
         if named is not None and named not in ids:

@@ -6,11 +6,10 @@ until it is told that an address changed; it never changes a value.
 
 from __future__ import annotations
 
-import contextlib
-import re
 from collections.abc import Callable
 
-from .catalog import Address, Schema, UnknownParameterError, part_of, read_address
+from .addressing import meant
+from .catalog import Address, Schema, UnknownParameterError, part_of
 from .cel_engine import WORD_FUNCTIONS, Context
 from .conditions import (
     Asked,
@@ -173,46 +172,21 @@ class Evaluation:
     # -- addressing ------------------------------------------------------------
 
     def find(self, text: str) -> Address:
-        """Return the instance a person means by a number or ``id@instance``.
-
-        Where a number means several parameters, the one that exists for this
-        machine counts. Raises UnknownParameterError with one clear sentence.
-        """
-        text = text.strip()
-        parameter_id, instance = read_address(text)
-        if parameter_id in self.schema.parameters:
-            parameter = self.schema.parameters[parameter_id]
-            instances = self.schema.instances(parameter, self.machine)
-            if instance in instances:
-                return parameter_id, instance
-            raise UnknownParameterError(f"'{text}': {parameter.name} {_offered(instances)}")
-        claims = self.schema.addressed_by(text, self.machine)
-        existing = [a for a in claims if self.state(a).state != "hidden"] or self._nearest(claims)
-        if not existing:
-            raise UnknownParameterError(f"'{text}' is no parameter of {self.schema.family.name}")
-        if len(existing) > 1:
-            names = " or ".join(f"{a[0]}@{a[1]}" for a in existing)
-            raise UnknownParameterError(f"number {text} means {names} here: say which by id")
-        return existing[0]
+        """Return the instance a person means, as ``addressing`` says; raises UnknownParameterError with one clear sentence."""
+        found = meant(self, text)
+        if found.bit is not None:
+            raise UnknownParameterError(f"'{text.strip()}' is a bit, and the whole word is wanted")
+        return found.address
 
     def find_bit(self, text: str) -> tuple[Address, int | None]:
         """Return the instance a person means and, where he names a bit of a word (``P3N0.5``), its number.
 
         Raises UnknownParameterError.
         """
-        try:
-            return self.find(text), None
-        except UnknownParameterError:
-            head, _, bit = text.strip().rpartition(".")
-            if not re.fullmatch("[0-9]{1,2}", bit):
-                raise
-            with contextlib.suppress(UnknownParameterError):
-                address = self.find(head)
-                if self.schema.parameters[address[0]].type == "bits":
-                    return address, int(bit)
-            raise
+        found = meant(self, text)
+        return found.address, found.bit
 
-    def _nearest(self, claims: list[Address]) -> list[Address]:
+    def least_hidden(self, claims: list[Address]) -> list[Address]:
         """Return, of parameters that are all hidden, those that the fewest conditions hide."""
 
         def hiding(address: Address) -> int:
@@ -247,16 +221,6 @@ class Evaluation:
             self._states,
         ):
             memory.clear()
-
-
-def _offered(instances: tuple[str, ...]) -> str:
-    if not instances:
-        return "does not exist on this machine type"
-    if instances == ("",):
-        return "is one for the whole control, without '@'"
-    named = [i for i in instances if i]
-    span = f"@{named[0]} to @{named[-1]}" if len(named) > 1 else f"only @{named[0]}"
-    return f"has {span}" + (", and one without '@'" if "" in instances else "")
 
 
 def same_value(a: Value | None, b: Value | None) -> bool:

@@ -200,6 +200,8 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
         hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
     ):
         return Value(int(hexadecimal[1], 16), unit)
+    if parameter.bits and not text.isdecimal() and (word := _labelled(parameter, text)) is not None:
+        return Value(word, unit)
     if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
         # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and 6.
         if not text.isdecimal():
@@ -237,6 +239,16 @@ def exact_number(text: str) -> Fraction:
     if rest:
         raise InvalidValueError(f"{quoted(text)} is not a number")
     return Fraction(Decimal(text)) if number else Fraction(0)
+
+
+def _labelled(parameter: Parameter, text: str) -> int | None:
+    """Return the word that the labels of its bits mean; None for what may be a number. Raises InvalidValueError."""
+    from .bit_labels import no_label, word_of_labels  # it changes fields with the functions below
+
+    word = word_of_labels(parameter, text)
+    if word is None and not re.match("[+-]?[0-9.,]|[0-9a-fA-F]+$", text):
+        raise InvalidValueError(no_label(parameter, text))
+    return word
 
 
 def _is_hex(parameter: Parameter) -> bool:
@@ -383,6 +395,9 @@ def with_field(field: Bit, word: int, text: str) -> int:
             number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
         except ValueError:
             number = lowest - 1
+        if field.choices and said not in switch and not lowest <= number <= highest:
+            offered = ", ".join(choice.label for choice in field.choices)
+            raise InvalidValueError(f"{quoted(text.strip())} is not a choice of {field.label}: {offered}")
         if not lowest <= number <= highest:
             raise InvalidValueError(
                 f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}"

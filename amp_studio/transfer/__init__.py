@@ -5,7 +5,8 @@ The layers, from the cable up: ``address``, ``link`` (``tcp``, ``serial_line``,
 ``conversation``, ``streaming``, ``line``, ``sending``, ``session`` and
 ``exchange``, and the control's ``memory``, ``record``, ``staging``,
 ``control``, ``responder`` and ``emulator``. An image is bytes for all of them;
-``image`` says what they mean. ``docs/protocols`` specifies the wire.
+``image`` says what they mean, ``verification`` compares two, and ``kept`` keeps
+what a control held. ``docs/protocols`` specifies the wire.
 """
 
 from .address import Address, parse_address

@@ -198,7 +198,10 @@ def _keep(keep: Keep, old: bytes) -> str:
     try:
         return keep(old)
     except Exception as error:  # whatever goes wrong there, the old image is not kept
-        raise KeepFailed(f"what the control holds could not be kept ({error})") from error
+        said = str(error)
+        if isinstance(error, OSError) and error.filename and error.strerror:
+            said = f"{error.filename}: {error.strerror}"
+        raise KeepFailed(f"what the control holds could not be kept ({said})") from error
 
 
 def _prove(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import os
 import re
 from dataclasses import dataclass
 from datetime import datetime
@@ -90,7 +91,7 @@ def save_image(image: bytes, path: Path) -> None:
 
 
 def _need_free(path: Path) -> None:
-    if path.exists():
+    if os.path.lexists(path):  # a link that leads nowhere has the name too
         raise FileExistsError(f"{path} exists already")
 
 

@@ -119,9 +119,8 @@ class MainWindow(QMainWindow):
         try:
             return act()
         except (OSError, ValueError, KeyError, RuntimeError) as error:
-            tell(
-                self, title, str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
-            )
+            is_bare = type(error) is KeyError and error.args  # its own text is in quotes
+            tell(self, title, str(error.args[0]) if is_bare else str(error))
             return None
 
     def _help_menu(self) -> None:

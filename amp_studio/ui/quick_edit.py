@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
-from amp_studio.schema import Address, UnknownParameterError
+from amp_studio.schema import Address, UnknownParameterError, meant
 
 from .choice_box import ChoiceBox
 from .parameter_table import ParameterTable
@@ -46,15 +46,15 @@ class QuickEdit(QDialog):
     def look_up(self) -> None:
         """Look up the number and offer its value."""
         try:
-            address = self._workspace.file.find(self.number.text())
+            found = meant(self._workspace.file.evaluation, self.number.text())
         except UnknownParameterError as error:
             self._offer(None)
             self.name.setText(f"{error}.")
             self.number.selectAll()
             return
-        self._offer(address)
+        self._offer(found.address, found.said(self._workspace.file.schema))
 
-    def _offer(self, address: Address | None) -> None:
+    def _offer(self, address: Address | None, said: str = "") -> None:
         if self.editor is not None:
             self._form.removeRow(self.editor)
             self.editor = None
@@ -68,7 +68,10 @@ class QuickEdit(QDialog):
         told = "" if state.state == "in-force" else f"\n{state.state.capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)
         bounds = f"\nAllowed here: {allowed}" if allowed else ""
-        self.name.setText(f"{file.schema.label(address, file.machine)}, {place}{bounds}{told}")
+        self.name.setText(
+            f"{file.schema.label(address, file.machine)}, {place}{bounds}{told}"
+            + (f"\n{said}" if said else "")
+        )
         if file.schema.parameters[address[0]].choices:
             self.editor = ChoiceBox(self._workspace, address, self)
         else:

@@ -185,8 +185,8 @@ def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
         (("schema", "fanuc"), "Unknown family 'fanuc'. Known: "),
         (("schema", "9pc", "--group", "Tools"), "has no group 'Tools': Axis Configuration, "),
         (("show", "fanuc", "1"), "Unknown family 'fanuc'. Known: "),
-        (("show", "9pc", "99999"), "'99999' is no parameter of Allen-Bradley 9/PC AMP"),
-        (("show", "9pc", "home.calibratio"), "'home.calibratio' is no parameter"),
+        (("show", "9pc", "99999"), "Unknown parameter '99999'. Did you mean: "),
+        (("show", "9pc", "home.calibratio"), "Unknown parameter 'home.calibratio'"),
         (("show", "9pc"), "param"),
         (("families", "--xml"), "--xml"),
         (("frobnicate",), "frobnicate"),
@@ -221,3 +221,129 @@ def test_a_table_that_there_is_not_is_refused(amp) -> None:
     assert amp("tables", "syntec", "mot-999").err == (
         "amp-studio: there is no table 'mot-999'; without one they are all listed\n"
     )
+
+
+# -- one number, one answer ------------------------------------------------------------------------------------------
+
+
+def test_a_number_that_belongs_to_another_parameter_is_listed_under_that_one(amp, definitions, mill) -> None:
+    """1020 is Software Overtravel Used (pages 6-10 and 37-3), though page 7-46 prints it for the velocity port."""
+    owners = {n: i for i, d in definitions.items() for n in d["numbers"].values()}
+    said = amp("get", mill, "1020", "--json")
+    assert said.json["values"][0]["id"] == owners["1020"] == "zone.overtravel_used"
+    assert said.err == (
+        "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
+        "the other is Velocity Loop Feedback Port (servo.velocity_port@1)\n"
+    )
+    port = definitions["servo.velocity_port"]
+    assert (port["numbers"], port["numbers_disputed"], port["printed_numbers"]["1"]) == ({}, True, "1020")
+    assert port["instances"] == [str(axis) for axis in range(1, 9)]
+    assert definitions["zone.overtravel_used"]["numbers_also_printed_for"] == ["servo.velocity_port"]
+
+
+def test_every_verb_takes_the_same_one_and_says_so(amp, mill) -> None:
+    said = amp("set", mill, "1020=True")
+    assert (said.code, "taken is Software Overtravel Used" in said.err) == (0, True)
+    assert said.out == "1020 Software Overtravel Used: False -> True\n"
+    shown = " ".join(amp("show", "9pc", "1020").out.split())
+    assert "(Axis 1 to Axis 8); also printed for Velocity Loop Feedback Port (servo.velocity_port)" in shown
+    shown = " ".join(amp("show", "9pc", "servo.velocity_port@X").out.split())
+    assert "printed, but they address Software Overtravel Used (zone.overtravel_used)" in shown
+    assert "servo.velocity_port@1 to servo.velocity_port@8 (Axis 1 to Axis 8)" in shown
+
+
+def test_the_other_one_is_set_by_its_id_and_named_with_it(amp, mill) -> None:
+    said = amp("set", mill, "servo.velocity_port@X=b")
+    assert said.out.startswith("Velocity Loop Feedback Port Axis 1 (servo.velocity_port@1): ")
+    assert (
+        amp("get", mill, "servo.velocity_port@1", "--json").json["values"][0]["value"]
+        == "Feedback Connector J1"
+    )
+
+
+def test_a_finding_names_what_has_no_number_by_its_address(amp, tmp_path) -> None:
+    path = tmp_path / "router.amp"
+    amp("new", "acromill", path)
+    amp("set", path, "axes.handwheel_ratio@X=0", "home.priority@X=-1", "--force")
+    found = amp("validate", path, "--json").json["findings"]
+    ids = {p for f in found if f["severity"] == "error" for p in f["params"]}
+    said = amp("validate", path).out
+    assert ids
+    assert all(f"({p})" in said for p in ids if "@" in p)
+
+
+# -- what a definition says ------------------------------------------------------------------------------------------
+
+
+def test_defaults_of_instances_are_whole_where_the_parameter_is(amp, definitions) -> None:
+    """Page 33-12: AB-D4 and a space."""
+    default = definitions["password.character"]["default"]
+    assert default == {"": 65, "instances": {"2": 66, "3": 45, "4": 68, "5": 52, "6": 32}}
+    assert all(isinstance(v, int) for v in default["instances"].values())
+    assert "66.0" not in amp("schema", "9pc", "--json").out.replace(" ", "")
+    shown = amp("show", "9pc", "101").out
+    assert "65, 66 for Character 2, 45 for Character 3" in shown
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_every_instance_is_listed_and_every_default_of_one(amp, family: str) -> None:
+    schema = load_schema(family)
+    for found in amp("schema", family, "--json").json["parameters"]:
+        parameter = schema.parameters[found["id"]]
+        listed = {i for m in found.get("instances_by_machine", {"": found["instances"]}).values() for i in m}
+        assert listed == {i for m in schema.family.machines for i in schema.instances(parameter, m.key)}
+        own = parameter.default.instances if parameter.default else None
+        assert set((found["default"] or {}).get("instances", {})) == set(own or {})
+        if parameter.type in ("integer", "bits") and found["default"]:
+            assert not any(isinstance(v, float) for v in found["default"].values())
+
+
+@pytest.mark.parametrize(("param", "span", "instances"), [
+    ("fov.position", "@1…@16", "fov.position@1 to fov.position@16 (Pos 1 to Pos 16)"),
+    ("sov.position", "@1…@16", "sov.position@1 to sov.position@16 (Pos 1 to Pos 16)"),
+    ("rov.position", "@1…@16", "rov.position@1 to rov.position@16 (Pos 1 to Pos 16)"),
+])  # fmt: skip
+def test_instances_without_a_number_are_seen(amp, param: str, span: str, instances: str) -> None:
+    assert f"Instances      {instances}\n" in amp("show", "acromill", param).out
+    (line,) = [n for n in amp("schema", "acromill").out.splitlines() if f" {param} " in n]
+    assert line.startswith(span)
+
+
+@pytest.mark.parametrize(("param", "unit"), [
+    ("Pr461", "mm/min or deg/min"), ("Pr821", "mm/min or deg/min"), ("841", "mm/min or deg/min"),
+    ("Pr521", "mm/min or deg/min"), ("Pr661", "mm/min"), ("Pr410", "ms"),
+])  # fmt: skip
+def test_a_speed_of_syntec_says_its_unit_where_a_person_looks(amp, tmp_path, param: str, unit: str) -> None:
+    """Page 4.1 prints mm/min; an axis that turns has degrees."""
+    assert f"Range          no bounds printed, in {unit}\n" in amp("show", "syntec", param).out
+    path = tmp_path / "mill.amp"
+    amp("new", "syntec", path)
+    first = unit.partition(" or ")[0]
+    assert amp("get", path, param).out.endswith(f"— (in {first})\n")
+    number = param if param.startswith("Pr") else f"Pr{param}"
+    (found,) = [
+        d for d in amp("schema", "syntec", "--json").json["parameters"] if number in d["numbers"].values()
+    ]
+    assert found["units"] == unit.split(" or ")
+    lines = amp("schema", "syntec").out.splitlines()
+    assert any(line.startswith(number) and line.endswith(f"in {unit}") for line in lines)
+
+
+def test_a_wrong_name_is_answered_with_the_nearest_by_every_verb(amp, mill) -> None:
+    for arguments in (("get", mill, "home.calibrtion@1"), ("set", mill, "home.calibrtion@1=2"),
+                      ("show", "9pc", "home.calibrtion@1"),
+                      ("simulate", mill, "step", "--set", "home.calibrtion@1=2")):  # fmt: skip
+        refused = amp(*arguments)
+        assert (refused.code, refused.err.startswith("amp-studio: Unknown parameter 'home.calibrtion@1'. "
+                                                     "Did you mean: home.calibration@1")) == (2, True)  # fmt: skip
+
+
+def test_a_number_of_several_words_shows_them_all(amp, tmp_path) -> None:
+    path = tmp_path / "num.amp"
+    amp("new", "num", path)
+    rows = amp("get", path, "P21", "--json").json["values"]
+    assert [row["param"] for row in rows] == [f"P21N{n}" for n in range(32)]
+    assert amp("show", "num", "P21").out == amp("show", "num", "P21N0").out
+    assert amp("set", path, "P3N0=Axis 1, Axis 5").out.endswith("-> 0x00000022\n")
+    refused = amp("set", path, "P3N0=Axis 1, Axs 5")
+    assert (refused.code, "Did you mean: Axis 5" in refused.err) == (2, True)

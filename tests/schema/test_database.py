@@ -144,7 +144,7 @@ def test_every_condition_reads_what_exists_and_uses_what_it_reads(schema: Schema
             for text in condition.reads.values():
                 parameter = schema.parameter(read_address(text)[0])
                 for instance in schema.instances(parameter, machine):
-                    assert evaluation.reading(text, instance).addresses is not None, (name, text)
+                    assert evaluation.reference(text, instance).addresses is not None, (name, text)
         assert condition.why.strip(), name
 
 

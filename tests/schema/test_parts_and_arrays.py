@@ -95,9 +95,9 @@ def test_a_bound_is_that_of_the_same_gear(spindles, machine) -> None:
 
 def test_a_rule_may_read_the_gears_of_its_spindle(spindles, machine) -> None:
     evaluation = machine(spindles).evaluation
-    of_one = evaluation.reading("spindle.max_speed@.", "1", "spindle")
+    of_one = evaluation.reference("spindle.max_speed@.", "1", "spindle")
     assert [instance for _, instance in of_one.addresses] == ["1.1", "1.2", "1.3"]
-    assert of_one == evaluation.reading("spindle.max_speed@.", "1.2", "spindle")
+    assert of_one == evaluation.reference("spindle.max_speed@.", "1.2", "spindle")
     assert of_one.is_list
 
 

@@ -139,7 +139,7 @@ conditions:
         "in-force",
         "ignored",
     ]
-    readings = {which: here.evaluation.reading(f"axis.type@{which}", "2").addresses for which in "*<>3"}
+    readings = {which: here.evaluation.reference(f"axis.type@{which}", "2").addresses for which in "*<>3"}
     expected = {
         "*": tuple(("axis.type", n) for n in "123"),
         "<": (("axis.type", "1"),),
@@ -148,7 +148,7 @@ conditions:
     }
     assert expected == readings
     with pytest.raises(UnknownParameterError, match=r"axis\.type has no instance '9'"):
-        here.evaluation.reading("axis.type@9", "1")
+        here.evaluation.reference("axis.type@9", "1")
     here.set("axis.type@2", Value("linear"))
     assert here.evaluation.state(("axis.type", "3")).state == "in-force"
 

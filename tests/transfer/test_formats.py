@@ -88,7 +88,7 @@ def test_the_sheet_holds_what_the_control_stores(mill: ParameterFile, tmp_path: 
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("99999\t1", "line 3, column 1: '99999' is no parameter"),
+        ("99999\t1", "line 3, column 1: Unknown parameter '99999'"),
         ("1300", "line 3: a line is number, value, unit and name"),
         ("1300\tfast\tmm", "line 3, column 6: "),
         ("1300\t1\tms", "line 3, column 8: Home Calibration is stored in mm, not in ms"),

@@ -73,6 +73,8 @@ def test_names_never_clash_and_nothing_is_ever_overwritten(tmp_path: Path) -> No
     first = keep_image(GARBAGE, tmp_path, "mill")
     stamp = first.name.removesuffix(".img")
     others = {"-2.img": b"mine", "-3.img.sha256": b"mine", "-4.amp": b"mine"}
+    for ending in ("-5.img", "-6.img.sha256", "-7.amp"):
+        (tmp_path / (stamp + ending)).symlink_to(tmp_path / "elsewhere")
     for ending, content in others.items():
         (tmp_path / (stamp + ending)).write_bytes(content)
 
@@ -80,6 +82,7 @@ def test_names_never_clash_and_nothing_is_ever_overwritten(tmp_path: Path) -> No
 
     assert len(paths) == 4
     assert first.read_bytes() == GARBAGE
+    assert not (tmp_path / "elsewhere").exists()
     for ending, content in others.items():
         assert (tmp_path / (stamp + ending)).read_bytes() == content
 

@@ -184,6 +184,20 @@ def test_a_restore_out_of_estop_is_refused(
     assert list(tmp_path.glob("*.before-*")) == []
 
 
+def test_without_a_place_to_keep_it_nothing_is_replaced(
+    bench: Callable[[bytes], Bench], mill: Path, tmp_path: Path
+) -> None:
+    control = bench(GARBAGE)
+    nowhere = tmp_path / "no folder"
+
+    assert run(["download", str(mill), "--to", control.address, "--keep", str(nowhere)]) == 2
+
+    said = control.said().err.strip().splitlines()[-1]
+    assert "what the control holds could not be kept (" in said
+    assert said.endswith(": No such file or directory); nothing was replaced in the control")
+    assert control.active.read_bytes() == GARBAGE
+
+
 # -- what is approved -------------------------------------------------------------------------------
 
 

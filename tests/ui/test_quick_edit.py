@@ -89,7 +89,7 @@ def test_a_shared_number_follows_the_type_of_the_axis(
 
 def test_an_unknown_number_is_told_and_asks_again(quick: QuickEdit) -> None:
     enter(quick, "99999")
-    assert quick.name.text() == "'99999' is no parameter of Allen-Bradley 9/PC AMP."
+    assert quick.name.text() == "Unknown parameter '99999'. Did you mean: 21091, 21009, 20091."
     assert quick.editor is None
     assert quick.number.selectedText() == "99999"
     enter(quick, "1750")

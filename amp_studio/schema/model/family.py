@@ -60,6 +60,13 @@ class AxisProfile(Model):
         return self
 
 
+class AxisNames(Model):
+    """Where the letters of the axes are stored in a family without an axis profile: a field of a packed word."""
+
+    param: ParameterId
+    bit: int
+
+
 class Family(Model):
     """``family.yaml``: identity, scopes, units and the order of the groups."""
 
@@ -81,6 +88,7 @@ class Family(Model):
     angular_when: str | None = None
     """Condition under which length-like quantities of an axis are entered in degrees."""
     axes: AxisProfile | None = None
+    axis_names: AxisNames | None = None
     effect: Effect
     groups: tuple[str, ...]
     choice_lists: dict[Key, tuple[Choice, ...]] = {}

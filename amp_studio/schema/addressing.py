@@ -1,0 +1,237 @@
+"""What a person means by a number, an id or the letter of an axis: the one place where every verb looks it up.
+
+    1300                 the manual's own number, here of axis 1
+    61                   a number without the letters before it (Pr61, R3, $130)
+    P21                  a number of several words: all of them, or the only one
+    P3N0.5               a bit, or the field that begins at it, of a packed word
+    home.calibration@1   id and instance
+    home.calibration@X   the axis by the letter that the file gives it
+
+Case does not matter. A number that is printed for several parameters means one that exists for the file's machine;
+where that leaves more than one, the first in the manual's order, so that every verb takes the same.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import SequenceMatcher, get_close_matches
+from functools import partial
+from typing import TYPE_CHECKING
+
+from .catalog import Address, Schema, UnknownParameterError, whole_of, written
+from .model import Parameter
+from .quoting import quoted
+from .values import field_value, label_of
+
+if TYPE_CHECKING:
+    from .evaluation import Evaluation
+
+_NEAREST = 3
+_LONGEST_NUMBER = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Meant:
+    """What a text addresses."""
+
+    address: Address
+    bit: int | None = None
+    """The bit of a packed word, where the text names one."""
+    number: str = ""
+    """The number in the text; empty where it is an id."""
+    others: tuple[Address, ...] = ()
+    """Further instances that the manual prints this number for."""
+
+    def said(self, schema: Schema) -> str:
+        """Return one sentence that tells which of several parameters a number means; empty where there is but one."""
+        if not self.others:
+            return ""
+
+        def named(address: Address) -> str:
+            return f"{schema.parameters[address[0]].name} ({written(address)})"
+
+        count = {2: "two", 3: "three"}.get(len(self.others) + 1, str(len(self.others) + 1))
+        rest = " and ".join(map(named, self.others))
+        return (f"{self.number} is printed for {count} parameters: taken is {named(self.address)}; "
+                f"the other{'s are' if len(self.others) > 1 else ' is'} {rest}")  # fmt: skip
+
+
+def meant(evaluation: Evaluation, text: str) -> Meant:
+    """Return the one instance, or the bit of it, that a text addresses; raises UnknownParameterError with one sentence."""
+    try:
+        return _whole(evaluation, text)
+    except UnknownParameterError:
+        head, _, bit = text.strip().rpartition(".")
+        if not re.fullmatch("[0-9]{1,2}", bit):
+            raise
+        with contextlib.suppress(UnknownParameterError):
+            word = _whole(evaluation, head)
+            if evaluation.schema.parameters[word.address[0]].type == "bits":
+                return Meant(word.address, int(bit), word.number, word.others)
+        raise
+
+
+def all_meant(evaluation: Evaluation, text: str) -> list[Meant]:
+    """Return every instance that a text addresses: all words of ``P21``; raises UnknownParameterError."""
+    words = _words(evaluation, text)
+    return [Meant(address) for address in words] if words else [meant(evaluation, text)]
+
+
+def _whole(evaluation: Evaluation, text: str) -> Meant:
+    schema, text = evaluation.schema, text.strip()
+    name, _, instance = text.partition("@")
+    parameter = schema.parameters.get(name.casefold())
+    if parameter is not None:
+        return Meant((parameter.id, _instance(evaluation, parameter, instance, text)))
+    claims = schema.addressed_by(text, evaluation.machine)
+    if claims:
+        existing = [a for a in claims if evaluation.state(a).state != "hidden"] or evaluation.least_hidden(
+            claims
+        )
+        others = [a for a in schema.claims(text, evaluation.machine) if a != existing[0]]
+        return Meant(existing[0], None, text, tuple(others))
+    words = _words(evaluation, text)
+    if len(words) == 1:
+        return Meant(words[0], None, text)
+    if words:
+        first, last = (schema.number(a, evaluation.machine) for a in (words[0], words[-1]))
+        raise UnknownParameterError(f"{quoted(text)} has {len(words)} words, {first} to {last}: say which")
+    raise UnknownParameterError(*unknown(schema, text))
+
+
+def _words(evaluation: Evaluation, text: str) -> list[Address]:
+    """Return the words of a number that has several (P21), those that exist for this machine if any does."""
+    words = evaluation.schema.words(text, evaluation.machine)
+    return [a for a in words if evaluation.state(a).state != "hidden"] or words
+
+
+# -- instances ---------------------------------------------------------------------------------------------------
+
+
+def _instance(evaluation: Evaluation, parameter: Parameter, instance: str, text: str) -> str:
+    """Return the instance that is named by itself, or by the letter of its axis; raises UnknownParameterError."""
+    schema = evaluation.schema
+    instances = schema.instances(parameter, evaluation.machine)
+    if instance in instances:
+        return instance
+    alike = [i for i in instances if i and i.casefold() == instance.casefold()]
+    if not alike and instance and schema.kin(evaluation.scope((parameter.id, "")), "axis"):
+        letter, point, part = instance.partition(".")
+        alike = [i for axis in _axes_named(evaluation, letter) if (i := axis + point + part) in instances]
+    if len(alike) == 1:
+        return alike[0]
+    if alike:
+        named = " and ".join(map(whole_of, alike))
+        ways = " or ".join(f"{parameter.id}@{i}" for i in alike)
+        raise UnknownParameterError(
+            f"{quoted(text)}: the axes {named} are all named {instance.upper()}: say {ways}"
+        )
+    letters = "" if len(instances) < 2 else _letters(evaluation, parameter)
+    raise UnknownParameterError(f"{quoted(text)}: {parameter.name} {_offered(instances)}{letters}")
+
+
+def _letters(evaluation: Evaluation, parameter: Parameter) -> str:
+    """Return the letters of the axes that can stand for the instances of a parameter."""
+    if not evaluation.schema.kin(evaluation.scope((parameter.id, "")), "axis"):
+        return ""
+    letters = dict.fromkeys(name for axis, name in _axis_names(evaluation) if _is_fitted(evaluation, axis))
+    return f", or an axis by its letter: {', '.join(letters)}" if letters else ""
+
+
+def axis_meant(evaluation: Evaluation, instances: tuple[str, ...], text: str) -> str:
+    """Return the axis that is named by itself or by its letter; raises UnknownParameterError."""
+    found = [i for i in instances if i.casefold() == text.casefold()] or _axes_named(evaluation, text)
+    if len(found) == 1:
+        return found[0]
+    if found:
+        raise UnknownParameterError(
+            f"the axes {' and '.join(found)} are all named {text.upper()}: say which by number"
+        )
+    raise UnknownParameterError(f"there is no axis {quoted(text)}")
+
+
+def _axes_named(evaluation: Evaluation, letter: str) -> list[str]:
+    """Return the axes that the file gives a letter, fitted ones where there are any."""
+    found = [axis for axis, name in _axis_names(evaluation) if name.casefold() == letter.casefold()]
+    return [axis for axis in found if _is_fitted(evaluation, axis)] or found
+
+
+def _axis_names(evaluation: Evaluation) -> Iterator[tuple[str, str]]:
+    """Yield each axis with the name that the file gives it."""
+    schema, family = evaluation.schema, evaluation.schema.family
+    named_by = family.axes.name if family.axes else family.axis_names.param if family.axis_names else None
+    if named_by is None:
+        return
+    parameter = schema.parameters[named_by]
+    for axis in schema.instances(parameter, evaluation.machine):
+        name = evaluation.canonical((named_by, axis))
+        if isinstance(name, str):
+            yield axis, label_of(parameter, name)
+        elif isinstance(name, float) and family.axis_names:
+            field = next(b for b in parameter.bits or () if b.bit == family.axis_names.bit)
+            code = field_value(field, int(name))
+            yield from ((axis, c.label) for c in field.choices or () if c.raw == code)
+
+
+def _is_fitted(evaluation: Evaluation, axis: str) -> bool:
+    profile = evaluation.schema.family.axes
+    if profile is None:
+        return True
+    if profile.fitted_by is not None:
+        return evaluation.canonical((profile.fitted_by, axis)) != 0.0
+    return evaluation.canonical((profile.type, axis)) not in (None, profile.unfitted)
+
+
+def _offered(instances: tuple[str, ...]) -> str:
+    if not instances:
+        return "does not exist on this machine type"
+    if instances == ("",):
+        return "is one for the whole control, without '@'"
+    named = [i for i in instances if i]
+    span = f"@{named[0]} to @{named[-1]}" if len(named) > 1 else f"only @{named[0]}"
+    return f"has {span}" + (", and one without '@'" if "" in instances else "")
+
+
+# -- unknown names -----------------------------------------------------------------------------------------------
+
+
+def unknown(schema: Schema, text: str) -> tuple[str, partial[list[str]]]:
+    """Return what is said of a name that no parameter has, and what tells the nearest ones."""
+    return f"Unknown parameter {quoted(text)}", partial(_nearest, schema, text)
+
+
+def _nearest(schema: Schema, text: str) -> list[str]:
+    """Return the ids and numbers that a person may have meant, nearest first."""
+    name, sign, instance = text.partition("@")
+    name = name.casefold()
+    numbers = list(dict.fromkeys(n for m in schema.family.machines for n in schema.every_number(m.key)))
+    if (
+        re.fullmatch(r"[a-z$]*[0-9]+([a-z]+[0-9]*)?(\.[0-9]+)?", name)
+        and not sign
+        and len(name) < _LONGEST_NUMBER
+    ):
+        return _nearest_numbers(numbers, name)
+    known = {p.name.casefold(): p.id for p in schema.parameters.values()}
+    known |= {p.id.partition(".")[2]: p.id for p in schema.parameters.values()}
+    known |= {p: p for p in schema.parameters}
+    found = dict.fromkeys(known[word] for word in get_close_matches(name[:80], known, 2 * _NEAREST, 0.7))
+    return [f"{n}{sign}{instance}" if n in schema.parameters else n for n in found][:_NEAREST]
+
+
+def _nearest_numbers(numbers: list[str], text: str) -> list[str]:
+    """Return the numbers that look most like one, of those the ones next to it."""
+    digits = _figures(text)
+
+    def far(number: str) -> tuple[bool, float, list[int]]:
+        alike = round(SequenceMatcher(None, text, number.casefold()).ratio(), 1)
+        apart = [abs(a - b) for a, b in zip(digits, _figures(number), strict=False)]
+        return len(number) != len(text), -alike, apart
+
+    return sorted(numbers, key=far)[:_NEAREST]
+
+
+def _figures(text: str) -> list[int]:
+    return [int(figures) for figures in re.findall("[0-9]{1,9}", text)]
