@@ -21,12 +21,12 @@ def about(
 
     Where no value answers to a condition of ``blames``, all that it names are wrong.
     """
-    expressions = check.expressions
+    told = check.expressions.told
     given = dict(zip(check.names, values, strict=True))
-    causes = dict.fromkeys(_met(check, expressions.blames, context, given))
+    causes = dict.fromkeys(_met(check, told.blames, context, given))
     if not causes:
-        causes = dict.fromkeys(a for name, _ in expressions.blames for a, _ in _values(check, name, given))
-    compared = dict.fromkeys(_met(check, expressions.compares, context, given))
+        causes = dict.fromkeys(a for name, _ in told.blames for a, _ in _values(check, name, given))
+    compared = dict.fromkeys(_met(check, told.compares, context, given))
     return tuple(causes), tuple(a for a in compared if a not in causes)
 
 

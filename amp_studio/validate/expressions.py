@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from string import Formatter
 
 from amp_studio.schema import Rule, program
@@ -51,11 +52,9 @@ class RuleError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Expressions:
-    """What is worked out of the values a rule reads."""
+class Told:
+    """What a broken rule says and offers, worked out of the values it reads."""
 
-    broken: Program
-    """True where the rule applies and does not hold."""
     values: tuple[tuple[str, Program], ...]
     fixes: tuple[tuple[str, Program], ...]
     """Name of the value to set, and the value."""
@@ -66,17 +65,54 @@ class Expressions:
     compares: tuple[tuple[str, Program], ...]
     """Name of what that is compared with, and whether it is."""
     functions: tuple[str, ...]
-    """Functions offered to rules that these call."""
-    always: tuple[str, ...]
-    """Which of the names that need not be read these use."""
-    verdicts: Verdicts = field(default_factory=Verdicts, repr=False)
-    """Whether the rule was broken, for values it has met."""
+    """Functions offered to rules that the rule calls anywhere."""
 
 
-def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
-    """Compile a rule that may call ``functions``; raises RuleError."""
+class Expressions:
+    """The expressions of a rule that may call ``functions``.
+
+    Compiled when they are first asked for, since most rules of a file hold: ``broken`` when the rule is first decided,
+    ``told`` when it is first broken. Either raises RuleError for a rule that cannot be used; ``check_rule`` does at once.
+    """
+
+    def __init__(self, rule: Rule, functions: Collection[str], told: Told | None = None) -> None:
+        self._rule, self._functions, self._told = rule, functions, told
+        self.verdicts = Verdicts()
+        """Whether the rule was broken, for values it has met."""
+
+    @cached_property
+    def broken(self) -> Program:
+        """True where the rule applies and does not hold."""
+        rule = self._rule
+        # A line of its own for each bracket: an expression may end in a comment.
+        compiled = _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)")
+        lists = _OVER_A_LIST.findall(rule.when) + _OVER_A_LIST.findall(rule.check)
+        known = {*rule.reads, *ALWAYS_THERE, *TYPES, *lists}
+        if not (
+            known.issuperset(compiled.variables()) and functions_called(compiled) <= set(self._functions)
+        ):
+            check_rule(rule, self._functions)  # says in which of the two expressions
+        return compiled
+
+    @cached_property
+    def functions(self) -> tuple[str, ...]:
+        """Functions offered to rules that decide whether it is broken."""
+        return tuple(sorted(functions_called(self.broken) & set(self._functions)))
+
+    @cached_property
+    def always(self) -> tuple[str, ...]:
+        """Which of the names that need not be read decide whether it is broken."""
+        return tuple(sorted(set(self.broken.variables()) & set(ALWAYS_THERE)))
+
+    @cached_property
+    def told(self) -> Told:
+        """What is said and offered where it is broken."""
+        return self._told or check_rule(self._rule, self._functions)
+
+
+def check_rule(rule: Rule, functions: Collection[str]) -> Told:
+    """Compile a rule that may call ``functions`` and return what it tells; raises RuleError."""
     called: set[str] = set()
-    always: set[str] = set()
     spoken_of: set[str] = set()
     asked_of: set[str] = set()
     for place, text in _texts(rule):
@@ -94,7 +130,6 @@ def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
         for name in sorted(named - set(functions)):
             raise RuleError(rule.id, f"{place} calls '{name}', which is no function")
         called |= named & set(functions)
-        always |= variables & set(ALWAYS_THERE)
     spoken_of |= _check_names(rule)
     replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
     blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
@@ -110,16 +145,13 @@ def expressions_of(rule: Rule, functions: Collection[str]) -> Expressions:
             name: "true" for name in others if name in asked_of
         },  # what decides whether the rule applies: last
     }
-    return Expressions(
-        # A line of its own for each bracket: an expression may end in a comment.
-        _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)"),
+    return Told(
         tuple((name, program(text)) for name, text in rule.values.items()),
         tuple((fix.set, program(fix.value)) for fix in rule.fix),
         tuple((used.set, program(used.value)) for used in rule.effective),
         tuple(_at_hand(rule, blames)),
         tuple(_at_hand(rule, compares)),
         tuple(sorted(called)),
-        tuple(sorted(always)),
     )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from itertools import count
 
 from amp_studio.schema import (
@@ -22,7 +22,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.model import BoundRef
 
-from .expressions import Expressions, RuleError, expressions_of
+from .expressions import Expressions, RuleError, check_rule
 from .formulas import rule_functions
 
 
@@ -85,9 +85,33 @@ class Plan:
     order: Mapping[Address, int] = field(repr=False)
     """Address -> its place in the manual's order."""
     checks: tuple[RuleCheck, ...]
-    range_readers: Mapping[Address, frozenset[Address]] = field(repr=False)
-    """Address -> addresses whose range check must run again when it changes."""
-    rule_readers: Mapping[Address, tuple[RuleCheck, ...]] = field(repr=False)
+    evaluation: Evaluation = field(repr=False)
+    """Of a file without values."""
+
+    # What an edit needs is worked out with the first one: most files of a check are only opened.
+
+    @cached_property
+    def _states(self) -> dict[Address, frozenset[Address]]:
+        """Address -> what its state depends on."""
+        return {address: frozenset(self.evaluation.state_reads(address)) for address in self.addresses}
+
+    @cached_property
+    def range_readers(self) -> Mapping[Address, frozenset[Address]]:
+        """Address -> addresses whose range check must run again when it changes."""
+        readers: dict[Address, set[Address]] = {}
+        for address in self.addresses:
+            for read in {address} | self._states[address] | _bounds(self.evaluation, address):
+                readers.setdefault(read, set()).add(address)
+        return {a: frozenset(r) for a, r in readers.items()}
+
+    @cached_property
+    def rule_readers(self) -> Mapping[Address, tuple[RuleCheck, ...]]:
+        """Address -> checks that must run again when it changes."""
+        readers: dict[Address, list[RuleCheck]] = {}
+        for check in self.checks:
+            for address in {seen for read in check.addresses for seen in {read} | self._states[read]}:
+                readers.setdefault(address, []).append(check)
+        return {a: tuple(c) for a, c in readers.items()}
 
 
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:
@@ -107,25 +131,8 @@ class _Further:
 def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     evaluation = Evaluation(schema, lambda _: None, lambda: machine)
     addresses = schema.addresses(machine)
-    states = {address: frozenset(evaluation.state_reads(address)) for address in addresses}
-    bounds = {address: _bounds(evaluation, address) for address in addresses}
-    range_readers: dict[Address, set[Address]] = {}
-    for address in addresses:
-        for read in {address} | states[address] | bounds[address]:
-            range_readers.setdefault(read, set()).add(address)
-    checks = checks_of(evaluation, schema.rules + further.rules)
-    rule_readers: dict[Address, list[RuleCheck]] = {}
-    for check in checks:
-        read_by_check = {seen for address in check.addresses for seen in {address} | states[address]}
-        for address in read_by_check:
-            rule_readers.setdefault(address, []).append(check)
-    return Plan(
-        addresses,
-        {address: n for n, address in enumerate(addresses)},
-        checks,
-        {a: frozenset(r) for a, r in range_readers.items()},
-        {a: tuple(c) for a, c in rule_readers.items()},
-    )
+    checks = checks_of(evaluation, schema.rules + further.rules, late=len(schema.rules))
+    return Plan(addresses, {address: n for n, address in enumerate(addresses)}, checks, evaluation)
 
 
 def _bounds(evaluation: Evaluation, address: Address) -> frozenset[Address]:
@@ -143,17 +150,21 @@ def _bounds(evaluation: Evaluation, address: Address) -> frozenset[Address]:
     return frozenset(found)
 
 
-def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...]) -> tuple[RuleCheck, ...]:
-    """Return the checks of rules on one machine type; raises RuleError."""
+def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) -> tuple[RuleCheck, ...]:
+    """Return the checks of rules on one machine type; raises RuleError.
+
+    The expressions of the first ``late`` rules, those of the family, are compiled and checked when they are needed.
+    """
     functions = rule_functions(evaluation.schema.family.family)
     seen: set[str] = set()
     checks: list[RuleCheck] = []
     places = count()
-    for rule in rules:
+    for n, rule in enumerate(rules):
         if rule.id in seen:
             raise RuleError(rule.id, "there are two rules of this name")
         seen.add(rule.id)
-        expressions = expressions_of(rule, functions)
+        told = None if n < late else check_rule(rule, functions)
+        expressions = Expressions(rule, functions, told)
         for instance, references in _resolved(evaluation, rule):
             singles = tuple(
                 Single(name, reference.addresses[0], name in rule.optional, name in rule.any_state)

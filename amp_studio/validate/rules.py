@@ -28,7 +28,7 @@ from amp_studio.schema.units import angular
 
 from .blame import about
 from .expression_worth import LONGEST_TEXT
-from .expressions import EVALUATION_ERRORS
+from .expressions import ALWAYS_THERE, EVALUATION_ERRORS
 from .finding import Finding, Setting
 from .formulas import rule_functions
 from .plan import Listed, RuleCheck
@@ -93,8 +93,10 @@ class RuleChecks:
             key = key, *[self._always(check, name) for name in expressions.always]
         found = expressions.verdicts.get(key)
         if found is None:
+            broken = expressions.broken
+            context = self._context(expressions.functions, expressions.always, check, values)
             try:
-                found = expressions.broken.execute(self._context(check, values)) is True
+                found = broken.execute(context) is True
             except EVALUATION_ERRORS:
                 found = (
                     False  # a value of a kind the rule does not speak of; its own check says what is wrong
@@ -104,13 +106,19 @@ class RuleChecks:
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see now."""
-        return self._context(check, self._values(check) or [None] * len(check.names))
+        return self._full_context(check, self._values(check) or [None] * len(check.names))
 
-    def _context(self, check: RuleCheck, values: list[Any]) -> Context:
-        names: dict[str, Any] = {name: self._always(check, name) for name in check.expressions.always}
+    def _full_context(self, check: RuleCheck, values: list[Any]) -> Context:
+        """Return what every expression of a check sees."""
+        return self._context(check.expressions.told.functions, ALWAYS_THERE, check, values)
+
+    def _context(
+        self, functions: Iterable[str], always: Iterable[str], check: RuleCheck, values: list[Any]
+    ) -> Context:
+        names: dict[str, Any] = {name: self._always(check, name) for name in always}
         names.update(zip(check.names, values, strict=True))
         context = Context(names)
-        for name in check.expressions.functions:
+        for name in functions:
             context.add_function(name, self._functions[name])
         return context
 
@@ -174,7 +182,7 @@ class RuleChecks:
 
     def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
         rule, evaluation = check.rule, self._file.evaluation
-        given = _Given(self._context(check, present), present)
+        given = _Given(self._full_context(check, present), present)
         texts = {"instance": check.instance, "machine": self._machine}
         texts["application"] = self._file.header.application
         texts["part"] = check.instance.partition(".")[2]
@@ -187,7 +195,7 @@ class RuleChecks:
         turns = any(evaluation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
         is_secret = self._reads_secret(check)
-        for name, expression in check.expressions.values:
+        for name, expression in check.expressions.told.values:
             unit = rule.units.get(name, "")
             unit = angular(unit) if turns else unit
             # What is worked out of a secret can give it away.
@@ -206,7 +214,7 @@ class RuleChecks:
             repairs,
             rule.page,
             safe,
-            tuple(self._set(check, given, check.expressions.effective)),
+            tuple(self._set(check, given, check.expressions.told.effective)),
             compared,
             check.instance,
             isinstance(rule, BuilderRule),
@@ -238,7 +246,7 @@ class RuleChecks:
 
     def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
         """Return what the rule would change; nothing if it would not help. Whether it does harm is for a trial."""
-        repairs = tuple(self._set(check, given, check.expressions.fixes))
+        repairs = tuple(self._set(check, given, check.expressions.told.fixes))
         return repairs if repairs and self._mends(check, given, repairs) else ()
 
     def _set(

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from textwrap import dedent
 
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Evaluation, Rule, Schema, Value, load_schema
+from amp_studio.schema import Evaluation, Rule, Schema, Value, family_ids, load_schema
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
 from amp_studio.validate import BuilderRules, RuleError, Validator
+from amp_studio.validate.expressions import check_rule
+from amp_studio.validate.formulas import rule_functions
 from amp_studio.validate.plan import checks_of, make_plan
 
 FAMILY = """
@@ -269,3 +272,32 @@ def test_what_a_rule_may_say(small) -> None:
     broken = own.model_copy(update={"check": own.check.replace("3.0", "2.0")})
     (finding,) = (f for f in Validator(file, BuilderRules((broken,))).run() if f.rule == "own.rule")
     assert finding.message == "1 axes; axis 2 of the mill is 5 mm, all —, 5 mm, —."
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (rule(LENGTH, "lenght > 1.0"), "check speaks of 'lenght', which it does not read"),
+        (rule(LENGTH, "greatest(length) > 1.0"), "check calls 'greatest', which is no function"),
+        (rule(LENGTH, "length >> 1.0"), "check: "),
+        (rule(LENGTH, "length > 9.0", message="{lenght} is short."), "the message shows '{lenght}'"),
+    ],
+    ids=lambda given: given if isinstance(given, str) else "",
+)
+def test_a_rule_of_the_family_that_cannot_be_meant_is_refused_when_it_is_first_decided(
+    small, wrong: Rule, said: str
+) -> None:
+    """Its expressions are compiled late, but a slip in them is never taken for a rule that holds."""
+    faulty = replace(small, rules=(wrong,))
+    file = ParameterFile(faulty)
+    file.set(("axis.length", "2"), Value(5.0, "mm"))
+    with pytest.raises(RuleError) as caught:
+        Validator(file).run()
+    assert str(caught.value).startswith(f"rule own.rule: {said}")
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_every_rule_of_every_family_can_be_used(family: str) -> None:
+    functions = rule_functions(family)
+    for one in load_schema(family).rules:
+        check_rule(one, functions)

@@ -20,6 +20,8 @@ from rule_stands import FAMILIES, HERE, Case, cases, read
 from amp_studio.schema import Rule, load_schema, program
 from amp_studio.validate import Finding
 from amp_studio.validate.expressions import Expressions
+from amp_studio.validate.expressions import Told as WhatIsTold
+from amp_studio.validate.formulas import rule_functions
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
 
@@ -47,12 +49,14 @@ class Told:
         """Tell whether a piece of text is what was changed here."""
         return piece in self.text and piece not in self.before
 
-    def of(self, expressions: Expressions) -> Expressions:
+    def of(self, rule: Rule, told: WhatIsTold) -> Expressions:
         """Return the expressions of the rule with this change; raises ValueError if it cannot be compiled."""
         field = PARTS[self.part]
-        all_of_it = list(getattr(expressions, field))
+        all_of_it = list(getattr(told, field))
         all_of_it[self.n] = (all_of_it[self.n][0], program(self.text))
-        return replace(expressions, **{field: tuple(all_of_it)})
+        return Expressions(
+            rule, rule_functions(rule.id.partition(".")[0]), replace(told, **{field: tuple(all_of_it)})
+        )
 
 
 def told_by(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
@@ -122,7 +126,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
         mends = any(one.repairs for check in broken if (one := values.finding(check)) is not None)
         for mutant in mutants:
             try:
-                expressions = mutant.of(broken[0].expressions)
+                expressions = mutant.of(rule, broken[0].expressions.told)
             except ValueError:
                 continue
             found = [

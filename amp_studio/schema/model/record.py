@@ -44,4 +44,5 @@ Instances = Annotated[tuple[str, ...], BeforeValidator(_counted_out, json_schema
 class Model(BaseModel):
     """A frozen record that refuses keys it does not know."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # Built when a file is first read into it: a start reads one kind, the compiled family.
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
