@@ -19,7 +19,6 @@ from amp_studio.schema.regular_file import read_file
 from amp_studio.validate import RULES_FILE, Finding, Validator, explain, read_builder_rules, rules_beside
 
 from .console import note, print_json, progress
-from .errors import UsageError
 from .output import check_replaced
 from .trouble import keep_details
 
@@ -88,16 +87,24 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
         unread.append(Checked(folder, fault=f"{folder}: cannot be read: {error.strerror}"))
 
     for path in paths:
-        if not path.is_dir():
+        if not _is_folder(path):
             found.append(path)
             continue
         told = len(unread)
         names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
         inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
         if not inside and told == len(unread):
-            raise UsageError(f"{path}: holds no {ENDING} files")
+            unread.append(Checked(path, fault=f"{path}: holds no {ENDING} files"))
         found += inside
     return found, unread
+
+
+def _is_folder(path: Path) -> bool:
+    """Tell whether a path is a folder; what cannot be looked at is told like a file that cannot be read."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
 
 
 def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | None) -> Iterator[Checked]:

@@ -88,11 +88,11 @@ def _note_errors(file: ParameterFile, path: Path) -> str:
 
 def _told(outcome: Outcome) -> int:
     """Print how an exchange ended and return the exit code; where nobody reads it, that is no full success."""
-    print(outcome.text)
-    if outcome.verified:
-        print(f"sha256 {outcome.sha256}")
     code = 0 if outcome.verified else AT_CONTROL[outcome.held]
-    try:
+    try:  # a terminal takes each line at once, and may be gone
+        print(outcome.text)
+        if outcome.verified:
+            print(f"sha256 {outcome.sha256}")
         flush_results()
     except (OSError, ValueError):
         end_results()

@@ -120,6 +120,7 @@ class EditLock:
 def _locked(place: Path) -> int:
     """Return the handle of the locked file, which is made where there is none; raises BlockingIOError, OSError."""
     for _ in range(_TRIES):
+        is_new = not os.path.lexists(place)
         handle = _opened(place)
         try:
             demand_file(os.fstat(handle))
@@ -129,8 +130,13 @@ def _locked(place: Path) -> int:
                 raise BlockingIOError from None
             if _still_named(handle, place):
                 return handle
+        except BlockingIOError:
+            os.close(handle)
+            raise
         except BaseException:
             os.close(handle)
+            if is_new:  # where there are no locks, nothing of one is left
+                place.unlink(missing_ok=True)
             raise
         os.close(handle)  # its holder removed it with the lock
     raise BlockingIOError

@@ -25,6 +25,7 @@ from .conditions import (
     same_values,
 )
 from .model import Condition, Scope
+from .quoting import quoted
 from .units import canonical, dimension
 from .values import Value
 
@@ -175,7 +176,7 @@ class Evaluation:
         """Return the instance a person means, as ``addressing`` says; raises UnknownParameterError with one clear sentence."""
         found = meant(self, text)
         if found.bit is not None:
-            raise UnknownParameterError(f"'{text.strip()}' is a bit, and the whole word is wanted")
+            raise UnknownParameterError(f"{quoted(text.strip())} is a bit, and the whole word is wanted")
         return found.address
 
     def find_bit(self, text: str) -> tuple[Address, int | None]:

@@ -21,19 +21,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import filelock
+from amp_studio.files.lock import EditLock, InUse
 
 from .memory import Memory
 from .message import Code, Commit, Committed, Flags, OpenDownload, Refusal
 from .record import Identity, StateFault, is_answer, load_json, load_record, to_json, written
 from .staging import Plan, Staging
 
-ACTIVE, PREVIOUS, OUTGOING, INTENT, LOCK = (
+ACTIVE, PREVIOUS, OUTGOING, INTENT = (
     "active.img",
     "previous.img",
     "outgoing.img",
     "commit.json",
-    "control.lock",
 )
 CAPACITY = 1 << 20  # bytes
 
@@ -63,11 +62,11 @@ class Control:
         self.is_committing = False
         self._capacity = capacity
         self._accept = accept
-        self._lock = filelock.FileLock(folder / LOCK, timeout=0, thread_local=False)
+        self._lock = EditLock(folder / "control")
         try:
-            self._lock.acquire()
-        except filelock.Timeout:
-            raise StateFault(f"another emulated control works with {folder}") from None
+            self._lock.take()
+        except InUse as error:
+            raise StateFault(f"{folder}: {error}") from None
         try:
             self._boot(initial, estop, autostart)
         except BaseException:

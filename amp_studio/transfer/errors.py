@@ -114,3 +114,8 @@ def error_of(refusal: Refusal, held: Held = "old") -> TransferError:
     kind = _BY_CODE.get(refusal.code, ProtocolMismatch)
     what = refusal.text or f"the control refuses (code {refusal.code})"
     return kind(what, held)
+
+
+def unforeseen(error: Exception) -> str:
+    """Return an error of another kind in words; one without any by its name."""
+    return str(error) or type(error).__name__

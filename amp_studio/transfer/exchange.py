@@ -23,6 +23,7 @@ from .errors import (
     NotInEmergencyStop,
     SignatureMismatch,
     TransferError,
+    unforeseen,
 )
 from .message import Committed, Flags, Welcome
 from .progress import Progress, quiet
@@ -146,6 +147,8 @@ def download(
         raise
     except KeyboardInterrupt:
         raise Cancelled("stopped", "new", kept) from None
+    except Exception as error:  # no memory, no handle: the commit has happened all the same
+        raise TransferError(f"it was not read back ({unforeseen(error)})", "new", kept) from error
 
 
 def first_difference(a: bytes, b: bytes) -> int | None:

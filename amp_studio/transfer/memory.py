@@ -9,10 +9,11 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from amp_studio.schema.regular_file import read_file
+from amp_studio.files.atomic import write_all
+from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
 
 TEMPORARY = ".tmp"
 LARGEST = 1 << 26
@@ -51,11 +52,11 @@ class Memory:
         temporary = self.folder / (name + TEMPORARY)
         try:
             self.on_step(f"write {temporary.name}")
-            with temporary.open("wb") as stream:
-                stream.write(content)
-                stream.flush()
+            temporary.unlink(missing_ok=True)  # whatever somebody put there is not written to
+            with self._open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL) as handle:
+                write_all(handle, content)
                 self.on_step(f"sync {temporary.name}")
-                os.fsync(stream.fileno())
+                os.fsync(handle)
         except OSError:
             with contextlib.suppress(OSError):
                 temporary.unlink()
@@ -65,23 +66,21 @@ class Memory:
     def append(self, name: str, content: bytes) -> None:
         """Add to the end of a file, or leave it as it was."""
         self.on_step(f"append to {name}")
-        with (self.folder / name).open("ab", buffering=0) as stream:
-            before = stream.tell()
+        with self._open(self.folder / name, os.O_WRONLY | os.O_APPEND | os.O_CREAT) as handle:
+            before = os.fstat(handle).st_size
             try:
                 if self.full_at is not None and before + len(content) > self.full_at:
                     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-                rest = memoryview(content)
-                while rest:
-                    rest = rest[stream.write(rest) :]
+                write_all(handle, content)
             except OSError:
-                stream.truncate(before)
+                os.ftruncate(handle, before)
                 raise
 
     def sync(self, name: str) -> None:
         """Force a file to the disk."""
         self.on_step(f"sync {name}")
-        with (self.folder / name).open("rb+") as stream:
-            os.fsync(stream.fileno())
+        with self._open(self.folder / name, os.O_RDWR) as handle:
+            os.fsync(handle)
 
     def move(self, name: str, to: str) -> None:
         """Rename a file over another in one step, and force the folder to the disk."""
@@ -99,6 +98,19 @@ class Memory:
         for name in self.names():
             if name.endswith(TEMPORARY):
                 self.remove(name)
+
+    @contextlib.contextmanager
+    def _open(self, path: Path, flags: int) -> Iterator[int]:
+        """Open a file to write to it; raises OSError for a link, a pipe or a device that somebody put in its place."""
+        try:
+            handle = os.open(path, flags | NO_LINK | HARMLESS, 0o666)
+            try:
+                demand_file(os.fstat(handle))
+                yield handle
+            finally:
+                os.close(handle)
+        except OSError as error:
+            raise OSError(error.errno, error.strerror or str(error), str(path)) from None
 
     def _sync_folder(self) -> None:
         self.on_step("sync the folder")

@@ -7,7 +7,7 @@ import threading
 from dataclasses import dataclass
 
 from .conversation import Conversation
-from .errors import Cancelled, Held, ImageChanged, ProtocolMismatch, TransferError, error_of
+from .errors import Cancelled, Held, ImageChanged, ProtocolMismatch, TransferError, error_of, unforeseen
 from .line import STEPS, Line
 from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, Refusal
 from .streaming import push
@@ -54,6 +54,9 @@ class Sending:
         except KeyboardInterrupt:
             self._abort()
             raise Cancelled("stopped", self.held) from None
+        except Exception as error:  # no memory, no handle: what the control holds is to be said all the same
+            self._abort()
+            raise TransferError(f"the exchange broke off ({unforeseen(error)})", self.held) from error
         finally:
             self._line.cancel = None
             self._line.is_committing = False

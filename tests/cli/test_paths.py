@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio import cli
 from amp_studio.cli import checks
 from amp_studio.files import atomic
 
@@ -208,3 +209,13 @@ def test_a_name_too_long_to_be_edited_can_be_read_and_is_told(amp, mill: Path) -
     said = amp("set", long, "1300=2 mm")
     assert said.code == 2
     assert "The name is too long for the files kept beside it" in said.err
+
+
+def test_a_path_that_nobody_can_look_at_and_an_empty_folder_end_no_other_check(
+    mill: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "empty").mkdir()
+    code = cli.run(["validate", "x" * 5000, str(tmp_path / "empty"), str(mill), "--json"])
+    files = json.loads(capsys.readouterr().out)["files"]
+    assert (code, len(files)) == (2, 3)
+    assert {one["file"] for one in files if "error" in one} == {"x" * 5000, str(tmp_path / "empty")}

@@ -160,9 +160,10 @@ def test_a_control_killed_at_any_step_of_the_commit_holds_old_or_new(
         assert (outcome.held, outcome.verified) == ("new", True), f"step {step}"
         assert (folder / "previous.img").read_bytes() == OLD, f"step {step}"
         assert sorted(p.name for p in folder.iterdir()) == [
+            ".control.holder",
+            ".control.lock",
             "active.img",
             "control.json",
-            "control.lock",
             "previous.img",
         ]
         emulated[-1].kill()

@@ -20,8 +20,10 @@ from amp_studio.transfer import (
     NoConnection,
     NotInEmergencyStop,
     SignatureMismatch,
+    TransferError,
     download,
     first_difference,
+    sending,
     upload,
     verify,
 )
@@ -292,3 +294,35 @@ def test_a_verification_names_the_first_byte_that_differs(bench: Callable[..., A
 )
 def test_where_two_images_first_differ(a: bytes, b: bytes, at: int | None) -> None:
     assert first_difference(a, b) == at
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError(), OSError(28, "No space left on device"), RuntimeError("odd")]
+)
+@pytest.mark.parametrize(("part", "held"), [("OpenDownload", "old"), ("Commit", "unknown")])
+def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception, part: str, held: str
+) -> None:
+    def breaks(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(sending, part, breaks)
+    _, session, shelf = bench()
+    with pytest.raises(TransferError) as caught:
+        download(session, NEW, shelf, signature="s1")
+    assert caught.value.held == held
+    assert (str(error) or "MemoryError") in str(caught.value)
+
+
+@pytest.mark.parametrize("error", [MemoryError(), OSError(24, "Too many open files")])
+def test_whatever_ends_the_reading_back_is_told_with_what_the_control_holds(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def breaks(*_: object) -> None:
+        raise error
+
+    _, session, shelf = bench()
+    monkeypatch.setattr(session, "wait_restarted", breaks)
+    with pytest.raises(TransferError, match=r"kept in machine\.before\.amp") as caught:
+        download(session, NEW, shelf, signature="s1")
+    assert caught.value.held == "new"

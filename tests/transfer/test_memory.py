@@ -69,3 +69,23 @@ def test_the_staged_bytes_are_on_the_disk_before_they_become_the_active_image(
     send(made.session())
     assert [source[:7] for source, target in disk.renamed if target == "active.img"] == ["staged-"]
     disk.check()
+
+
+@pytest.mark.parametrize("plant", [os.mkfifo, lambda path: path.symlink_to(path.parent.parent / "victim")])
+@pytest.mark.parametrize("name", ["active.img", "part"])
+def test_nothing_is_written_through_what_somebody_has_planted(
+    tmp_path: Path, plant: Callable[[Path], None], name: str
+) -> None:
+    victim = tmp_path / "victim"
+    victim.write_bytes(b"kept")
+    memory = Memory(tmp_path / "control")
+    plant(memory.folder / "active.img.tmp")
+    plant(memory.folder / name)
+    memory.replace("active.img", b"new")
+    assert (memory.folder / "active.img").read_bytes() == b"new"
+    if name == "part":
+        with pytest.raises(OSError, match="part"):
+            memory.append("part", b"more")
+        with pytest.raises(OSError, match="part"):
+            memory.sync("part")
+    assert victim.read_bytes() == b"kept"
