@@ -29,6 +29,7 @@ from .parameter_file import (
     fill_defaults,
     new_file,
     secret_values,
+    without_secrets,
 )
 from .paths import backup_path, is_there, real_path, same_file, text_of_name
 from .project import ENDING, InvalidNameError, Project, ProjectInfo
@@ -83,5 +84,6 @@ __all__ = [
     "save_file",
     "secret_values",
     "text_of_name",
+    "without_secrets",
     "write_atomic",
 ]

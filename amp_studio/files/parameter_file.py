@@ -268,10 +268,21 @@ def secret_values(file: ParameterFile) -> list[Address]:
     return [a for a in file.values if file.schema.parameters[a[0]].secret]
 
 
+def without_secrets(file: ParameterFile) -> ParameterFile:
+    """Return a file without its secret values, itself where it has none."""
+    secret = secret_values(file)
+    if not secret:
+        return file
+    copy = file.copy()
+    for address in secret:
+        copy.set(address, None)
+    return copy
+
+
 def describe(file: ParameterFile, address: Address) -> str:
     """Return ``1300 Home Calibration`` for messages."""
     return file.schema.label(address, file.machine)
 
 
 __all__ = ["Change", "Header", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults", "new_file",
-           "secret_values", "written"]  # fmt: skip
+           "secret_values", "without_secrets", "written"]  # fmt: skip

@@ -9,7 +9,14 @@ from itertools import groupby
 from pathlib import Path
 
 from amp_studio import __version__
-from amp_studio.files import ParameterFile, ParameterFileError, axis_instances, content_of, open_file
+from amp_studio.files import (
+    ParameterFile,
+    ParameterFileError,
+    axis_instances,
+    content_of,
+    open_file,
+    without_secrets,
+)
 from amp_studio.schema import Address, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
@@ -54,7 +61,7 @@ def build_report(
         program=f"AMP Studio {__version__}",
         order=SORTS[sort],
         changed_only=changed_only,
-        facts=tuple(_facts(file, source, sort, changed_only)),
+        facts=tuple(_facts(file, source, sort, changed_only, secrets)),
         counts=tuple(_counts(file, found, findings)),
         remarks=file.header.notes.strip(),
         axis_heads=heads,
@@ -70,7 +77,9 @@ def build_report(
 # -- facts ---------------------------------------------------------------------
 
 
-def _facts(file: ParameterFile, source: Path | None, sort: Sort, changed_only: bool) -> list[tuple[str, str]]:
+def _facts(
+    file: ParameterFile, source: Path | None, sort: Sort, changed_only: bool, secrets: bool
+) -> list[tuple[str, str]]:
     family, header = file.schema.family, file.header
     machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
     facts = [
@@ -85,7 +94,7 @@ def _facts(file: ParameterFile, source: Path | None, sort: Sort, changed_only: b
         facts.append(("Axes", f"{len(printed_axes(file))} of {len(axis_instances(file))} fitted"))
     facts += [
         ("File", str(source) if source else ""),
-        ("SHA-256 of the file", _checksum(file, source)),
+        _checksum(file, source, secrets),
         ("Schema signature", _signature(file)),
         ("Order", SORTS[sort]),
         ("Contents", "only what differs from the printed default" if changed_only else "every value"),
@@ -93,17 +102,29 @@ def _facts(file: ParameterFile, source: Path | None, sort: Sort, changed_only: b
     return [(title, text or "–") for title, text in facts]
 
 
-def _checksum(file: ParameterFile, source: Path | None) -> str:
-    """Return the short checksum of the file whose values these are, and say so where it is not the one on disk."""
+def _checksum(file: ParameterFile, source: Path | None, secrets: bool) -> tuple[str, str]:
+    """Return the short checksum of the file whose values these are, and say so where it is not the one on disk.
+
+    Whoever has the report can try all passwords against a checksum, so secrets that are not printed are not in it either.
+    """
+    title = "SHA-256 of the file"
+    if not secrets and without_secrets(file) is not file:
+        title, file = "SHA-256 without the secret values", without_secrets(file)
     if source is None:
-        return hashlib.sha256(content_of(file)).hexdigest()[:_SHORT] + " (not saved yet)"
+        return title, _digest(file) + " (not saved yet)"
     try:
         opened = open_file(source)
     except ParameterFileError:
-        return "the file on disk cannot be read"
-    if opened.file.values != file.values:
-        return opened.digest[:_SHORT] + " – but with other values: this report shows unsaved changes"
-    return opened.digest[:_SHORT]
+        return title, "the file on disk cannot be read"
+    on_disk = opened.file if secrets else without_secrets(opened.file)
+    digest = opened.digest[:_SHORT] if on_disk is opened.file else _digest(on_disk)
+    if on_disk.values != file.values:
+        return title, digest + " – but with other values: this report shows unsaved changes"
+    return title, digest
+
+
+def _digest(file: ParameterFile) -> str:
+    return hashlib.sha256(content_of(file)).hexdigest()[:_SHORT]
 
 
 def _signature(file: ParameterFile) -> str:

@@ -184,7 +184,7 @@ def test_the_facts_name_the_file_and_its_checksum(
 ) -> None:
     path = tmp_path / "mill.amp"
     save_file(mill, path)
-    facts = dict(build_report(mill, source=path, date=date).facts)
+    facts = dict(build_report(mill, source=path, date=date, secrets=True).facts)
     assert facts["File"] == str(path)
     assert facts["SHA-256 of the file"] == str(digest_of(path))[:16]
     assert facts["Schema signature"] == mill.schema.signature[:16]
@@ -197,10 +197,39 @@ def test_a_checksum_is_never_printed_beside_other_values_unsaid(tmp_path: Path, 
     path = tmp_path / "mill.amp"
     save_file(mill, path)
     mill.set(("home.calibration", "1"), Value(13.0, "mm"))
-    assert "unsaved changes" in dict(build_report(mill, source=path).facts)["SHA-256 of the file"]
+    assert "unsaved changes" in checksum(mill, path)[1]
     path.write_bytes(b"cut off")
-    assert "cannot be read" in dict(build_report(mill, source=path).facts)["SHA-256 of the file"]
-    assert "not saved yet" in dict(build_report(mill).facts)["SHA-256 of the file"]
+    assert "cannot be read" in checksum(mill, path)[1]
+    assert "not saved yet" in checksum(mill)[1]
+
+
+def checksum(file: ParameterFile, path: Path | None = None) -> tuple[str, str]:
+    return next(fact for fact in build_report(file, source=path).facts if "SHA-256" in fact[0])
+
+
+def test_nobody_can_try_passwords_against_the_checksum_of_a_report(
+    tmp_path: Path, mill: ParameterFile
+) -> None:
+    path, printed = tmp_path / "mill.amp", []
+    for code in (77, 78, None):
+        mill.set(("password.character", "1"), None if code is None else Value(code))
+        path.write_bytes(content_of(mill))
+        printed += [checksum(mill, path), checksum(mill)]
+    assert set(printed[:-2]) <= {
+        ("SHA-256 without the secret values", printed[0][1]),
+        ("SHA-256 without the secret values", printed[0][1] + " (not saved yet)"),
+    }
+    mill.set(("home.calibration", "1"), Value(13.0, "mm"))
+    path.write_bytes(content_of(mill))
+    assert checksum(mill, path)[1] != printed[0][1]
+
+
+def test_a_file_without_secrets_has_its_own_checksum(tmp_path: Path, mill: ParameterFile) -> None:
+    path = tmp_path / "mill.amp"
+    for instance in "123456":
+        mill.set(("password.character", instance), None)
+    save_file(mill, path)
+    assert checksum(mill, path) == ("SHA-256 of the file", str(digest_of(path))[:16])
 
 
 def test_a_file_of_another_schema_is_told(mill: ParameterFile) -> None:

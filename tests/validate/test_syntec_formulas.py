@@ -97,6 +97,7 @@ def test_the_linear_and_the_angular_blu_have_the_same_figure_and_the_inch_anothe
 )
 def test_the_hardware_basic_time_goes_by_the_series(series: str, expected: float) -> None:
     assert syntec.hardware_basic_time_us(series) == expected
+    assert syntec.is_basic_time_printed(series)
 
 
 def test_the_series_are_those_of_the_parameter_and_of_its_printed_table() -> None:
@@ -113,6 +114,7 @@ def test_the_series_are_those_of_the_parameter_and_of_its_printed_table() -> Non
 def test_without_a_printed_time_the_longest_one_counts(series: str) -> None:
     """Section 1.4.1: the 20/21 series refer to Pr3203; the others are not named."""
     assert syntec.hardware_basic_time_us(series) == 983
+    assert not syntec.is_basic_time_printed(series)
 
 
 def test_a_series_that_does_not_exist_has_no_time() -> None:

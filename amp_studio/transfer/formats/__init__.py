@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from amp_studio.files import Header, ParameterFile, SaveError, Tell, secret_values, write_atomic
+from amp_studio.files import Header, ParameterFile, SaveError, Tell, without_secrets, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.regular_file import read_file
@@ -103,17 +103,6 @@ def export_file(
     return chosen
 
 
-def without_secrets(file: ParameterFile) -> ParameterFile:
-    """Return a file without its secret values, itself where it has none."""
-    secret = secret_values(file)
-    if not secret:
-        return file
-    copy = file.copy()
-    for address in secret:
-        copy.set(address, None)
-    return copy
-
-
 def _format_for_reading(content: bytes, family: str | None, format_key: str | None) -> TextFormat:
     offered = formats_of(family) if family else FORMATS
     if format_key is not None:
@@ -162,5 +151,4 @@ __all__ = [
     "file_of",
     "formats_of",
     "import_file",
-    "without_secrets",
 ]

@@ -16,6 +16,7 @@ from .dda import (
     dda_pulses_per_minute,
     hardware_basic_time_us,
     interpolation_time_us,
+    is_basic_time_printed,
 )
 from .following import (
     alarm_speed,
@@ -66,6 +67,7 @@ __all__ = [
     "home_grid",
     "homing_search_limit",
     "interpolation_time_us",
+    "is_basic_time_printed",
     "is_home_grid_advised",
     "is_home_inaccurate",
     "is_index_ignored",

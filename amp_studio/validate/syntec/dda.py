@@ -32,6 +32,11 @@ def hardware_basic_time_us(series: str) -> float:
         raise ValueError(f"series must be one of {known}, not '{series}'.") from None
 
 
+def is_basic_time_printed(series: str) -> bool:
+    """Whether the hardware basic time of a series is printed, not assumed (page 1.4.1, erratum e-3203-series)."""
+    return series in PRINTED_BASIC_TIMES_US
+
+
 def interpolation_time_us(setting: float, basic_time_us: float) -> float:
     """Interpolation time in µs: Pr3203 / 1000 x hardware basic time (page 1.4.1)."""
     return positive("setting", setting) * positive("basic_time_us", basic_time_us) / 1000.0
