@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, NoReturn
 
+from .screen import end_results, flush_results, open_streams, tell
 from .stopping import answer_once, no_more, was_asked
 
 if TYPE_CHECKING:
@@ -34,13 +35,16 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
     )  # it would search every installed package for them
     try:
         answer_once()
-        from .screen import open_streams
-
         open_streams()
         code = run_verb(sys.argv[1:] if arguments is None else arguments)
     except KeyboardInterrupt:  # before the verb had begun
         code = FAULT
     no_more()
+    if was_asked():
+        # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to exec(), a
+        # dataclass for one, whoever caught the exception; the exit code would be lost.
+        end_results()
+        os._exit(code)
     sys.exit(code)
 
 
@@ -65,7 +69,6 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     """Run one verb; ``replaced`` takes the files that it may replace."""
     from .outcome import targets
     from .parser import parser
-    from .screen import flush_results
 
     try:
         try:
@@ -106,8 +109,6 @@ def _sentence(error: BaseException) -> str:
 
 def _leave() -> int:
     print("bye")
-    from .screen import end_results
-
     end_results()
     return 0
 
@@ -117,8 +118,6 @@ def _refuse(text: str, replaced: Sequence[Target], code: int = FAULT, *, quiet: 
 
     ``code`` is that of what holds at a control.
     """
-    from .screen import end_results, tell
-
     end_results()
     now = "; ".join(filter(None, (target.sentence() for target in replaced)))
     if now or not quiet:

@@ -150,3 +150,19 @@ def test_what_nobody_has_foreseen_is_one_line_with_the_place_of_the_details(
     assert (said.code, "should not have happened (KeyError: 'never')" in said.err) == (2, True)
     place = Path(said.err.rpartition("the details are in ")[2].strip())
     assert 'raise KeyError("never")' in place.read_text(encoding="utf-8")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a signal cannot be sent to a process there")
+def test_an_interrupt_inside_a_text_given_to_exec_does_not_cost_the_exit_code(tmp_path: Path) -> None:
+    """CPython would end itself by the signal; a dataclass is made by such a text."""
+    (tmp_path / "interrupted.py").write_text(
+        "from amp_studio.cli import program\n"
+        "def interrupted(*_):\n"
+        "    exec('import os, signal; os.kill(os.getpid(), signal.SIGINT)')\n"
+        "program._run = interrupted\n"
+        "program.start(['families'])\n",
+        encoding="utf-8",
+    )
+    command = [sys.executable, "-m", "interrupted"]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (ended.returncode, ended.stderr) == (2, "amp-studio: stopped\n")
