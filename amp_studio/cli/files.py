@@ -64,7 +64,7 @@ def set_verb(options: argparse.Namespace) -> int:
             document.save("set --force" if options.force else "set")
         for said in told:
             note(said)
-            note_all(document.notes)
+        note_all(document.notes)
         if not changes:
             note("nothing changed: every value was so already")
         for change in changes:
