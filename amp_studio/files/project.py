@@ -11,6 +11,7 @@ from typing import Any
 
 from amp_studio.schema import UnknownFamilyError, family_ids, load_schema
 from amp_studio.schema.file_error import text_of
+from amp_studio.schema.nearest import did_you_mean
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.regular_file import read_file
 from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
@@ -189,6 +190,11 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
         if not isinstance(value, str):
             raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
     extra = {k: v for k, v in typed.items() if k not in _TEXTS and k != _VERSION}
+    for key in extra:  # it stays in the file, unless it is one that the project lacks
+        if near := did_you_mean(str(key), [lacking for lacking in ("name", "family") if lacking not in said]):
+            raise ParameterFileError(
+                path, document.line((key,)), f"{quoted(str(key))}: there is no such key{near}"
+            )
     info = ProjectInfo(**{"name": "", "family": "", **said}, extra=extra)
     try:
         _check(info)

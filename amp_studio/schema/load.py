@@ -16,19 +16,20 @@ from typing import Any, TypeVar
 
 import platformdirs
 from pydantic import ValidationError
-from pydantic_core import ErrorDetails
 
 from .compiled_cache import read_cached, report_unusable, write_cached
 from .consistency import faults_between
 from .file_error import FileError, read_yaml_file
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
+from .model_errors import Slip, slips
 from .quoting import quoted, short
 from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
 _MOST_RULES = 2**20
 """Bytes of a file of rules; the largest of our own has 37,000."""
-_LONGEST_MESSAGE = 500
+_MOST_SLIPS = 9
+"""Of one entry, in a message."""
 
 
 class DatabaseError(FileError):
@@ -173,32 +174,38 @@ def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], family
     try:
         return model.model_validate(data, context=family)
     except ValidationError as error:
-        first = error.errors()[0]
-        line = document.line(first["loc"])
-        raise DatabaseError(path, line, f"{_place(data, first)}{_told(first)}") from None
+        raise _error_of(path, document, slips(error, data, model)) from None
     except RecursionError:
         raise DatabaseError(path, 1, "is too deep") from None
 
 
-def _told(fault: ErrorDetails) -> str:
-    """Return what is wrong, in one line; a value that it repeats may be of any length."""
-    return " ".join(fault["msg"].split())[:_LONGEST_MESSAGE]
+def _error_of(path: Path, document: YamlDocument, found: list[Slip]) -> DatabaseError:
+    """Return all that is wrong with the first entry of a file in which something is, as one error."""
+    found = sorted(found, key=lambda slip: document.line(slip[0]))
+    entry, name = _entry(document.data, found[0][0])
+    first = document.line(found[0][0])
+    told = []
+    for place, what in found:
+        if _entry(document.data, place)[0] == entry:
+            line = document.line(place)
+            keys = [short(key) for key in place[len(entry) :] if isinstance(key, str)]
+            told.append(": ".join([*keys, what]) + (f" (line {line})" if line != first else ""))
+    more = f"; and {len(told) - _MOST_SLIPS} more" if len(told) > _MOST_SLIPS else ""
+    return DatabaseError(path, first, f"{name}{'; '.join(told[:_MOST_SLIPS])}{more}")
 
 
-def _place(data: object, fault: ErrorDetails) -> str:
-    """Name the parameter or rule a fault lies in, and the key."""
-    where, node = [short(str(data["id"]))] if isinstance(data, dict) and "id" in data else [], data
-    for step in fault["loc"]:
+def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:
+    """Return where the innermost entry with an id begins that a place lies in, and the id; else the whole file."""
+    entry: KeyPath = ()
+    name = ""
+    for n in range(len(place) + 1):
+        if isinstance(data, dict) and "id" in data:
+            entry, name = place[:n], f"{short(str(data['id']))}: "
         try:
-            node = node[step]  # type: ignore[index]  # walks plain YAML of unknown shape
-        except (KeyError, TypeError, IndexError):
-            where.append(short(str(step)))
+            data = data[place[n]]
+        except (LookupError, TypeError):
             break
-        if isinstance(node, dict) and "id" in node:
-            where = [short(str(node["id"]))]
-        elif isinstance(step, str):
-            where.append(short(step))
-    return ": ".join(where) + ": " if where else ""
+    return entry, name
 
 
 def _content_key(files: list[Path]) -> str:

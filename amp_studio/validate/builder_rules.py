@@ -31,15 +31,16 @@ from amp_studio.schema import (
     read_address,
     read_entries,
 )
+from amp_studio.schema.model_errors import Slip
+from amp_studio.schema.nearest import did_you_mean
 from amp_studio.schema.regular_file import read_file
 from amp_studio.schema.yaml_reader import KeyPath
 
 from .expression_tree import shown
 from .expressions import RuleError
 from .finding import Finding
-from .nearest import did_you_mean
 from .plan import checks_of
-from .rule_entry import Slip, entry_model
+from .rule_entry import entry_model
 from .rule_review import MOST_STEPS, review
 
 RULES_FILE = "rules.yaml"

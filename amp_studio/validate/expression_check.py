@@ -12,6 +12,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 
+from amp_studio.schema.nearest import did_you_mean
+
 from .expression_tree import Node, shown
 from .expression_worth import (
     ANY,
@@ -26,7 +28,6 @@ from .expression_worth import (
     list_worth,
     text_worth,
 )
-from .nearest import did_you_mean
 
 _STEP = 3
 """Cost of a step; one is the copying of a number, some 50 ns."""

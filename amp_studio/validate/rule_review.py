@@ -8,6 +8,7 @@ from functools import cache
 from string import Formatter
 
 from amp_studio.schema import Parameter, Rule, Schema, family_ids, load_schema, read_address
+from amp_studio.schema.nearest import did_you_mean
 from amp_studio.schema.units import UNITS
 from amp_studio.schema.yaml_reader import KeyPath
 
@@ -30,7 +31,6 @@ from .expression_worth import (
 )
 from .expressions import ALWAYS_THERE, TYPES
 from .formulas import rule_functions
-from .nearest import did_you_mean
 
 MOST_STEPS = 5_000_000
 """Of one rule over a whole file: about a quarter of a second."""

@@ -88,7 +88,7 @@ def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Pat
     from amp_studio.schema import DatabaseError
 
     def broken(_: str) -> None:
-        raise DatabaseError(tmp_path / "family.yaml", 3, "colour: Extra inputs are not permitted")
+        raise DatabaseError(tmp_path / "family.yaml", 3, "colour: there is no such key")
 
     monkeypatch.setattr("amp_studio.cli.console.load_schema", broken)
     for arguments in (("families",), ("schema", "9pc"), ("new", "9pc", tmp_path / "x.amp")):

@@ -120,6 +120,16 @@ def test_comments_and_unknown_keys_of_a_project_survive(project: Project) -> Non
         ),
         ("amp_studio_project: 1\nfamily: 9pc\n", None, "a project needs a name"),
         ("amp_studio_project: 1\nname: x\n", None, "a project needs a control family"),
+        (
+            "amp_studio_project: 1\nname: x\nfamly: 9pc\n",
+            3,
+            "'famly': there is no such key, did you mean 'family'?",
+        ),
+        (
+            "amp_studio_project: 1\nnmae: x\nfamily: 9pc\n",
+            2,
+            "'nmae': there is no such key, did you mean 'name'?",
+        ),
         ("amp_studio_project: 1\nname: x\nfamily: fanuc\n", 3, "Unknown family 'fanuc'. Known: "),
         ("amp_studio_project: 1\nname: [x\n", 3, "is not readable: did not find expected"),
         ("amp_studio_project: 1\nname: &x 2001-99-99\n", 2, "is not readable: it uses a YAML reference"),

@@ -11,7 +11,8 @@ from amp_studio.schema.units import UNITS
 
 ParameterId = Annotated[str, Field(pattern=r"^[a-z0-9_]+(\.[a-z0-9_]+)+$")]
 Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_.+-]*$")]
-Page = Annotated[str, Field(pattern=r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$")]
+PAGE_PATTERN = r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$"
+Page = Annotated[str, Field(pattern=PAGE_PATTERN)]
 Scope = Literal["global", "axis", "spindle", "process", "group", "word", "register"]
 
 

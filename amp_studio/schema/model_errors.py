@@ -1,0 +1,105 @@
+"""What is wrong with data that do not fit a model, in plain words: the one place where pydantic's errors become sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from .model.record import PAGE_PATTERN
+from .nearest import did_you_mean
+from .quoting import quoted
+from .yaml_reader import KeyPath
+
+_LONGEST = 500
+"""Characters of a sentence; a value that it repeats may be of any length."""
+
+Slip = tuple[KeyPath, str]
+"""Where in the data something is wrong, and what."""
+
+
+def slips(error: ValidationError, data: object, model: type[BaseModel]) -> list[Slip]:
+    """Return what is wrong, one slip a place; a key that is mistyped is not missing as well."""
+    wrong = error.errors(include_url=False)
+    missing: dict[KeyPath, list[str]] = {}
+    for each in wrong:
+        if each["type"] == "missing":
+            missing.setdefault(each["loc"][:-1], []).append(str(each["loc"][-1]))
+    found: dict[KeyPath, str] = {}
+    meant: set[KeyPath] = set()
+    for each in wrong:
+        place = each["loc"]
+        if each["type"] == "extra_forbidden":
+            record, key = place[:-1], str(place[-1])
+            lacking = missing.get(record, [])
+            meant |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
+            known = lacking if did_you_mean(key, lacking) else list(_keys_at(model, record))
+            found.setdefault(place, f"there is no such key{did_you_mean(key, known)}")
+        elif each["type"] != "missing":
+            found.setdefault(_in_data(place, data), _sentence(each))
+    found |= {
+        each["loc"]: "is missing" for each in wrong if each["type"] == "missing" and each["loc"] not in meant
+    }
+    return [(place, " ".join(what.split())[:_LONGEST]) for place, what in found.items()]
+
+
+def _keys_at(kind: Any, place: KeyPath) -> Iterable[str]:
+    """Return the keys of the record that stands at a place of what a type describes."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if origin is Annotated:
+        return _keys_at(inner[0], place)
+    if origin in (Union, UnionType):
+        return [key for one in inner for key in _keys_at(one, place)]
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        if not place:
+            return kind.model_fields
+        field = kind.model_fields.get(str(place[0]))
+        return _keys_at(field.annotation, place[1:]) if field else ()
+    if origin in (tuple, dict) and place:
+        return _keys_at(inner[0 if origin is tuple else 1], place[1:])
+    return ()
+
+
+def _in_data(place: KeyPath, data: Any) -> KeyPath:
+    """Return the place without what pydantic adds to it: which of several types it has tried."""
+    for n, step in enumerate(place):
+        try:
+            data = data[step]
+        except (LookupError, TypeError):
+            return place[:n]
+    return place
+
+
+def _sentence(error: ErrorDetails) -> str:
+    """Return what is wrong with a value."""
+    given, details = error["input"], error.get("ctx", {})
+    match error["type"]:
+        case "literal_error":
+            known = [word.strip("'") for word in details["expected"].replace(" or ", ", ").split(", ")]
+            near = did_you_mean(given, known) if isinstance(given, str) else ""
+            return f"{quoted(str(given))} is not {details['expected']}{near}"
+        case "string_type":
+            return "is empty" if given is None else f"must be a text: put {quoted(str(given))} in quotes"
+        case "string_pattern_mismatch" if details["pattern"] == PAGE_PATTERN:
+            return f"{quoted(given)} is no page: written like 7-20, A-5 or 102"
+        case "string_pattern_mismatch" if "\\." in details["pattern"]:
+            return f"{quoted(given)} is no id: small letters and digits with a point between, like works.lathe-rapid"
+        case "string_pattern_mismatch":
+            return f"{quoted(given)} is no key: small letters, digits and _ . + - without a blank"
+        case "string_too_short":
+            return "is empty"
+        case "bool_type" | "bool_parsing":
+            return "must be true or false"
+        case "float_type" | "float_parsing":
+            return "must be a number"
+        case "int_type" | "int_parsing" | "int_from_float":
+            return "must be a whole number"
+        case "dict_type" | "model_type" | "model_attributes_type":
+            return "must be names with what they are: {name: ...}"
+        case "tuple_type" | "list_type":
+            return "must be a list: [...]"
+        case _:
+            return error["msg"].removeprefix("Value error, ")
