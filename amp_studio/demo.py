@@ -57,7 +57,7 @@ def _in_terminal() -> int:
     """Do the main job step by step and say what happens; 0 when nothing differs at the end."""
     from amp_studio.files import Document, compare, open_file
     from amp_studio.report import write_report
-    from amp_studio.transfer.parameters import download_file, fetch_file
+    from amp_studio.transfer.client.parameters import download_file, fetch_file
     from amp_studio.validate import Validator
 
     begin = time.monotonic()

@@ -14,7 +14,7 @@ from measure import Measure, timed
 
 from amp_studio.files import open_file
 from amp_studio.schema import Value
-from amp_studio.transfer.parameters import download_file, fetch_file
+from amp_studio.transfer.client.parameters import download_file, fetch_file
 
 LINES = {"TCP loopback": "tcp://127.0.0.1:0", **({"pty": "pty:"} if os.name == "posix" else {})}
 

@@ -20,8 +20,8 @@ from measure import Measure, timed
 
 from amp_studio.demo import examples_folder
 from amp_studio.files import Change, ParameterFile, open_file
+from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Address, Rule, Schema, Value, read_address, written
-from amp_studio.transfer.formats import export_file, import_file
 from amp_studio.validate import Validator
 from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks

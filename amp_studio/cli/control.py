@@ -9,19 +9,19 @@ from pathlib import Path
 
 from amp_studio.files import ParameterFile, RangeError, open_file
 from amp_studio.files.lock import now
+from amp_studio.files.out_of_range import out_of_range
 from amp_studio.schema import Address, InvalidValueError
-from amp_studio.transfer import Outcome
-from amp_studio.transfer.image import ImageFault, decode_image, encode_image
-from amp_studio.transfer.kept import IMAGE, digest_path, open_copy, save_image
-from amp_studio.transfer.parameters import (
+from amp_studio.transfer.client.exchange import Outcome
+from amp_studio.transfer.client.kept import IMAGE, digest_path, open_copy, save_image
+from amp_studio.transfer.client.parameters import (
     download_file,
-    emulate,
     fetch_image,
-    out_of_range,
     restore_copy,
     sha256,
 )
-from amp_studio.transfer.verification import verify_images
+from amp_studio.transfer.client.verification import verify_images
+from amp_studio.transfer.emulated.family_control import emulate
+from amp_studio.transfer.image import ImageError, decode_image, encode_image
 
 from .console import ask, family, note, print_json, progress
 from .errors import UsageError
@@ -124,7 +124,7 @@ def upload_verb(options: argparse.Namespace) -> int:
 def _readable(image: bytes, output: Path) -> ParameterFile:
     try:
         return decode_image(image)
-    except ImageFault as error:
+    except ImageError as error:
         raise UsageError(
             f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"
         ) from None

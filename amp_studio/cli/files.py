@@ -216,12 +216,12 @@ def print_difference(file: ParameterFile, difference: Difference, secrets: bool)
 
 def _side(text: str) -> tuple[ParameterFile, str | None]:
     """Return a side of a comparison, with the digest of its image where it is a control's."""
-    from amp_studio.transfer.address import is_address
+    from amp_studio.transfer.links.endpoint import is_endpoint
 
-    if not is_address(text):
+    if not is_endpoint(text):
         return open_file(Path(text)).file, None
+    from amp_studio.transfer.client.parameters import fetch_image, sha256
     from amp_studio.transfer.image import decode_image
-    from amp_studio.transfer.parameters import fetch_image, sha256
 
     image = fetch_image(text, progress())
     return decode_image(image), sha256(image)

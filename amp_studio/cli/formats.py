@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 from amp_studio.files import open_file, secret_values
+from amp_studio.files.out_of_range import out_of_range
+from amp_studio.formats import FamilyNotGivenError, export_file, import_file
 from amp_studio.schema import UnknownFamilyError, written
-from amp_studio.transfer.formats import FamilyUntold, export_file, import_file
-from amp_studio.transfer.parameters import out_of_range
 
 from .console import note
 from .control import walk
@@ -26,7 +26,7 @@ def import_verb(options: argparse.Namespace) -> int:
             keep_unknown=options.keep_unknown,
             tell=note,
         )
-    except FamilyUntold as error:
+    except FamilyNotGivenError as error:
         raise UsageError(f"{options.text}: {error} (--family tells it)") from None
     except UnknownFamilyError as error:
         raise UsageError(str(error)) from None

@@ -2,14 +2,14 @@
 
 `bind.axis_servo` takes the data of an axis from a parameter file (any callable that answers by parameter id),
 `step.run_step` moves it, `write` puts the trace into files. `SCENARIOS` holds one entry a scenario, each a
-single call from file to trace. Ids of a control family stand in that family's own module (`ninepc`), and
-nowhere else. Every modelling assumption is written where it is made, comes back with each trace, and is
+single call from file to trace. Ids of a control family stand in that family's own law, and nowhere else. Every modelling assumption is written where it is made, comes back with each trace, and is
 collected in docs/simulation.md.
 """
 
 from __future__ import annotations
 
-from .bind import BINDINGS, MODEL_SETTINGS, axis_servo
+from .bind import axis_servo
+from .law import Law, law_of, simulated_families
 from .reading import MotorGains, Value, ValueOf
 from .scenarios import SCENARIOS, Scenario
 from .servo import AxisServo, SimulationError, Source
@@ -20,13 +20,12 @@ from .trace import Advice, Alarm, Figure, Trace
 from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
 
 __all__ = [
-    "BINDINGS",
-    "MODEL_SETTINGS",
     "SCENARIOS",
     "Advice",
     "Alarm",
     "AxisServo",
     "Figure",
+    "Law",
     "MotorGains",
     "Scenario",
     "SimulationError",
@@ -37,10 +36,12 @@ __all__ = [
     "ValueOf",
     "axis_servo",
     "default_move",
+    "law_of",
     "plot_png",
     "plot_svg",
     "run_step",
     "simulate",
+    "simulated_families",
     "trace_csv",
     "trace_summary",
     "trace_text",

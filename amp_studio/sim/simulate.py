@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from amp_studio.files import ParameterFile, fitted_axes
 
-from .bind import standard_gains
+from .law import law_of
 from .reading import Value
 from .scenarios import SCENARIOS
 from .servo import SimulationError
@@ -33,6 +33,8 @@ def simulate(
     if chosen not in fitted:
         raise SimulationError(f"axis {chosen} is not fitted: {', '.join(fitted)}")
 
+    family = file.schema.family.family
+
     def value(parameter_id: str, instance: str) -> Value:
         return file.evaluation.canonical((parameter_id, instance))
 
@@ -40,6 +42,6 @@ def simulate(
         value,
         chosen,
         settings or {},
-        file.schema.family.family,
-        standard_gains(file.schema.family.family, file.schema.tables),
+        family,
+        law_of(family).standard_gains(file.schema.tables),
     )

@@ -6,8 +6,6 @@ from typing import Literal
 
 from amp_studio.schema.visible import visible
 
-from .message import Code, Refusal
-
 # "old": what it held before this exchange; "new": the image that was sent; "": nothing was to be sent.
 Held = Literal["", "old", "new", "unknown"]
 
@@ -40,80 +38,60 @@ class TransferError(OSError):
         return f"{self.what}; {HELD_TEXT[self.held]}{where}" if self.held else self.what
 
 
-class NoConnection(TransferError):
+class NoConnectionError(TransferError):
     """No line to the control could be made at all."""
 
 
-class ControlSilent(TransferError):
+class ControlSilentError(TransferError):
     """The line is there, and the control does not answer."""
 
 
-class ControlBusy(TransferError):
+class ControlBusyError(TransferError):
     """Another client has the control."""
 
 
-class LineCut(TransferError):
+class ConnectionCutError(TransferError):
     """The line broke and could not be made again in time."""
 
 
-class ProtocolMismatch(TransferError):
+class ProtocolMismatchError(TransferError):
     """The other end speaks no version of the protocol that this end knows, or does not keep to it."""
 
 
-class WrongFamily(TransferError):
+class WrongFamilyError(TransferError):
     """The control is of another family than the image."""
 
 
-class SignatureMismatch(TransferError):
+class SignatureMismatchError(TransferError):
     """The control numbers its parameters by another schema than the image."""
 
 
-class NotInEmergencyStop(TransferError):
+class NotInEmergencyStopError(TransferError):
     """The control must be in E-stop before it takes an image."""
 
 
-class ImageChanged(TransferError):
+class ImageChangedError(TransferError):
     """The control's image is not the one that was fetched: somebody changed it in between."""
 
 
-class ImageRejected(TransferError):
+class ImageRejectedError(TransferError):
     """The control has looked at the image and does not take it."""
 
 
-class ImageDamaged(TransferError):
+class ImageDamagedError(TransferError):
     """The bytes that arrived are not the ones that were sent, though every piece was whole."""
 
 
-class ControlFull(TransferError):
+class ControlFullError(TransferError):
     """The control has no room for the image, or cannot write to its memory."""
 
 
-class KeepFailed(TransferError):
+class KeepFailedError(TransferError):
     """What the control holds could not be kept, so it was not replaced."""
 
 
-class Cancelled(TransferError):
+class CancelledError(TransferError):
     """The person has broken the exchange off."""
-
-
-_BY_CODE: dict[int, type[TransferError]] = {
-    Code.VERSION: ProtocolMismatch,
-    Code.BUSY: ControlBusy,
-    Code.NOT_IN_ESTOP: NotInEmergencyStop,
-    Code.SIGNATURE: SignatureMismatch,
-    Code.IMAGE_CHANGED: ImageChanged,
-    Code.TOO_LARGE: ControlFull,
-    Code.STORAGE: ControlFull,
-    Code.REJECTED: ImageRejected,
-    Code.DIGEST: ImageDamaged,
-}
-
-
-def error_of(refusal: Refusal, held: Held = "old") -> TransferError:
-    """Return the error that a control's refusal means; the control's own words are its text."""
-    kind = _BY_CODE.get(refusal.code, ProtocolMismatch)
-    what = refusal.text or f"the control refuses (code {refusal.code})"
-    return kind(what, held)
 
 
 def unforeseen(error: Exception) -> str:

@@ -24,7 +24,6 @@ from amp_studio.schema import (
     Schema,
     UnknownParameterError,
     Value,
-    angular,
     family_ids,
     load_schema,
     not_readable,
@@ -33,6 +32,7 @@ from amp_studio.schema import (
     write_number,
     written,
 )
+from amp_studio.schema.stored import value_of_stored
 from amp_studio.schema.values import read_number
 
 MAGIC = "AMP-IMAGE 1"
@@ -52,16 +52,16 @@ _LETTERS = {"\\": "\\", "\n": "n", "\t": "t"}
 _SIGNS = {letter: sign for sign, letter in _LETTERS.items()}
 
 
-class ImageFault(ValueError):
+class ImageError(ValueError):
     """Bytes that are not a whole control image, or a file that has none; one clear sentence."""
 
 
-class PatchFault(InvalidValueError):
+class PatchError(InvalidValueError):
     """A value that cannot be keyed in at the control; one clear sentence."""
 
 
 def encode_image(file: ParameterFile) -> bytes:
-    """Return the image of a file: every value that is set, in the manual's order; raises ImageFault."""
+    """Return the image of a file: every value that is set, in the manual's order; raises ImageError."""
     schema, machine = file.schema, file.machine
     lines = head_of(file)
     order = {a: n for n, a in enumerate(file.addresses())}
@@ -76,7 +76,7 @@ def encode_image(file: ParameterFile) -> bytes:
     try:
         return ("\n".join(lines) + "\n").encode("utf-8")
     except UnicodeEncodeError:
-        raise ImageFault("a text of the file holds half a character, which no image can carry") from None
+        raise ImageError("a text of the file holds half a character, which no image can carry") from None
 
 
 def head_of(file: ParameterFile) -> list[str]:
@@ -88,7 +88,7 @@ def head_of(file: ParameterFile) -> list[str]:
 
 
 def decode_image(image: bytes) -> ParameterFile:
-    """Return the file an image holds, whose image is exactly this one; raises ImageFault."""
+    """Return the file an image holds, whose image is exactly this one; raises ImageError."""
     head, records = _split(image)
     schema = _schema(head)
     file = ParameterFile(schema, Header(application=_unescaped(head["application"]),
@@ -99,9 +99,9 @@ def decode_image(image: bytes) -> ParameterFile:
         address = read_address(entry)
         parameter = schema.parameters.get(address[0])
         if parameter is None:
-            raise ImageFault(f"the control image holds '{_short(entry)}', which the schema does not have")
+            raise ImageError(f"the control image holds '{_short(entry)}', which the schema does not have")
         if address in file.values:
-            raise ImageFault(f"the control image holds {_short(entry)} twice")
+            raise ImageError(f"the control image holds {_short(entry)} twice")
         file.values[address] = _value(schema, parameter, entry, field)
     file.evaluation.forget()
     _check_form(file, image)
@@ -109,24 +109,24 @@ def decode_image(image: bytes) -> ParameterFile:
 
 
 def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
-    """Return the head and the records, address and value; raises ImageFault."""
+    """Return the head and the records, address and value; raises ImageError."""
     try:
         text = image.decode("utf-8")
     except UnicodeDecodeError:
-        raise ImageFault("the control image is not text") from None
+        raise ImageError("the control image is not text") from None
     lines = text.split("\n")
     if lines[0] != MAGIC:
-        raise ImageFault("this is not a control image")
+        raise ImageError("this is not a control image")
     if len(lines) < 8 or lines[-1] != "" or not lines[-2].startswith("end "):
-        raise ImageFault("the control image has been cut off")
+        raise ImageError("the control image has been cut off")
     if found := _CONTROL_SIGN.search(text):
-        raise ImageFault(
+        raise ImageError(
             f"line {text.count(chr(10), 0, found.start()) + 1} of the control image holds a control sign"
         )
     head = {}
     for number, (key, line) in enumerate(zip(_HEAD, lines[1:6], strict=True), 2):
         if not line.startswith(f"{key} "):
-            raise ImageFault(f"line {number} of the control image is not its {key}")
+            raise ImageError(f"line {number} of the control image is not its {key}")
         head[key] = line[len(key) + 1 :]
     records = []
     for number, line in enumerate(lines[6:-2], 7):
@@ -134,10 +134,10 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
         if len(parts) != 3:
             found = _ADDRESS.search(line)
             entry = f" ({_short(found[0])})" if found else ""
-            raise ImageFault(f"line {number} of the control image{entry} is not number, address and value")
+            raise ImageError(f"line {number} of the control image{entry} is not number, address and value")
         records.append((parts[1], parts[2]))
     if lines[-2] != f"end {len(records)}":
-        raise ImageFault(
+        raise ImageError(
             f"the control image holds {len(records)} records and ends with '{_short(lines[-2])}'"
         )
     return head, records
@@ -146,12 +146,12 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
 def _schema(head: dict[str, str]) -> Schema:
     family = head["family"]
     if family not in family_ids():  # what a control says is never looked up as a path
-        raise ImageFault(f"the control image is for the family '{_short(family)}', which is not known here")
+        raise ImageError(f"the control image is for the family '{_short(family)}', which is not known here")
     schema = load_schema(family)
     if head["signature"] != schema.signature:
-        raise ImageFault("the control's parameters are numbered by another schema than this program's")
+        raise ImageError("the control's parameters are numbered by another schema than this program's")
     if head["machine"] not in schema.machines:
-        raise ImageFault(f"the control image is for the machine type '{_short(head['machine'])}', "
+        raise ImageError(f"the control image is for the machine type '{_short(head['machine'])}', "
                          f"which {schema.family.name} does not have")  # fmt: skip
     return schema
 
@@ -161,7 +161,7 @@ def _check_form(file: ParameterFile, image: bytes) -> None:
     known = set(file.addresses())
     for address in file.values:
         if address not in known:
-            raise ImageFault(f"the control image holds {_short(written(address))}, "
+            raise ImageError(f"the control image holds {_short(written(address))}, "
                              f"which does not exist on the machine type {file.machine}")  # fmt: skip
     right = encode_image(file)
     if right == image:
@@ -169,7 +169,7 @@ def _check_form(file: ParameterFile, image: bytes) -> None:
     pairs = zip(image.decode("utf-8").split("\n"), right.decode("utf-8").split("\n"), strict=True)
     number, (held, wanted) = next((n, pair) for n, pair in enumerate(pairs, 1) if pair[0] != pair[1])
     held, wanted = _masked(file.schema, held), _masked(file.schema, wanted)
-    raise ImageFault(f"line {number} of the control image is '{held}', which would be written '{wanted}'")
+    raise ImageError(f"line {number} of the control image is '{held}', which would be written '{wanted}'")
 
 
 def _masked(schema: Schema, line: str) -> str:
@@ -208,11 +208,11 @@ def _field(parameter: Parameter, value: Value) -> str:
 
 
 def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Value:
-    """Return the value a field means, by the same reading as a file's; raises ImageFault, which names the entry."""
+    """Return the value a field means, by the same reading as a file's; raises ImageError, which names the entry."""
     is_text = parameter.type in ("text", "format")
     if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
         said = MASKED if parameter.secret else f"'{_short(field)}'"
-        raise ImageFault(f"the control image holds {_short(entry)} with {said}, which is no value of it")
+        raise ImageError(f"the control image holds {_short(entry)} with {said}, which is no value of it")
     try:
         if is_text:
             return read_stored(schema, parameter, _unescaped(field[5:]))
@@ -220,7 +220,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
             return read_stored(schema, parameter, field)
         return _choice(parameter, field)
     except InvalidValueError as error:
-        raise ImageFault(
+        raise ImageError(
             f"the control image holds {_short(entry)} with a value it cannot have: {not_readable(parameter, error)}"
         ) from None
 
@@ -237,7 +237,7 @@ def _choice(parameter: Parameter, field: str) -> Value:
 def patch_image(image: bytes, number: str, text: str) -> bytes:
     """Key one value into an image as at the control: by number, in the control's own unit, its range unchecked.
 
-    Raises PatchFault for a number the control does not offer and for text that is no value of it, ImageFault
+    Raises PatchError for a number the control does not offer and for text that is no value of it, ImageError
     where the image cannot be read.
     """
     file = decode_image(image)
@@ -245,10 +245,10 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
     try:
         value, rest = read_number(text)
         if rest.strip():
-            raise PatchFault("patch values are plain numbers")
-        file.values[address] = patched_value(file, address, parameter, value)
+            raise PatchError("patch values are plain numbers")
+        file.values[address] = value_of_stored(parameter, value, file.evaluation.turns(address))
     except InvalidValueError as error:
-        raise PatchFault(str(error)) from None
+        raise PatchError(str(error)) from None
     file.evaluation.forget()
     changed = encode_image(file)
     decode_image(changed)  # the control's memory holds nothing that cannot be read again
@@ -259,24 +259,8 @@ def _patchable(file: ParameterFile, number: str) -> tuple[Address, Parameter]:
     try:
         address = file.find(number)
     except UnknownParameterError:
-        raise PatchFault("PARAMETER NUMBER NOT FOUND") from None
+        raise PatchError("PARAMETER NUMBER NOT FOUND") from None
     parameter = file.schema.parameters[address[0]]
     if not parameter.patchable:
-        raise PatchFault("PARAMETER NUMBER NOT FOUND")
+        raise PatchError("PARAMETER NUMBER NOT FOUND")
     return address, parameter
-
-
-def patched_value(file: ParameterFile, address: Address, parameter: Parameter, value: float) -> Value:
-    """Return the value that a stored number means: a choice by its code, a number in the unit the control keeps.
-
-    Raises InvalidValueError for a fraction where the control stores whole numbers.
-    """
-    is_whole = bool(parameter.choices) or parameter.type in ("integer", "bits")
-    if is_whole and value != int(value):
-        raise InvalidValueError(f"{parameter.name} takes whole numbers, not {write_number(value)}")
-    if parameter.choices:
-        return _choice(parameter, f"raw:{int(value)}")
-    unit = (parameter.storage.unit if parameter.storage else None) or ""
-    if file.evaluation.turns(address):
-        unit = angular(unit)
-    return Value(int(value) if is_whole else value, unit)

@@ -20,7 +20,7 @@ from .questions import ask, tell
 from .task import Progress, ProgressDialog
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.parameters import Outcome
+    from amp_studio.transfer.client.parameters import Outcome
 
     from .main_window import MainWindow
     from .workspace import Workspace
@@ -128,7 +128,7 @@ class ControlActions:
             return
 
         def work(progress: Progress, cancel: threading.Event) -> Outcome:
-            from amp_studio.transfer.parameters import download_file
+            from amp_studio.transfer.client.parameters import download_file
 
             return download_file(file, address, path.parent, path.stem, progress, cancel, expected=approved)
 
@@ -159,8 +159,8 @@ class ControlActions:
 
     def _preview(self, workspace: Workspace, address: str) -> str | None:
         """Show what the download would change in the control; returns the digest of what may be replaced, or None."""
-        from amp_studio.transfer.image import ImageFault, decode_image
-        from amp_studio.transfer.parameters import sha256
+        from amp_studio.transfer.client.parameters import sha256
+        from amp_studio.transfer.image import ImageError, decode_image
 
         from .compare_dialog import DownloadPreview
 
@@ -171,8 +171,8 @@ class ControlActions:
         try:
             held = decode_image(image)
             if held.schema is not workspace.file.schema:
-                raise ImageFault(f"the control holds a file for {held.schema.family.name}")
-        except ImageFault as error:
+                raise ImageError(f"the control holds a file for {held.schema.family.name}")
+        except ImageError as error:
             question = f"{error}.\n\nWhat the control holds is kept as it is. Download all the same?"
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
             return approved if answer == "&Download" else None
@@ -192,8 +192,8 @@ class ControlActions:
         address = self._address("Verify")
         if address is None:
             return
+        from amp_studio.transfer.client.verification import verify_images
         from amp_studio.transfer.image import decode_image, encode_image
-        from amp_studio.transfer.verification import verify_images
 
         image = self._fetch(address, "Verify", workspace)
         found = verify_images(encode_image(workspace.file), image)
@@ -213,7 +213,7 @@ class ControlActions:
         family = workspace.file.schema.family.family if workspace else ""
 
         def work(progress: Progress, cancel: threading.Event) -> bytes:
-            from amp_studio.transfer.parameters import fetch_image
+            from amp_studio.transfer.client.parameters import fetch_image
 
             return fetch_image(address, progress, cancel, family=family)
 
@@ -222,7 +222,7 @@ class ControlActions:
 
     def upload(self) -> None:
         """Fetch the control's file, walk through what is out of range in it, and save it under a new name."""
-        from amp_studio.transfer.parameters import out_of_range
+        from amp_studio.files.out_of_range import out_of_range
 
         if not self.window.may_leave():
             return
@@ -238,14 +238,14 @@ class ControlActions:
 
     def _uploaded(self, address: str) -> ParameterFile:
         """Return the control's file; raises ValueError where it has none that can be read."""
-        from amp_studio.transfer.image import ImageFault, decode_image
+        from amp_studio.transfer.image import ImageError, decode_image
 
         image = self._fetch(address, "Upload")
         if not image:
             raise ValueError("The control holds nothing: there is nothing to upload.")
         try:
             return decode_image(image)
-        except ImageFault as error:
+        except ImageError as error:
             raise ValueError(
                 f"{error}.\n\n'amp-studio upload --from {address} -o NAME.img' keeps it byte for byte."
             ) from None

@@ -15,7 +15,7 @@ from .questions import ask
 from .task import in_background
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.formats import FormatFault
+    from amp_studio.formats import FormatError
 
     from .main_window import MainWindow
 
@@ -37,11 +37,11 @@ class FormatActions:
 
     def read(self) -> None:
         """Ask for a text and for a name, and show the parameter file it makes; a text that cannot be meant makes none."""
-        from amp_studio.transfer.formats import FORMATS  # a room that a start does not need
+        from amp_studio.formats import all_formats  # a room that a start does not need
 
         if not self.window.may_leave():
             return
-        endings = " ".join(f"*{ending}" for f in FORMATS for ending in f.endings)
+        endings = " ".join(f"*{ending}" for f in all_formats() for ending in f.endings)
         text, _ = QFileDialog.getOpenFileName(
             self.window, "Import", "", f"Text formats ({endings});;All files (*)"
         )
@@ -59,21 +59,21 @@ class FormatActions:
 
     def _understood(self, path: Path) -> ParameterFile | None:
         """Return what a text holds; asks for the family, and whether to keep what is not understood."""
-        from amp_studio.transfer.formats import FamilyUntold, FormatFault
+        from amp_studio.formats import FamilyNotGivenError, FormatError
 
         try:
             file = self._import(path, None, False)
-        except FamilyUntold:
+        except FamilyNotGivenError:
             family = self._family()
             if family is None:
                 return None
-        except FormatFault as error:
+        except FormatError as error:
             return self._kept(path, None, error)
         else:
             return file
         try:
             return self._import(path, family, False)
-        except FormatFault as error:
+        except FormatError as error:
             return self._kept(path, family, error)
 
     def _family(self) -> str | None:
@@ -82,13 +82,13 @@ class FormatActions:
         chosen, taken = QInputDialog.getItem(self.window, "Import", asked, list(names), editable=False)
         return names[chosen] if taken else None
 
-    def _kept(self, path: Path, family: str | None, error: FormatFault) -> ParameterFile | None:
+    def _kept(self, path: Path, family: str | None, error: FormatError) -> ParameterFile | None:
         """Return what a text holds with what is not understood kept, if that is wanted; raises where it cannot be."""
-        from amp_studio.transfer.formats import FormatFault
+        from amp_studio.formats import FormatError
 
         try:
             file = self._import(path, family, True)
-        except FormatFault:
+        except FormatError:
             raise error from None
         listed = "\n".join(list(file.unknown)[:_SHOWN])
         question = f"{error}.\n\nKeep what is not understood, to be written back at an export?\n{listed}"
@@ -96,14 +96,14 @@ class FormatActions:
         return file if wanted == "&Keep it" else None
 
     def _import(self, path: Path, family: str | None, keep: bool) -> ParameterFile:
-        from amp_studio.transfer.formats import import_file
+        from amp_studio.formats import import_file
 
         self._told.clear()
         read = lambda: import_file(path, family, keep_unknown=keep, tell=self._told.append)  # noqa: E731  # one line to hand over
         return in_background(self.window, "Importing", read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
-        from amp_studio.transfer.parameters import out_of_range
+        from amp_studio.files.out_of_range import out_of_range
 
         faults = out_of_range(file)
         if not faults:
@@ -119,7 +119,7 @@ class FormatActions:
 
     def write(self) -> None:
         """Ask for a name and write the open file in the format of its ending."""
-        from amp_studio.transfer.formats import export_file, formats_of
+        from amp_studio.formats import export_file, formats_of
 
         workspace = self.window.workspace
         assert workspace is not None

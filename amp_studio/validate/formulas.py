@@ -1,4 +1,4 @@
-"""Functions offered to rules: arithmetic that CEL lacks, and those of each family's own module."""
+"""Functions offered to rules: arithmetic that CEL lacks, and those that a family registers."""
 
 from __future__ import annotations
 
@@ -6,20 +6,10 @@ import inspect
 import math
 from collections.abc import Callable, Mapping
 from functools import cache, wraps
-from importlib import import_module
 from typing import Any
 
 from amp_studio.schema.cel_engine import WORD_FUNCTIONS
-
-# Families with formulas of their own, and the package of this room that holds them.
-FAMILY_MODULES = {
-    "9pc": "ninepc",
-    "57c422b": "servo57c422b",
-    "acromill": "acromill",
-    "num": "num",
-    "syntec": "syntec",
-}
-
+from amp_studio.schema.registration import load_part, registration_of
 
 NUMBER_ANNOTATIONS = frozenset(("float", "int", "float | None", inspect.Parameter.empty))
 """How functions for rules say that an argument is a number; built-in ones say nothing."""
@@ -64,10 +54,8 @@ GENERAL: dict[str, Callable[..., Any]] = {
 @cache
 def formulas(family: str) -> dict[str, Callable[..., Any]]:
     """Return name -> function of a family's published formulas."""
-    if family not in FAMILY_MODULES:
-        return {}
-    module = import_module(f"amp_studio.validate.{FAMILY_MODULES[family]}")
-    return {name: getattr(module, name) for name in module.__all__ if name.islower()}
+    place = registration_of(family).formulas
+    return dict(load_part(place)) if place else {}
 
 
 @cache

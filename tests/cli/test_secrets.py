@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import open_file, secret_values
+from amp_studio.formats import formats_of
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.transfer.formats import formats_of
 
 SECRET = "7654321"
 OTHER = "7654399"

@@ -11,7 +11,7 @@ from amp_studio.cli import run
 from amp_studio.files import Document, ParameterFile, Project, axis_type, fitted_axes, open_file
 from amp_studio.report import write_report
 from amp_studio.schema import Address, read_address
-from amp_studio.sim import BINDINGS, simulate
+from amp_studio.sim import simulate, simulated_families
 
 SOURCE = re.compile(
     r"\b(?:page (?:(?:\d{1,2}|[AB])(?:-\d{1,2}|(?:\.\d{1,2})+)|\d{1,3})|ours)\b|^printed default\b"
@@ -94,7 +94,7 @@ def test_the_project_says_the_same_of_the_machine_as_the_file(example: Path) -> 
 
 def test_its_linear_and_rotary_axes_make_their_rapid_moves_without_alarm(example: Path) -> None:
     file = open_file(example).file
-    if file.schema.family.family not in BINDINGS:
+    if file.schema.family.family not in simulated_families():
         pytest.skip("this family has no simulation")
     moving = [a for a in fitted_axes(file) if axis_type(file, a) in ("linear", "rotary")]
     assert moving

@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 import pytest
 
+from amp_studio.families.ninepc import formulas as ninepc
 from amp_studio.files import ParameterFile
 from amp_studio.schema import show_value
-from amp_studio.validate import ninepc
 
 Machine = Callable[[str], ParameterFile]
 MILL, LATHE = "mill-1394", "lathe-ls176"

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
+from amp_studio.families.num import formulas as num
 from amp_studio.files import ParameterFile
 from amp_studio.schema import show_value
-from amp_studio.validate import num
 
 Machine = Callable[[str], ParameterFile]
 

@@ -23,6 +23,7 @@ from amp_studio.files import (
     save_file,
 )
 from amp_studio.files.storage import readable_content
+from amp_studio.formats import FormatError, export_file, formats_of, import_file
 from amp_studio.schema import (
     Address,
     BuilderRule,
@@ -34,7 +35,6 @@ from amp_studio.schema import (
     read_entries,
 )
 from amp_studio.schema.yaml_reader import YamlError, read_yaml
-from amp_studio.transfer.formats import FormatFault, export_file, formats_of, import_file
 
 SLOWEST = 5.0
 """Seconds for one damaged text."""
@@ -290,7 +290,7 @@ def fuzz_imports(folder: Path, seed: int, count: int) -> list[str]:
             for keep in (False, True):
                 try:
                     file = import_file(damaged, family, format_key=key, keep_unknown=keep)
-                except FormatFault:
+                except FormatError:
                     continue
                 readable_content(file, damaged)
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from amp_studio.files import new_file
 from amp_studio.files.spreadsheet import cell_text, text_cell
+from amp_studio.formats import export_file, import_file
 from amp_studio.report import write_report
 from amp_studio.schema import Value
-from amp_studio.transfer.formats import export_file, import_file
 
 FORMULA = '=HYPERLINK("http://x","y")'
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import InvalidNameError, ParameterFileError, Project, ProjectInfo, open_file
+from amp_studio.formats import import_file
 from amp_studio.schema import UnknownFamilyError, database_folder, family_ids, load_schema
 from amp_studio.schema import load as loading
 from amp_studio.schema.load import compile_family
-from amp_studio.transfer.formats import import_file
 
 OUTSIDE = ["../x", "../../etc", "/tmp", ".", "..", "", "9PC", "9pc/", "9pc/../9pc", "9pc\x00", "9pc ", "９pc", "*", "x" * 10_000_000,
            "\x1b[31m", "9pc/groups", "a\nb", "con", "9pc.", "C:\\x", "ﬁ", "~"]  # fmt: skip

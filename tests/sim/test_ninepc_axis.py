@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import pytest
 
-from amp_studio.sim import MODEL_SETTINGS, SCENARIOS, SimulationError, axis_servo
-from amp_studio.sim import ninepc as family
+from amp_studio.families.ninepc import law as family
+from amp_studio.sim import SCENARIOS, SimulationError, bind
 from amp_studio.sim.laws import loop_ratio
+
+axis_servo = partial(bind.axis_servo, family="9pc")
 
 Values = dict[str, float | str | bool | None]
 File = Callable[..., Callable[[str, str], float | str | bool | None]]
@@ -206,7 +209,7 @@ def test_the_scenario_goes_from_a_file_to_a_trace_in_one_call(ninepc: File) -> N
     assert trace.result["distance"] == (20.0, "mm")
     assert trace.result["predicted_following_error"][0] == pytest.approx(1.5)
     assert trace.model.startswith("9/PC axis: ")
-    assert set(MODEL_SETTINGS["9pc"]) >= {"model.acceleration_at_rated"}
+    assert set(family.MODEL_SETTINGS) >= {"model.acceleration_at_rated"}
     for slip in ({"move.speed": 1.0}, {"move.distance": "far"}):
         with pytest.raises(SimulationError, match=r"move\."):
             SCENARIOS["step"].run(ninepc(), "1", slip, "9pc", None)

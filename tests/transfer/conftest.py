@@ -14,15 +14,15 @@ from typing import Any
 import pytest
 
 from amp_studio.files import Document, open_file
-from amp_studio.schema import Schema, Value
-from amp_studio.transfer import Control, Faults, Identity, LinkError, Session
-from amp_studio.transfer.faults import FaultyLine
-from amp_studio.transfer.link import Link
-from amp_studio.transfer.null_modem import NullModem, VirtualClock
+from amp_studio.schema import Value
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.faults import Faults, FaultyLine
+from amp_studio.transfer.emulated.record import Identity
+from amp_studio.transfer.house.session import Session
+from amp_studio.transfer.links.link import Link, LinkError
 
 from . import images
-from .small_module import small_module
-from .small_num import small_num
+from .null_modem import NullModem, VirtualClock
 
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(12))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(14))
@@ -34,7 +34,7 @@ StartControl = Callable[..., tuple[subprocess.Popen[str], str]]
 @pytest.fixture(autouse=True)
 def quick_disk(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave out the waiting for the disk in this process; what is written and renamed stays as it is."""
-    monkeypatch.setattr("amp_studio.transfer.memory.os.fsync", lambda handle: None)
+    monkeypatch.setattr("amp_studio.transfer.emulated.memory.os.fsync", lambda handle: None)
 
 
 @pytest.fixture
@@ -167,18 +167,6 @@ def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
         for stream in (process.stdin, process.stdout):
             if stream is not None:
                 stream.close()
-
-
-@pytest.fixture(scope="session")
-def num(tmp_path_factory: pytest.TempPathFactory) -> Schema:
-    """Return a small NUM family with a word of every type, and all words of the manual's example."""
-    return small_num(tmp_path_factory.mktemp("made") / "num")
-
-
-@pytest.fixture(scope="session")
-def module(tmp_path_factory: pytest.TempPathFactory) -> Schema:
-    """Return a small servo module with every kind of register."""
-    return small_module(tmp_path_factory.mktemp("made") / "small")
 
 
 @pytest.fixture

@@ -10,7 +10,10 @@ import json
 import sys
 from pathlib import Path
 
-from amp_studio.transfer import Control, Faults, Identity, serve
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.emulator import serve
+from amp_studio.transfer.emulated.faults import Faults
+from amp_studio.transfer.emulated.record import Identity
 
 
 def patch(image: bytes, key: str, value: str) -> bytes:

@@ -12,10 +12,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from amp_studio.transfer import Address, Control, Identity, LinkError, Session, TransferError, download
-from amp_studio.transfer.emulator import Emulator
-from amp_studio.transfer.frame import encode_frame
-from amp_studio.transfer.message import (
+from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.emulator import Emulator
+from amp_studio.transfer.emulated.record import Identity
+from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.house.frame import encode_frame
+from amp_studio.transfer.house.message import (
     Abort,
     Commit,
     Data,
@@ -28,7 +31,11 @@ from amp_studio.transfer.message import (
     Status,
     pack,
 )
-from amp_studio.transfer.null_modem import VirtualClock
+from amp_studio.transfer.house.session import Session
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links.link import LinkError
+
+from .null_modem import VirtualClock
 
 OLD, NEW = b"1 old\n" * 40, b"2 new!\n" * 50
 SIGNATURE = "s1"
@@ -75,7 +82,7 @@ class ControlEnd:
 class Room:
     """The emulated control with everybody who calls it; each turn of the control is a moment of time."""
 
-    address = Address("tcp", host="room", port=1)
+    address = Endpoint("tcp", host="room", port=1)
 
     def __init__(self, folder: Path, hostile: list[Iterator[None]], **options: Any) -> None:
         self.clock = VirtualClock()

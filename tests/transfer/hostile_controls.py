@@ -12,9 +12,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from amp_studio.transfer import Cancelled, Control, Identity, LinkError, Session, TransferError, download
-from amp_studio.transfer.frame import FrameDecoder, encode_frame
-from amp_studio.transfer.message import (
+from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.record import Identity
+from amp_studio.transfer.emulated.responder import Responder
+from amp_studio.transfer.errors import CancelledError, TransferError
+from amp_studio.transfer.house.frame import FrameDecoder, encode_frame
+from amp_studio.transfer.house.message import (
     LAYOUTS,
     Ack,
     Code,
@@ -26,8 +30,10 @@ from amp_studio.transfer.message import (
     pack,
     unpack,
 )
-from amp_studio.transfer.null_modem import VirtualClock
-from amp_studio.transfer.responder import Responder
+from amp_studio.transfer.house.session import Session
+from amp_studio.transfer.links.link import LinkError
+
+from .null_modem import VirtualClock
 
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(120))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(140))
@@ -195,7 +201,7 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
     try:
         held: str = download(session, NEW, keep, signature=SIGNATURE, progress=progress).held
         text = ""
-    except Cancelled:
+    except CancelledError:
         held, text = "old", "nobody has cancelled"
         faults.append(text)
     except TransferError as error:

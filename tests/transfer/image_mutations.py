@@ -8,7 +8,7 @@ from pathlib import Path
 
 from amp_studio.files import content_of
 from amp_studio.files.storage import read_content
-from amp_studio.transfer.image import ImageFault, decode_image, encode_image
+from amp_studio.transfer.image import ImageError, decode_image, encode_image
 
 FIELDS = (
     "", "0", "-0", "0 mm", "0.0 mm", "1 in", "1e300", "1e999", "-1e999", "nan", "inf", "-inf mm", "1e-400 mm", "5e-324 mm",
@@ -41,7 +41,7 @@ def fault_of(image: bytes) -> str:
     """
     try:
         file = decode_image(image)
-    except ImageFault as error:
+    except ImageError as error:
         said = str(error)
         assert said.replace("\u2028", "").replace("\ufeff", "").isprintable(), repr(said)
         assert len(said) < 700, said

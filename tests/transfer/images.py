@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from typing import Any
 
-from amp_studio.transfer import Session
+from amp_studio.transfer.house.session import Session
 
 OLD = b"1 old\n" * 20
 NEW = b"2 new!\n" * 25

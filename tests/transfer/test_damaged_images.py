@@ -9,8 +9,8 @@ import pytest
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value, family_ids
 from amp_studio.transfer.image import (
-    ImageFault,
-    PatchFault,
+    ImageError,
+    PatchError,
     decode_image,
     encode_image,
     patch_image,
@@ -75,7 +75,7 @@ def mill(entry: str = "", line: str = "") -> bytes:
 )  # fmt: skip
 def test_a_damaged_number_names_its_entry(line: str, said: str) -> None:
     """A number stands with its unit, in the one form it is written in, at an instance that exists, once."""
-    with pytest.raises(ImageFault, match=said) as caught:
+    with pytest.raises(ImageError, match=said) as caught:
         decode_image(mill("home.calibration@1", line))
 
     assert "\n" not in str(caught.value)
@@ -95,7 +95,7 @@ def test_a_whole_number_is_one(number: str) -> None:
     image = encode_image(file)
     line = next(line for line in image.decode().split("\n") if "\t" in line)
 
-    with pytest.raises(ImageFault, match=f"{address[0]}@{address[1]}"):
+    with pytest.raises(ImageError, match=f"{address[0]}@{address[1]}"):
         decode_image(
             image.replace(line.encode(), f"{line.rpartition(chr(9))[0]}\t{number} {unit}".rstrip().encode())
         )
@@ -120,13 +120,13 @@ def test_a_whole_number_is_one(number: str) -> None:
 )
 def test_a_choice_is_its_code_and_nothing_else(code: str) -> None:
     """Labels, letters and other spellings of a code are not what a control holds."""
-    with pytest.raises(ImageFault, match=r"servo\.position_loop_type@1"):
+    with pytest.raises(ImageError, match=r"servo\.position_loop_type@1"):
         decode_image(mill("servo.position_loop_type@1", f"1510\tservo.position_loop_type@1\t{code}"))
 
 
 @pytest.mark.parametrize("digits", [400, 5_000])
 def test_a_code_of_thousands_of_digits_is_no_code(digits: int) -> None:
-    with pytest.raises(ImageFault, match=r"servo\.position_loop_type@1") as caught:
+    with pytest.raises(ImageError, match=r"servo\.position_loop_type@1") as caught:
         decode_image(
             mill("servo.position_loop_type@1", f"1510\tservo.position_loop_type@1\traw:{'9' * digits}")
         )
@@ -152,7 +152,7 @@ def test_a_code_of_thousands_of_digits_is_no_code(digits: int) -> None:
 )
 def test_junk_in_the_head_is_named(key: str, line: str, said: str) -> None:
     """The family is never taken for a path, and the machine type is one of the family's."""
-    with pytest.raises(ImageFault, match=said):
+    with pytest.raises(ImageError, match=said):
         decode_image(mill(key, line))
 
 
@@ -164,7 +164,7 @@ def test_a_text_is_escaped_as_it_is_written(text: str) -> None:
     file = small("syntec")
     image = encode_image(file).replace(b"axis.name@1\ttext:X", b"axis.name@1\t" + text.encode())
 
-    with pytest.raises(ImageFault):
+    with pytest.raises(ImageError):
         decode_image(image)
 
 
@@ -188,7 +188,7 @@ def test_any_text_of_a_file_comes_back_from_its_image(text: str) -> None:
 def test_half_a_character_is_no_text_of_an_image() -> None:
     file = small("syntec")
     file.values["axis.name", "1"] = Value("\ud800")
-    with pytest.raises(ImageFault, match="half a character"):
+    with pytest.raises(ImageError, match="half a character"):
         encode_image(file)
 
 
@@ -197,7 +197,7 @@ def test_half_a_character_is_no_text_of_an_image() -> None:
                                      "101\tpassword.character@1\t4711\t"])  # fmt: skip
 def test_a_damaged_password_is_not_repeated(damaged: str) -> None:
     """The entry is named, what stands there is not."""
-    with pytest.raises(ImageFault, match=r"password\.character@1") as caught:
+    with pytest.raises(ImageError, match=r"password\.character@1") as caught:
         decode_image(mill("password.character@1", damaged))
     assert "4711" not in str(caught.value)
 
@@ -206,7 +206,7 @@ def test_records_stand_in_the_manuals_order() -> None:
     """Two images of the same values are the same bytes."""
     lines = mill().split(b"\n")
     lines[7], lines[8] = lines[8], lines[7]
-    with pytest.raises(ImageFault, match=r"line 8 of the control image is '.*', which would be written"):
+    with pytest.raises(ImageError, match=r"line 8 of the control image is '.*', which would be written"):
         decode_image(b"\n".join(lines))
 
 
@@ -238,7 +238,7 @@ def test_every_example_has_an_image_that_reads_back(path: Path) -> None:
 )
 def test_what_no_image_can_hold_cannot_be_keyed_in(number: str, text: str) -> None:
     """The control checks no range, but a fraction is no code and infinity no number."""
-    with pytest.raises(PatchFault):
+    with pytest.raises(PatchError):
         patch_image(mill(), number, text)
 
 

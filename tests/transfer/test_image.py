@@ -10,8 +10,8 @@ from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
 from amp_studio.schema.stored import stored_number
 from amp_studio.transfer.image import (
-    ImageFault,
-    PatchFault,
+    ImageError,
+    PatchError,
     decode_image,
     encode_image,
     patch_image,
@@ -60,7 +60,7 @@ def test_an_image_cut_off_anywhere_is_refused() -> None:
     image = encode_image(a_file())
 
     for length in [*range(0, len(image), 97), len(image) - 1]:
-        with pytest.raises(ImageFault):
+        with pytest.raises(ImageError):
             decode_image(image[:length])
 
 
@@ -69,7 +69,7 @@ def test_an_image_of_another_schema_is_refused() -> None:
     file = a_file()
     image = encode_image(file).replace(file.schema.signature.encode(), b"0" * 64)
 
-    with pytest.raises(ImageFault, match="another schema"):
+    with pytest.raises(ImageError, match="another schema"):
         decode_image(image)
 
 
@@ -82,7 +82,7 @@ def test_damage_never_raises_anything_else(junk: bytes, at: int) -> None:
     said = ""
     try:
         decode_image(bytes(image))
-    except ImageFault as error:
+    except ImageError as error:
         said = str(error)
     assert "\n" not in said
 
@@ -100,7 +100,7 @@ def test_a_value_keyed_in_at_the_control_is_in_its_own_unit() -> None:
 def test_a_number_the_control_does_not_offer_is_refused() -> None:
     """Not every parameter can be patched (page 37-2)."""
     for number in ("1540", "9999", "1030"):
-        with pytest.raises(PatchFault, match="PARAMETER NUMBER NOT FOUND"):
+        with pytest.raises(PatchError, match="PARAMETER NUMBER NOT FOUND"):
             patch_image(encode_image(a_file()), number, "1")
 
 

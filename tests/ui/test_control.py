@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import content_of, new_file, open_file
 from amp_studio.schema import Value
-from amp_studio.transfer import parameters
+from amp_studio.transfer.client import parameters
 from amp_studio.ui.compare_dialog import CompareDialog, DownloadPreview
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.task import ProgressDialog
@@ -298,8 +298,8 @@ def test_the_emulated_control_starts_and_ends_with_the_program(
 
 def _flags(address: str) -> bool:
     """Return whether the control is in E-stop."""
-    from amp_studio.transfer.message import Flags
-    from amp_studio.transfer.session import Session
+    from amp_studio.transfer.house.message import Flags
+    from amp_studio.transfer.house.session import Session
 
     with Session.at(address) as session:
         return bool(session.hello().flags & Flags.ESTOP)

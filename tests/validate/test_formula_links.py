@@ -7,9 +7,9 @@ import re
 
 import pytest
 
+from amp_studio.families.ninepc.formulas import largest_word, word_value
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.validate import formulas
-from amp_studio.validate.ninepc import largest_word, word_value
 
 WITHOUT_A_PARAMETER = {
     # Points of axis calibration are entered at the control and have no parameter number (page 36-5).

@@ -1,0 +1,16 @@
+"""What each control family does differently, a folder each: formulas, text formats, drivers, the law of its axes.
+
+The rooms below find it through this table and by nothing else (``schema/registration.py``). docs/architecture.md says
+what one more family has to write.
+"""
+
+from __future__ import annotations
+
+FAMILIES = {
+    "9pc": "amp_studio.families.ninepc:REGISTRATION",
+    "num": "amp_studio.families.num:REGISTRATION",
+    "acromill": "amp_studio.families.acromill:REGISTRATION",
+    "57c422b": "amp_studio.families.servo57c422b:REGISTRATION",
+    "syntec": "amp_studio.families.syntec:REGISTRATION",
+}
+"""Family -> its record."""

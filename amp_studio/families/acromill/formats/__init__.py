@@ -1,0 +1,1 @@
+"""Text formats of AcroMill: ACR command scripts and ballscrew files."""

@@ -1,0 +1,81 @@
+"""The named formulas of the AcroMill user's guide, a module for each subject.
+
+Every function is pure. Lengths may be in any one unit (inch or mm) that Pulses/Unit counts for, speeds are that unit
+per minute unless a text says otherwise, ramps that unit per second squared; gains are in volts and encoder pulses.
+
+An argument that makes no sense raises ValueError with one sentence that names it. Where the guide contradicts itself
+the formula is taken, not the printed number; the text of the function says so. A page is that of the section.
+"""
+
+from .ballscrew import (
+    ballscrew_difference,
+    ballscrew_mean,
+    ballscrew_offset,
+    ballscrew_positions,
+    ballscrew_words,
+    is_ballscrew_table,
+)
+from .feedback import (
+    pulses_of,
+    pulses_per_revolution,
+    pulses_per_unit,
+)
+from .geometry import (
+    compensated_radius,
+    is_joined,
+    largest_position,
+)
+from .motion import (
+    index_time,
+    overridden_feed,
+    ramp_for,
+    ramp_time,
+)
+from .servo import (
+    dac_gain,
+    derivative_width,
+    filter_gain,
+    lopass_limit,
+    proportional_gain,
+    proportional_volts,
+    servo_rate,
+    torque_limit,
+    velocity_feedforward,
+)
+from .spindle import (
+    spindle_scaling,
+    spindle_volts,
+)
+
+__all__ = [
+    "ballscrew_difference",
+    "ballscrew_mean",
+    "ballscrew_offset",
+    "ballscrew_positions",
+    "ballscrew_words",
+    "compensated_radius",
+    "dac_gain",
+    "derivative_width",
+    "filter_gain",
+    "index_time",
+    "is_ballscrew_table",
+    "is_joined",
+    "largest_position",
+    "lopass_limit",
+    "overridden_feed",
+    "proportional_gain",
+    "proportional_volts",
+    "pulses_of",
+    "pulses_per_revolution",
+    "pulses_per_unit",
+    "ramp_for",
+    "ramp_time",
+    "servo_rate",
+    "spindle_scaling",
+    "spindle_volts",
+    "torque_limit",
+    "velocity_feedforward",
+]
+
+FORMULAS = {name: globals()[name] for name in __all__ if name.islower()}
+"""What rules and calculators may call, by name."""

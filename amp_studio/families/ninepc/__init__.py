@@ -1,0 +1,12 @@
+"""The Allen-Bradley 9/PC CNC control."""
+
+from __future__ import annotations
+
+from amp_studio.schema.registration import Registration
+
+REGISTRATION = Registration(
+    family="9pc",
+    formulas="amp_studio.families.ninepc.formulas:FORMULAS",
+    formats=("amp_studio.families.ninepc.formats.patch_sheet:FORMAT",),
+    law="amp_studio.families.ninepc.law:LAW",
+)

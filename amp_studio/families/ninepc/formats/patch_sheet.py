@@ -1,0 +1,112 @@
+"""The sheet for keying values in at the control: its number, what it stores, in the control's own unit.
+
+Lines are ``number``, ``stored value``, ``unit`` and ``name`` between tabs; what stands behind ``#`` is for the
+reader, but for ``# machine``, which says what the numbers mean. Only values that the control lets one key in stand in
+it; a choice without a printed code stands as a remark.
+"""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio.files import ParameterFile
+from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.schema import (
+    InvalidValueError,
+    Schema,
+    UnitError,
+    UnknownParameterError,
+    Value,
+    angular,
+    dimension,
+    show_value,
+    unit_named,
+    write_number,
+)
+from amp_studio.schema.quoting import quoted
+from amp_studio.schema.stored import stored_number, value_of_stored
+from amp_studio.schema.values import checked, read_number
+
+_HEAD = "# Patch sheet"
+
+
+def _recognises(text: str) -> bool:
+    return text.startswith(_HEAD)
+
+
+def _write(file: ParameterFile) -> str:
+    lines = [
+        f"{_HEAD} of {file.header.name or 'a machine'}, {file.schema.family.name}",
+        f"# machine {file.machine}",
+        "# number\tvalue\tunit\tname",
+    ]
+    for address in file.addresses():
+        parameter, value = file.schema.parameters[address[0]], file.get(address)
+        if value is None or not parameter.patchable or file.evaluation.state(address).state == "hidden":
+            continue
+        number = file.schema.number(address, file.machine) or ""
+        name = f"{parameter.name} {file.schema.instance_label(address, file.machine)}".rstrip()
+        turns = file.evaluation.turns(address)
+        stored = stored_number(parameter, value, turns)
+        if stored is None:
+            lines.append(f"# {number}\t{show_value(parameter, value)}: no code is printed\t\t{name}")
+            continue
+        unit = (parameter.storage.unit if parameter.storage else None) or ""
+        lines.append(f"{number}\t{write_number(stored)}\t{angular(unit) if turns else unit}\t{name}")
+    return "\n".join(lines) + "\n"
+
+
+def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+    told = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
+    machine = told[1] if told else schema.family.default_machine
+    if machine not in schema.machines:
+        raise FormatError(f"{schema.family.name} has no machine type {quoted(machine)}")
+    found = TextRead(machine=machine)
+    file = ParameterFile(schema)
+    if schema.family.machine_parameter:
+        file.set((schema.family.machine_parameter, ""), Value(machine))
+    for n, line in enumerate(text.splitlines(), 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        number, *cells = line.split("\t")
+        if not cells:
+            raise FormatError("a line is number, value, unit and name, with tabs between them", n)
+        try:
+            address = file.find(number)
+        except UnknownParameterError as error:
+            if not keep_unknown:
+                raise FormatError(str(error), n, 1) from None
+            if number.strip() in found.unknown:
+                raise FormatError(f"{quoted(number)} stands twice", n, 1) from None
+            found.unknown[number.strip()] = " ".join(cell for cell in cells[:2] if cell)
+            continue
+        if not schema.parameters[address[0]].patchable:
+            raise FormatError(f"{number} cannot be keyed in at the control", n, 1)
+        if address in found.values:
+            raise FormatError(f"{number} stands twice", n, 1)
+        found.values[address] = _value(file, address, cells, n, len(number) + 2)
+    return found
+
+
+def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line: int, column: int) -> Value:
+    parameter = file.schema.parameters[address[0]]
+    try:
+        number, rest = read_number(cells[0])
+        if rest.strip():
+            raise InvalidValueError(f"{quoted(cells[0])} is no plain number")
+        value = checked(parameter, value_of_stored(parameter, number, file.evaluation.turns(address)))
+    except InvalidValueError as error:
+        raise FormatError(str(error), line, column) from None
+    if parameter.choices or len(cells) < 2 or not cells[1].strip():
+        return value
+    try:
+        unit = unit_named(cells[1])
+    except (InvalidValueError, UnitError) as error:
+        raise FormatError(str(error), line, column + len(cells[0]) + 1) from None
+    if dimension(unit) not in (dimension(value.unit), dimension(angular(value.unit))):
+        said = f"{parameter.name} is stored in {value.unit or 'a bare number'}, not in {unit}"
+        raise FormatError(said, line, column + len(cells[0]) + 1)
+    return Value(value.value, unit)
+
+
+FORMAT = TextFormat("patch", "patch sheet", ".patch", _recognises, _read, _write)

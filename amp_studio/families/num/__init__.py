@@ -1,0 +1,11 @@
+"""The NUM 1020, 1040 and 1060 CNC controls."""
+
+from __future__ import annotations
+
+from amp_studio.schema.registration import Registration
+
+REGISTRATION = Registration(
+    family="num",
+    formulas="amp_studio.families.num.formulas:FORMULAS",
+    formats=("amp_studio.families.num.formats.table:FORMAT",),
+)

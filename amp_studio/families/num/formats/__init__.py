@@ -1,0 +1,1 @@
+"""Text formats of the NUM controls: the parameter table."""

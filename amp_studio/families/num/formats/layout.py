@@ -1,0 +1,193 @@
+"""How the lines of a NUM parameter table are laid out, and what of a table is no value.
+
+A table is written as the control sends it (page 13-14) unless the parameter file remembers otherwise. What it
+remembers stands in its header, in words that a person can read and change; ``docs/formats.md`` lists them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from amp_studio.formats.text_format import FormatError
+from amp_studio.schema import InvalidValueError
+
+from .words import Form, Word, name_of
+
+XOFF = "\x13"
+MOST_VALUES = 10
+"""Values of one data line (page 13-14)."""
+Cells = dict[Word, str]
+"""Every word of a table, as the control would spell it."""
+Heads = Mapping[int, tuple[int, int]]
+"""Parameter -> type and number of its words."""
+_NAMES = {"CR": "\r", "LF": "\n", "XOFF": XOFF, "SUB": "\x1a", "NUL": "\0"}
+_SIGNS = {sign: name for name, sign in _NAMES.items()}
+_HEAD = re.compile(r"t([0-24-9])n([1-9][0-9]{0,3})")
+_BLOCK = re.compile(r"P([0-9]{1,4})N([0-9]{1,4})(:?)(?: ([0-9]{1,2})|#([ -~]*))")
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """Words that stand together in a data line."""
+
+    first: Word
+    count: int
+    typed: bool = True
+    """Whether the header tells type and number of words."""
+    data: str | None = None
+    """How the line spells its words, where that is not the control's way."""
+
+    @property
+    def words(self) -> Iterable[Word]:
+        """The words of the line."""
+        parameter, first = self.first
+        return ((parameter, n) for n in range(first, first + self.count))
+
+    def told(self) -> str:
+        """Return the block as the header of a parameter file has it: ``P9N0: 10``, ``P9N0#00 01``."""
+        head = name_of(self.first) + (":" if self.typed else "")
+        return f"{head} {self.count}" if self.data is None else f"{head}#{self.data}"
+
+
+@dataclass
+class Layout:
+    """What a table says beside its words; the defaults are those of a table that the control sends."""
+
+    job_reference: str = "00000000"
+    comment: str = ""
+    """What stands behind the job reference, with its blank."""
+    line_end: str = "\n"
+    end: str = ""
+    """From behind the length of the last line; empty for a line end and Xoff."""
+    old_headers: bool = False
+    """Headers without type and number of words: software before index K."""
+    heads: dict[int, tuple[int, int]] = field(default_factory=dict)
+    """Parameter -> type and number of words where the schema says otherwise: software of another index."""
+    blocks: list[Placed] = field(default_factory=list)
+    """The order and the division of the lines; empty for the control's own."""
+
+    def told(self) -> dict[str, object]:
+        """Return it for the header of a parameter file, without what goes without saying."""
+        told: dict[str, object] = {}
+        if self.job_reference != Layout.job_reference:
+            told["job_reference"] = self.job_reference
+        if self.comment:
+            told["comment"] = self.comment
+        if self.line_end != Layout.line_end:
+            told["line_end"] = _named(self.line_end)
+        if self.end not in ("", self.line_end + XOFF):
+            told["end"] = _named(self.end)
+        if self.old_headers:
+            told["headers"] = "old"
+        if self.heads:
+            told["words"] = {f"P{a}": f"t{code}n{count}" for a, (code, count) in self.heads.items()}
+        if self.blocks:
+            told["lines"] = [block.told() for block in self.blocks]
+        return told
+
+    @classmethod
+    def of_told(cls, told: object) -> Layout:
+        """Read what the header of a parameter file says; raises FormatError where a person wrote what cannot be."""
+        said = told if isinstance(told, Mapping) else {}
+        number = said.get("job_reference", cls.job_reference)
+        reference = f"{number:08d}" if isinstance(number, int) else str(number)
+        if not re.fullmatch("[0-9]{8}", reference):
+            raise FormatError(f"the job reference '{reference}' is not of eight digits")
+        comment = str(said.get("comment", ""))
+        if not re.fullmatch(r"(?![0-9])[ -~]*", comment):
+            raise FormatError(
+                "the comment behind the job reference holds more than ASCII or begins with a digit"
+            )
+        layout = cls(reference, comment, _signs(said.get("line_end", "LF")), _signs(said.get("end", "")))
+        layout.old_headers = said.get("headers") == "old"
+        words, lines = said.get("words"), said.get("lines")
+        for key, head in (words if isinstance(words, Mapping) else {}).items():
+            found = _HEAD.fullmatch(str(head))
+            if found is None or not re.fullmatch("P[0-9]{1,4}", str(key)):
+                raise FormatError(f"'{key}: {head}' is not type and number of words, as in P4: t0n4")
+            layout.heads[int(str(key)[1:])] = int(found[1]), int(found[2])
+        for line in lines if isinstance(lines, list) else []:
+            layout.blocks.append(_block(str(line)))
+        return layout
+
+
+def _named(signs: str) -> str:
+    return " ".join(_SIGNS[sign] for sign in signs)
+
+
+def _signs(names: object) -> str:
+    try:
+        return "".join(_NAMES[name] for name in str(names).split())
+    except KeyError as error:
+        raise FormatError(f"{error.args[0]} is none of the signs {', '.join(_NAMES)}") from None
+
+
+def _block(line: str) -> Placed:
+    found = _BLOCK.fullmatch(line)
+    if found is None:
+        raise FormatError(f"'{line}' is no line of a table, as in P9N0: 10")
+    data = found[5]
+    count = int(found[4]) if data is None else data.count(" ") + 1
+    return Placed((int(found[1]), int(found[2])), count, found[3] == ":", data)
+
+
+# -- from words to text ----------------------------------------------------------
+
+
+def compose(cells: Cells, heads: Heads, forms: Mapping[int, Form], layout: Layout) -> str:
+    """Return the text of a table; raises FormatError for a line that is too long."""
+    lines = [f"%{layout.job_reference}{layout.comment}"]
+    for block in _arranged(cells, layout):
+        head = heads.get(block.first[0]) if block.typed else None
+        lines.append(name_of(block.first) + (f":t{head[0]}n{head[1]}" if head else ""))
+        lines.append(f"#{_data(block, cells, forms)}")
+    for line in lines:
+        if len(line) > 0xFF:
+            raise FormatError(f"a line has 255 characters at most, and this one {len(line)}: {line[:40]}…")
+    measured = layout.line_end.join(f"{line};{len(line):02X}" for line in lines)
+    return measured + (layout.end or layout.line_end + XOFF)
+
+
+def _arranged(cells: Cells, layout: Layout) -> list[Placed]:
+    """Return the lines of a table: those remembered as far as their words are there, the rest in its place."""
+    left = dict.fromkeys(sorted(cells), True)
+    arranged: list[Placed] = []
+    for block in layout.blocks:
+        there = [word for word in block.words if left.pop(word, False)]
+        arranged += [block] if len(there) == block.count else runs(there, block.typed)
+    added = list(runs(left, not layout.old_headers))
+    if not arranged:
+        return added
+    for block in added:
+        later = (n for n, other in enumerate(arranged) if other.first > block.first)
+        arranged.insert(next(later, len(arranged)), block)
+    return arranged
+
+
+def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
+    """Divide words into the lines of the control: ten to a line from word 0, and a line of its own behind each gap."""
+    first, count = (-1, -1), 0
+    for parameter, n in words:
+        if count and (parameter, n) == (first[0], first[1] + count) and n % MOST_VALUES:
+            count += 1
+            continue
+        if count:
+            yield Placed(first, count, typed)
+        first, count = (parameter, n), 1
+    if count:
+        yield Placed(first, count, typed)
+
+
+def _data(block: Placed, cells: Cells, forms: Mapping[int, Form]) -> str:
+    spelled = [cells[word] for word in block.words]
+    form = forms.get(block.first[0])
+    if block.data is not None and form is not None:
+        own = [block.data] if block.count == 1 else block.data.split(" ")
+        try:
+            if [form.spell(form.read(text)) for text in own] == spelled:
+                return block.data
+        except InvalidValueError:
+            pass  # a person changed it: the values count
+    return " ".join(spelled)

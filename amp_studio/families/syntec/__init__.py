@@ -1,0 +1,10 @@
+"""The Syntec CNC controls."""
+
+from __future__ import annotations
+
+from amp_studio.schema.registration import Registration
+
+REGISTRATION = Registration(
+    family="syntec",
+    formulas="amp_studio.families.syntec.formulas:FORMULAS",
+)

@@ -1,0 +1,143 @@
+"""From a text file to a parameter file and back: which format it is, and what goes with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from amp_studio.files import Header, ParameterFile, Tell, without_secrets, write_atomic
+from amp_studio.schema import Schema, Value, load_schema
+from amp_studio.schema.quoting import quoted
+from amp_studio.schema.registration import load_part, registered_families, registration_of
+from amp_studio.schema.regular_file import read_file
+
+from . import values_csv
+from .text_format import FamilyNotGivenError, FormatError, TextFormat, TextRead
+
+GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
+"""Formats of every family."""
+_MOST_BYTES = 4 * 2**20
+"""Some ten times what the largest family would fill in its longest format."""
+
+
+def all_formats() -> tuple[TextFormat, ...]:
+    """Return every format, in the order in which a text is looked at when nobody says which family it is for."""
+    return (*GENERAL, *(own for family in registered_families() for own in _own_formats(family)))
+
+
+def formats_of(family: str) -> tuple[TextFormat, ...]:
+    """Return the formats a family can be written in, its own first."""
+    return (*_own_formats(family), *GENERAL)
+
+
+def _own_formats(family: str) -> tuple[TextFormat, ...]:
+    return tuple(load_part(place) for place in registration_of(family).formats)
+
+
+def import_file(
+    path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False,
+    tell: Callable[[str], None] = lambda _said: None,
+) -> ParameterFile:  # fmt: skip
+    """Return the parameters a text file holds, in a file that holds nothing else; values out of range are in it too.
+
+    ``tell`` is called with what a person should know of a text that was taken: words it leaves out.
+    Without a family, the format or the text has to tell it. Raises FormatError with line and column,
+    UnknownFamilyError, OSError.
+    """
+    content = read_file(path, _MOST_BYTES)
+    chosen = _format_for_reading(content, family, format_key)
+    try:
+        text = content.decode(chosen.encoding)
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise FormatError(f"there is a byte that is no {chosen.encoding} text", line) from None
+    schema = load_schema(family or _only_family(chosen))
+    read = chosen.read(text, schema, keep_unknown)
+    for said in read.notes:
+        tell(said)
+    return file_of(schema, read, path.stem)
+
+
+def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
+    """Return the parameter file of what a text says; the rest is not set."""
+    applications = schema.family.applications
+    header = Header(
+        name=read.name or name,
+        application=applications[0] if applications else "",
+        machine="" if schema.family.machine_parameter else read.machine or schema.family.default_machine,
+        signature=schema.signature,
+    )
+    file = ParameterFile(schema, header)
+    machine_parameter = schema.family.machine_parameter
+    if machine_parameter and read.machine and (machine_parameter, "") not in read.values:
+        file.set((machine_parameter, ""), Value(read.machine))
+    file.values.update(read.values)
+    file.evaluation.forget()
+    file.unknown.update(read.unknown)
+    file.header.extra.update(read.extra)
+    return file
+
+
+def export_file(
+    file: ParameterFile, path: Path, format_key: str | None = None, tell: Tell = lambda _said: None,
+    *, secrets: bool = False,
+) -> TextFormat:  # fmt: skip
+    """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
+
+    Secret values are left out unless ``secrets`` asks for them; ``tell`` is called with what of the old file could not be
+    kept. Raises FormatError for a format that is not offered or a value it cannot write, SaveError.
+    """
+    chosen = _format_for_writing(file.schema.family.family, path, format_key)
+    text = chosen.write(file if secrets else without_secrets(file)).replace("\n", chosen.newline)
+    try:
+        content = text.encode(chosen.encoding)
+    except UnicodeEncodeError as error:
+        sign, line = text[error.start], text.count("\n", 0, error.start) + 1
+        raise FormatError(
+            f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
+        ) from None
+    write_atomic(path, content, tell=tell)
+    return chosen
+
+
+def _format_for_reading(content: bytes, family: str | None, format_key: str | None) -> TextFormat:
+    offered = formats_of(family) if family else all_formats()
+    if format_key is not None:
+        return _named(format_key, offered)
+    text = content.decode("latin-1")
+    found = next((f for f in offered if f.recognises(text)), None)
+    if found is None:
+        raise FormatError(f"this is none of the formats {', '.join(f.key for f in offered)}")
+    return found
+
+
+def _format_for_writing(family: str, path: Path, format_key: str | None) -> TextFormat:
+    offered = formats_of(family)
+    if format_key is not None:
+        return _named(format_key, offered)
+    found = next((f for f in offered if path.suffix.lower() in f.endings), None)
+    if found is None:
+        raise FormatError(
+            f"'{path.name}': no format is written to such a name; endings are "
+            f"{', '.join(f'{f.ending} ({f.key})' for f in offered)}"
+        )
+    return found
+
+
+def _named(key: str, offered: tuple[TextFormat, ...]) -> TextFormat:
+    for found in offered:
+        if found.key == key:
+            return found
+    raise FormatError(f"there is no format {quoted(key)} here: {', '.join(f.key for f in offered)}")
+
+
+def families_of(chosen: TextFormat) -> tuple[str, ...]:
+    """Return the families that have a format for themselves; none for a format of every family."""
+    return tuple(family for family in registered_families() if chosen in _own_formats(family))
+
+
+def _only_family(chosen: TextFormat) -> str:
+    families = families_of(chosen)
+    if len(families) != 1:
+        raise FamilyNotGivenError(f"a {chosen.title} does not tell which family it is for")
+    return families[0]

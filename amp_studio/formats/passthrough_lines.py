@@ -1,0 +1,107 @@
+"""What a script says besides settings: kept in the parameter file, and written back in its place.
+
+Each line that is not understood is an unknown entry of the parameter file (``acr line 5: PLC0``). Where they stood is
+kept in the header, as the list of all lines of the script: a setting stands there as a mark, ``{axes.pulses@X}``, so
+that its value is in one place only, and so does a line that is not understood, ``{line 5}``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from amp_studio.files import ParameterFile
+
+from .text_format import FormatError, TextRead
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a script: text with marks in it, and the name it is kept by where it is not understood."""
+
+    text: str
+    kept_as: str = ""
+
+
+def keep(found: TextRead, kind: str, rows: Sequence[Row]) -> None:
+    """Keep the lines of a script where one of them is not understood; ``kind`` is a word for its format."""
+    unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
+    if unknown:
+        found.unknown = unknown
+        found.extra[f"{kind}_script"] = {"lines": [_told(row) for row in rows]}
+
+
+def kept(file: ParameterFile, kind: str) -> list[str] | None:
+    """Return the lines of a file's script, with marks for its settings; None where nothing is kept.
+
+    Raises FormatError for a kept line whose place is lost: what it does there, nobody knows.
+    """
+    start = f"{kind} line "
+    unknown = {key.removeprefix(start): text for key, text in file.unknown.items() if key.startswith(start)}
+    told = file.header.extra.get(f"{kind}_script")
+    lines = told.get("lines") if isinstance(told, dict) else None
+    rows = []
+    for line in lines if isinstance(lines, list) else []:
+        found = re.fullmatch(r"\{line (.*)\}", str(line))
+        if found is None:
+            rows.append(str(line))
+        elif found[1] in unknown:
+            rows.append(unknown.pop(found[1]))
+    if unknown:
+        lost = f"{start}{next(iter(unknown))}"
+        raise FormatError(
+            f"'{lost}' is kept in the file, and '{kind}_script' in its header does not say where it stood"
+        )
+    return rows or None
+
+
+def _told(row: Row) -> str:
+    return mark(f"line {row.kept_as}") if row.kept_as else row.text
+
+
+# -- marks ---------------------------------------------------------------------------------------------------------
+
+
+def mark(what: str) -> str:
+    """Return the mark of a setting."""
+    return f"{{{what}}}"
+
+
+def marked(text: str) -> str | None:
+    """Return what a mark stands for; None for text that is none."""
+    text = text.strip()
+    return text[1:-1] if text.startswith("{") and not text.startswith("{{") and text.endswith("}") else None
+
+
+def plain(text: str) -> str:
+    """Return text so that it is not taken for a mark; ``shown`` gives it back."""
+    at = len(text) - len(text.lstrip())
+    return text[:at] + "{" + text[at:] if text[at:].startswith("{") else text
+
+
+def shown(text: str) -> str:
+    """Return the text that ``plain`` made safe."""
+    at = len(text) - len(text.lstrip())
+    return text[:at] + text[at + 1 :] if text[at:].startswith("{{") else text
+
+
+def neighbours(
+    order: Iterable[T], there: Iterable[T], lines: Mapping[T, int] | None = None
+) -> dict[T | None, list[T]]:
+    """Return where what is not there yet belongs: behind the one before it in ``order``, None for the front.
+
+    With the lines of those that are there it is that of all before it which stands last.
+    """
+    present, last = set(there), None
+    found: dict[T | None, list[T]] = {}
+    for one in order:
+        if one in present:
+            if lines is None or last is None or lines[one] > lines[last]:
+                last = one
+        else:
+            found.setdefault(last, []).append(one)
+    return found

@@ -1,0 +1,69 @@
+"""What a text format is: a family's own notation for its parameters, read from text and written to it.
+
+A reader gives the values it understood and, if it was told to keep them, the
+entries it did not; it raises FormatError at the first line that cannot be
+meant, and nothing is imported then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Schema, Value
+
+
+class FormatError(ValueError):
+    """A text that a format cannot take: line, column (both from 1) and one clear sentence."""
+
+    def __init__(self, what: str, line: int | None = None, column: int | None = None) -> None:
+        self.line, self.column, self.what = line, column, what
+        place = ", ".join(f"{name} {n}" for name, n in (("line", line), ("column", column)) if n is not None)
+        super().__init__(f"{place}: {what}" if place else what)
+
+
+class FamilyNotGivenError(FormatError):
+    """A text of a format that several families share: which one it is for has to be said."""
+
+
+@dataclass
+class TextRead:
+    """What a text says."""
+
+    values: dict[Address, Value] = field(default_factory=dict)
+    unknown: dict[str, str] = field(default_factory=dict)
+    """Entries that the format has and the schema does not: kept in the parameter file, and written back."""
+    name: str = ""
+    machine: str = ""
+    """Machine type, where the text tells it."""
+    extra: dict[str, object] = field(default_factory=dict)
+    """What the format needs to write the same text again: kept in the header of the parameter file."""
+    notes: list[str] = field(default_factory=list)
+    """What a person should know of a text that can be taken: words it leaves out."""
+
+
+@dataclass(frozen=True)
+class TextFormat:
+    """One text format."""
+
+    key: str
+    """What ``--format`` calls it."""
+    title: str
+    ending: str
+    """Of the files it writes, with the point."""
+    recognises: Callable[[str], bool]
+    """Tells from a text whether it is meant for this format."""
+    read: Callable[[str, Schema, bool], TextRead]
+    """Reads a text for a family; the last argument says whether to keep what is not understood."""
+    write: Callable[[ParameterFile], str]
+    """Writes a file; raises FormatError for a value it cannot write."""
+    encoding: str = "utf-8"
+    newline: str = "\n"
+    other_endings: tuple[str, ...] = ()
+    """Names that are as good for its files."""
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Endings of its files, that of the files it writes first."""
+        return (self.ending, *self.other_endings)

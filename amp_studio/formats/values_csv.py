@@ -1,0 +1,95 @@
+"""Values as a table for a spreadsheet: one line a value, RFC 4180, UTF-8 with the mark Excel looks for.
+
+Any table with the columns ``id``, ``value`` and ``unit`` can be read, the CSV of a report too; ``instance`` may be
+missing for values of the control as a whole. Other columns are not looked at.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+
+from amp_studio.files import ParameterFile
+from amp_studio.files.spreadsheet import cell_text, text_cell
+from amp_studio.files.storage import read_stored
+from amp_studio.schema import Address, InvalidValueError, Schema, Value, is_mask, write_value, written
+from amp_studio.schema.quoting import short
+
+from .text_format import FormatError, TextFormat, TextRead
+
+_HEADS = ("number", "id", "instance", "name", "value", "unit")
+_MARK = "\ufeff"
+
+
+def _recognises(text: str) -> bool:
+    heads = text.removeprefix(_MARK).removeprefix("ï»¿").partition("\n")[0].strip().casefold().split(",")
+    return {"id", "value"} <= {head.strip('" ') for head in heads}
+
+
+def _write(file: ParameterFile) -> str:
+    stream = io.StringIO(newline="")
+    table = csv.writer(stream, lineterminator="\n")
+    table.writerow(_HEADS)
+    for address in file.addresses():
+        value = file.get(address)
+        if value is not None:
+            parameter = file.schema.parameters[address[0]]
+            number = file.schema.number(address, file.machine) or ""
+            plain = write_value(parameter, Value(value.value))
+            cells = (number, *address, parameter.name, plain, value.unit)
+            table.writerow(map(text_cell, cells))
+    return _MARK + stream.getvalue()
+
+
+def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+    table = csv.reader(io.StringIO(text.removeprefix(_MARK), newline=""), strict=True)
+    found = TextRead()
+    try:
+        heads = [head.strip().casefold() for head in next(table, [])]
+        for needed in ("id", "value", "unit"):
+            if needed not in heads:
+                raise FormatError(f"there is no column '{needed}'", 1)
+        for cells in table:
+            if any(cell.strip() for cell in cells):
+                _take(found, schema, heads, cells, table.line_num, keep_unknown)
+    except csv.Error as error:
+        raise FormatError(f"this is no line of a table: {error}", table.line_num) from None
+    return found
+
+
+def _take(
+    found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
+) -> None:
+    if len(cells) != len(heads):
+        raise FormatError(f"{len(cells)} cells below {len(heads)} columns", line)
+    row = dict(zip(heads, map(cell_text, cells), strict=True))
+    address: Address = (row["id"].strip(), row.get("instance", "").strip())
+    parameter = schema.parameters.get(address[0])
+    is_text = parameter is not None and parameter.type == "text"
+    said = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
+    offered = (
+        {i for m in schema.family.machines for i in schema.instances(parameter, m.key)} if parameter else ()
+    )
+    if parameter is None or address[1] not in offered:
+        if not keep_unknown:
+            raise FormatError(
+                f"{schema.family.name} has no {short(written(address))}", line, heads.index("id") + 1
+            )
+        if written(address) in found.unknown:
+            raise FormatError(f"{short(written(address))} stands twice", line, heads.index("id") + 1)
+        found.unknown[written(address)] = said
+        return
+    if address in found.values:
+        raise FormatError(f"{written(address)} stands twice", line, heads.index("id") + 1)
+    if not row["value"].strip():
+        return
+    if is_mask(parameter, row["value"]):
+        found.notes.append(f"{written(address)} is a secret that this table does not tell; it is not set")
+        return
+    try:
+        found.values[address] = read_stored(schema, parameter, said)
+    except InvalidValueError as error:
+        raise FormatError(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
+
+
+FORMAT = TextFormat("csv", "table of values", ".csv", _recognises, _read, _write, newline="\r\n")

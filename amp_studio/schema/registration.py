@@ -1,0 +1,72 @@
+"""How the code of a control family is found: one record a family, whose parts are loaded when somebody asks for them.
+
+Facts are data and need no record. What a family does differently is code in ``amp_studio/families``, which imports the
+rooms below it; they find it by name alone, through the table ``FAMILIES`` there, so that no room names a family and a
+start loads nothing of one that is not used. ``register`` adds one more: a test's, or another package's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+TABLE = "amp_studio.families:FAMILIES"
+"""Family -> where its record is; as every part of a record, ``module:NAME``."""
+
+
+@dataclass(frozen=True)
+class Registration:
+    """What one family brings in code. Parts are named ``module:NAME``; each may be missing.
+
+    ``formulas``  a mapping of names to functions: the published formulas, for rules and calculators
+    ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which a text is looked at
+    ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
+    ``law``       the servo law (``Law``) of its axes, for the simulator
+    ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
+    """
+
+    family: str
+    formulas: str = ""
+    formats: tuple[str, ...] = ()
+    drivers: Mapping[str, str] = field(default_factory=dict)
+    law: str = ""
+    facts: Path | None = None
+
+
+_added: dict[str, Registration] = {}
+
+
+def register(registration: Registration) -> None:
+    """Make one more family known, or put another record in the place of the one there is."""
+    _added[registration.family] = registration
+
+
+def unregister(family: str) -> None:
+    """Forget a family that ``register`` has made known; what was loaded of it stays loaded."""
+    _added.pop(family, None)
+
+
+def registered_families() -> tuple[str, ...]:
+    """Return the families that have a record, those of the table first."""
+    return tuple(dict.fromkeys((*load_part(TABLE), *_added)))
+
+
+def registration_of(family: str) -> Registration:
+    """Return a family's record; one without parts for a family that is facts alone."""
+    if family in _added:
+        return _added[family]
+    place = load_part(TABLE).get(family)
+    found = load_part(place) if place else Registration(family)
+    assert isinstance(found, Registration)
+    return found
+
+
+@cache
+def load_part(place: str) -> Any:
+    """Return what stands at ``module:NAME``; raises ImportError, AttributeError for a place that is none."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)

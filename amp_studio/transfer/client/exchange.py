@@ -1,0 +1,241 @@
+"""The verbs between a file and a control: download, upload, verify, restore.
+
+Words as the manuals use them: a download goes from here to the control, an
+upload from the control to here. A restore is the download of what a control
+has held.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from amp_studio.transfer.errors import (
+    HELD_TEXT,
+    CancelledError,
+    Held,
+    ImageChangedError,
+    KeepFailedError,
+    NotInEmergencyStopError,
+    SignatureMismatchError,
+    TransferError,
+    unforeseen,
+)
+from amp_studio.transfer.house.message import Committed, Flags, Welcome
+from amp_studio.transfer.house.session import Session
+from amp_studio.transfer.progress import Progress, quiet
+
+RESTART_WAIT = 60.0  # seconds a control may take to come back
+
+Keep = Callable[[bytes], str]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a download ended.
+
+    ``held``      what the control holds now: the "old" image, the "new" one, or "unknown"
+    ``verified``  whether every byte of the new image was read back and is equal
+    ``written``   whether the control had to take anything
+    ``kept``      where the image it held before is kept, byte for byte; None when nothing was replaced or it held none
+    ``restart``   "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
+    ``sha256``    of the image, in hexadecimal
+    ``text``      all of it in one sentence or two
+    """
+
+    held: Held
+    verified: bool
+    written: bool
+    kept: str | None
+    restart: Literal["not needed", "done", "needed", "missed"]
+    sha256: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Verification:
+    """Whether a control holds an image.
+
+    ``first_difference`` is the offset in bytes of the first that differs; ``held`` is what was read.
+    """
+
+    same: bool
+    first_difference: int | None
+    held: bytes
+
+
+def upload(session: Session, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
+    """Return the image the control holds; raises TransferError."""
+    with _only_looking():
+        session.hello(cancel, progress)
+        return session.fetch(progress, cancel)
+
+
+def verify(
+    session: Session, image: bytes, progress: Progress = quiet, cancel: threading.Event | None = None
+) -> Verification:
+    """Read everything the control holds and compare it with an image byte for byte; raises TransferError."""
+    with _only_looking():
+        session.hello(cancel, progress)
+        held = session.fetch(progress, cancel, "verify")
+    at = first_difference(image, held)
+    return Verification(at is None, at, held)
+
+
+@contextlib.contextmanager
+def _only_looking() -> Iterator[None]:
+    """Leave out of an error what the control holds: who only looks replaces nothing, and an earlier download may have."""
+    try:
+        yield
+    except TransferError as error:
+        error.held = ""
+        raise
+
+
+def download(
+    session: Session,
+    image: bytes,
+    keep: Keep,
+    *,
+    signature: str,
+    expected: bytes | None = None,
+    is_return: bool = False,
+    progress: Progress = quiet,
+    cancel: threading.Event | None = None,
+    restart_wait: float = RESTART_WAIT,
+) -> Outcome:
+    """Put an image into a control, and prove it.
+
+    Fetches what the control holds and hands it to ``keep``, which returns where it has kept it, before
+    anything is replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to
+    ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
+    schema's under which the image was made. ``expected`` is the SHA-256 of the image that may be replaced; None
+    for whatever is there. ``is_return`` says that the control has held this image before: then it decides by
+    itself whether it takes it. Raises TransferError, whose ``held`` and ``kept`` say what the control holds and
+    where its old image is.
+    """
+    digest = hashlib.sha256(image)
+    welcome = session.hello(cancel, progress)
+    if not is_return:
+        _check_signature(welcome, signature)
+    _check_expected(expected, welcome.sha256)
+    _check_stop(welcome, digest.digest())
+    old = session.fetch(progress, cancel, "keep")
+    _check_expected(expected, hashlib.sha256(old).digest())
+    if old == image:
+        return _nothing_to_do(welcome, digest.hexdigest())
+    kept = _keep(keep, old) if old else None
+    try:
+        sent = session.send(
+            image,
+            signature=signature,
+            expected=hashlib.sha256(old).digest(),
+            progress=progress,
+            cancel=cancel,
+        )
+    except TransferError as error:
+        error.kept = kept
+        raise
+    try:
+        return _prove(session, image, sent.committed, kept, progress, cancel, restart_wait)
+    except TransferError as error:
+        error.held, error.kept = "new", kept
+        raise
+    except KeyboardInterrupt:
+        raise CancelledError("stopped", "new", kept) from None
+    except Exception as error:  # no memory, no handle: the commit has happened all the same
+        raise TransferError(f"it was not read back ({unforeseen(error)})", "new", kept) from error
+
+
+def first_difference(a: bytes, b: bytes) -> int | None:
+    """Return where two images first differ, None when they are equal.
+
+    Where one goes on and the other ends, that is the length of the shorter.
+    """
+    if a == b:
+        return None
+    pairs = enumerate(zip(a, b, strict=False))
+    return next((at for at, (x, y) in pairs if x != y), min(len(a), len(b)))
+
+
+def short(digest: bytes) -> str:
+    """Return the beginning of a digest, enough for a person to tell two apart."""
+    return digest.hex()[:12]
+
+
+def _check_signature(welcome: Welcome, signature: str) -> None:
+    if welcome.signature != signature:
+        raise SignatureMismatchError(
+            f"the control '{welcome.name}' (revision {welcome.revision}) numbers its parameters "
+            "by another schema"
+        )
+
+
+def _check_expected(expected: bytes | None, found: bytes) -> None:
+    if expected is not None and expected != found:
+        raise ImageChangedError(
+            f"the control holds something else than what was approved to be replaced "
+            f"(sha256 {short(found)}…, approved {short(expected)}…)"
+        )
+
+
+def _check_stop(welcome: Welcome, digest: bytes) -> None:
+    """Ask for E-stop before anything is moved; an image that is there already needs none."""
+    if welcome.sha256 != digest and not welcome.flags & Flags.ESTOP:
+        raise NotInEmergencyStopError("please place the control in E-stop to download")
+
+
+def _nothing_to_do(welcome: Welcome, digest: str) -> Outcome:
+    waiting = bool(welcome.flags & Flags.RESTART_NEEDED)
+    text = "The control holds exactly this image already; nothing was written."
+    if waiting:
+        text += " Restart the control to make it current."
+    return Outcome("new", True, False, None, "needed" if waiting else "not needed", digest, text)
+
+
+def _keep(keep: Keep, old: bytes) -> str:
+    try:
+        return keep(old)
+    except Exception as error:  # whatever goes wrong there, the old image is not kept
+        said = str(error)
+        if isinstance(error, OSError) and error.filename and error.strerror:
+            said = f"{error.filename}: {error.strerror}"
+        raise KeepFailedError(f"what the control holds could not be kept ({said})") from error
+
+
+def _prove(
+    session: Session,
+    image: bytes,
+    committed: Committed,
+    kept: str | None,
+    progress: Progress,
+    cancel: threading.Event | None,
+    restart_wait: float,
+) -> Outcome:
+    """Wait for the restart, read back, compare."""
+    digest = hashlib.sha256(image).hexdigest()
+    before = f" What it held before is kept in {kept}." if kept else " It held nothing before."
+    restart: Literal["done", "needed"] = "needed"
+    if committed.restarting:
+        if session.wait_restarted(committed.incarnation, restart_wait, progress, cancel) is None:
+            text = "Download complete, but the control has not come back from its restart "
+            text += f"within {restart_wait:g} s."
+            return Outcome("new", False, True, kept, "missed", digest, text + before)
+        restart = "done"
+    held = session.fetch(progress, cancel, "verify")
+    at = first_difference(image, held)
+    if at is not None:
+        text = f"The control took the image, but what it holds differs from byte {at} on; "
+        text += f"{HELD_TEXT['unknown']}."
+        return Outcome("unknown", False, True, kept, restart, digest, text + before)
+    text = "Download complete and read back equal"
+    text += (
+        "; the control has restarted with it."
+        if restart == "done"
+        else ". Restart the control to make it current."
+    )
+    return Outcome("new", True, True, kept, restart, digest, text + before)

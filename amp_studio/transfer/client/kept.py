@@ -1,0 +1,151 @@
+"""Copies of what a control held: kept byte for byte before anything is replaced, and put back as they are.
+
+``NAME.before-STAMP.img`` is the image itself, ``NAME.before-STAMP.img.sha256`` its digest as ``sha256sum`` writes
+it. ``NAME.before-STAMP.amp`` is there as well where a parameter file says exactly the same.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import re
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
+from amp_studio.files.storage import ParameterFileError, read_content
+from amp_studio.schema.regular_file import read_file
+from amp_studio.transfer.image import MAGIC, ImageError, decode_image, encode_image
+
+IMAGE = ".img"
+DIGEST = ".sha256"
+BEFORE = ".before-"
+LARGEST = 1 << 26  # bytes of an image, as in an exchange
+_STEM = 120
+"""Bytes of a file's name that its copies take over, so that the whole name is short enough for every disk."""
+_SIGNED = re.compile(rb"%s\nfamily [^\n]*\nsignature ([0-9a-f]{64})\n" % MAGIC.encode())
+
+
+class CopyError(ValueError):
+    """A copy that is not what was kept, or none at all; one clear sentence."""
+
+
+@dataclass(frozen=True)
+class Copy:
+    """An image that is to be put back.
+
+    ``image``      its bytes
+    ``signature``  of the schema it was made under, as far as that can be told, else ""
+    ``file``       what it means; None where this program cannot read it
+    ``fault``      why it cannot
+    ``is_checked`` whether it was compared with a digest beside it
+    ``is_kept``    whether it is what a control held, byte for byte: an image, or a parameter file beside its image
+    """
+
+    image: bytes
+    signature: str
+    file: ParameterFile | None
+    fault: str
+    is_checked: bool
+    is_kept: bool
+
+
+def keep_image(image: bytes, folder: Path, stem: str) -> Path:
+    """Keep an image under a name that was free, and where possible a parameter file beside it; returns the image's path.
+
+    Raises OSError, and then nothing is left behind.
+    """
+    stem = stem.encode()[:_STEM].decode(errors="ignore")
+    stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
+    number = 1
+    while True:
+        path = folder / f"{stem}{BEFORE}{stamp}{'' if number == 1 else f'-{number}'}{IMAGE}"
+        try:
+            _need_free(path.with_suffix(ENDING))
+            save_image(image, path)
+        except FileExistsError:
+            number += 1
+            continue
+        _keep_readable(image, path.with_suffix(ENDING))
+        return path
+
+
+def save_image(image: bytes, path: Path) -> None:
+    """Write an image and its digest under a name that nothing has; raises FileExistsError, OSError."""
+    beside = digest_path(path)
+    _need_free(beside)
+    with path.open("xb"):  # from here on the name is ours
+        pass
+    try:
+        write_atomic(path, image, keep_backup=False)
+        line = f"{hashlib.sha256(image).hexdigest()}  {path.name}\n"
+        write_atomic(beside, line.encode(errors="surrogateescape"), expected=None, keep_backup=False)
+    except BaseException:
+        for written in (beside, path):
+            with contextlib.suppress(OSError):
+                written.unlink(missing_ok=True)
+        raise
+
+
+def _need_free(path: Path) -> None:
+    if os.path.lexists(path):  # a link that leads nowhere has the name too
+        raise FileExistsError(f"{path} exists already")
+
+
+def _keep_readable(image: bytes, path: Path) -> None:
+    """Write the parameter file of an image where it comes back as the same bytes; the image itself is kept already."""
+    with contextlib.suppress(ImageError, ParameterFileError, OSError):
+        file = decode_image(image)
+        file.header.name = path.stem
+        content = content_of(file)
+        if encode_image(read_content(path, content)) == image:
+            write_atomic(path, content, expected=None)
+
+
+def digest_path(path: Path) -> Path:
+    """Return where the digest of an image lies."""
+    return path.with_name(path.name + DIGEST)
+
+
+def open_copy(path: Path) -> Copy:
+    """Read a copy, checked against the digest beside it where there is one; raises CopyError, ParameterFileError, OSError."""
+    if path.suffix == ENDING:
+        file = open_file(path).file
+        image = encode_image(file)
+        beside = path.with_suffix(IMAGE)
+        is_kept = beside.is_file() and _content(beside) == image
+        return Copy(image, file.schema.signature, file, "", is_checked=True, is_kept=is_kept)
+    if path.suffix != IMAGE:
+        raise CopyError(f"{path} is no copy of what a control held: those end in {IMAGE} or {ENDING}")
+    image = _content(path)
+    is_checked = digest_path(path).exists()
+    if is_checked:
+        _check(path, image)
+    signed = _SIGNED.match(image)
+    signature = signed[1].decode() if signed else ""
+    try:
+        return Copy(image, signature, decode_image(image), "", is_checked, is_kept=True)
+    except ImageError as error:
+        return Copy(image, signature, None, str(error), is_checked, is_kept=True)
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return read_file(path, LARGEST)
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        raise CopyError(f"{path} cannot be read: {error.strerror}") from None
+
+
+def _check(path: Path, image: bytes) -> None:
+    beside = digest_path(path)
+    digest = _content(beside)[:64].decode("ascii", errors="replace").casefold()
+    if not re.fullmatch("[0-9a-f]{64}", digest):
+        raise CopyError(
+            f"{beside} holds no digest as sha256sum writes it: remove it to put {path.name} back unchecked"
+        )
+    if digest != hashlib.sha256(image).hexdigest():
+        raise CopyError(f"{path} is not what was kept: its digest is not the one in {beside.name}")

@@ -1,0 +1,94 @@
+"""Parameter files and the control: what the command line and the desktop program ask for."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import threading
+from pathlib import Path
+
+from amp_studio.files import ParameterFile
+from amp_studio.transfer.house.session import Progress, Session, quiet
+from amp_studio.transfer.image import decode_image, encode_image
+
+from .exchange import Keep, Outcome, download, upload
+from .kept import BEFORE, Copy, keep_image, open_copy
+
+__all__ = [
+    "Copy",
+    "Outcome",
+    "download_file",
+    "fetch_file",
+    "fetch_image",
+    "open_copy",
+    "read_digest",
+    "restore_copy",
+    "sha256",
+]
+
+
+def download_file(
+    file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,
+    cancel: threading.Event | None = None, *, expected: str | None = None,
+) -> Outcome:  # fmt: skip
+    """Put a file into the control at ``address``; what it held is kept in ``folder`` before anything is replaced.
+
+    ``expected`` is the digest of what may be replaced, None for whatever is there. Raises TransferError, whose
+    text says what the control holds, ImageError for a file no image can carry, and ValueError for an address or
+    a digest that is none.
+    """
+    image, approved = encode_image(file), read_digest(expected)
+    decode_image(image)  # what cannot be read again is not sent
+    with Session.at(address, family=file.schema.family.family) as session:
+        return download(session, image, _keep_in(folder, stem), signature=file.schema.signature, expected=approved,
+                        progress=progress, cancel=cancel)  # fmt: skip
+
+
+def restore_copy(
+    copy: Copy, address: str, folder: Path, stem: str, progress: Progress = quiet,
+    cancel: threading.Event | None = None, *, expected: str | None = None,
+) -> Outcome:  # fmt: skip
+    """Put back what a control has held, byte for byte; what it holds instead is kept in ``folder`` first.
+
+    What is kept goes back whatever it is, for the control to say whether it has held it. Raises as ``download_file``.
+    """
+    family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
+    approved = read_digest(expected)
+    with Session.at(address, family=family) as session:
+        return download(session, copy.image, _keep_in(folder, stem), signature=copy.signature, expected=approved,
+                        is_return=copy.is_kept, progress=progress, cancel=cancel)  # fmt: skip
+
+
+def _keep_in(folder: Path, stem: str) -> Keep:
+    return lambda image: str(keep_image(image, folder, stem.partition(BEFORE)[0]))
+
+
+def sha256(image: bytes) -> str:
+    """Return the digest of an image in hexadecimal, by which a person names it."""
+    return hashlib.sha256(image).hexdigest()
+
+
+def read_digest(text: str | None) -> bytes | None:
+    """Return the SHA-256 a person passes on; raises ValueError."""
+    if text is None:
+        return None
+    if not re.fullmatch("[0-9a-fA-F]{64}", text.strip()):
+        raise ValueError(
+            f"'{text}' is no SHA-256: write its 64 hexadecimal digits, as verify and upload print them"
+        )
+    return bytes.fromhex(text.strip())
+
+
+def fetch_image(
+    address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
+) -> bytes:
+    """Return what the control at ``address`` holds, byte for byte; raises TransferError."""
+    with Session.at(address, family=family) as session:
+        return upload(session, progress, cancel)
+
+
+def fetch_file(
+    address: str, progress: Progress = quiet, cancel: threading.Event | None = None
+) -> ParameterFile:
+    """Return what the control at ``address`` holds as a parameter file; raises TransferError, ImageError."""
+    return decode_image(fetch_image(address, progress, cancel))

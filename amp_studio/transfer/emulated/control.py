@@ -1,0 +1,305 @@
+"""An emulated control: what it holds, when it takes something else, and what is left after a crash.
+
+Its memory:
+    active.img            the image it works with after the next start
+    previous.img          the one before
+    control.json          E-stop, autostart, incarnation, the last committed transfer
+    staged-ID.json .part  a download that has begun: what it is to become, and as much of it as has come
+    commit.json           a commit under way: the digest it leads to, and its answer
+    outgoing.img          what becomes previous.img when that commit has happened
+
+The one moment a commit happens in is the rename of the staged file to
+active.img. After a crash, commit.json and the digest of active.img tell on
+which side of it the control stopped.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from amp_studio.files.lock import EditLock, InUse
+from amp_studio.transfer.house.message import Code, Commit, Committed, Flags, OpenDownload, RefusalError
+
+from .memory import Memory
+from .record import Identity, StateError, is_answer, load_json, load_record, to_json, written
+from .staging import PendingDownload, Staging
+
+ACTIVE, PREVIOUS, OUTGOING, INTENT = (
+    "active.img",
+    "previous.img",
+    "outgoing.img",
+    "commit.json",
+)
+CAPACITY = 1 << 20  # bytes
+
+
+class Control:
+    """One control with its memory in a folder.
+
+    A new folder is born with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not
+    given, at first on. ``accept`` raises, best ValueError, for an image the control does not take. Raises
+    StateError when the folder is another control's, damaged or in use. Requests raise RefusalError and then have
+    changed nothing.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        identity: Identity,
+        initial: bytes = b"",
+        *,
+        estop: bool | None = None,
+        autostart: bool | None = None,
+        capacity: int = CAPACITY,
+        accept: Callable[[bytes], object] | None = None,
+    ) -> None:
+        self.identity = identity
+        self.memory = Memory(folder)
+        self.is_committing = False
+        self._capacity = capacity
+        self._accept = accept
+        self._lock = EditLock(folder / "control")
+        try:
+            self._lock.take()
+        except InUse as error:
+            raise StateError(f"{folder}: {error}") from None
+        try:
+            self._boot(initial, estop, autostart)
+        except BaseException:
+            self._lock.release()
+            raise
+
+    def close(self) -> None:
+        """Leave the folder to others."""
+        self._lock.release()
+
+    # -- what it holds -----------------------------------------------------------------------------
+
+    @property
+    def image(self) -> bytes:
+        """The active image."""
+        return self._active
+
+    @property
+    def sha256(self) -> bytes:
+        """The digest of the active image."""
+        return self._digest
+
+    @property
+    def incarnation(self) -> int:
+        """Counts the starts of the control."""
+        return self._record.incarnation
+
+    @property
+    def flags(self) -> Flags:
+        """The state."""
+        return self._record.flags()
+
+    @property
+    def staged_size(self) -> int:
+        """How many bytes of the open download are staged."""
+        return self._staging.size
+
+    # -- at the operator's panel -------------------------------------------------------------------
+
+    def set_estop(self, on: bool) -> None:
+        """Press or release the emergency stop."""
+        self._remember(estop=on)
+
+    def set_autostart(self, on: bool) -> None:
+        """Choose whether the control restarts by itself after a download."""
+        self._remember(autostart=on)
+
+    def restart(self) -> None:
+        """Start anew: the active image becomes current."""
+        self._remember(incarnation=self.incarnation + 1, running=True, restart_needed=False)
+
+    def patch(self, change: Callable[[bytes], bytes]) -> None:
+        """Change the image at the control itself; raises RefusalError, OSError, and what ``change`` raises."""
+        self._need_estop("change its image")
+        changed = change(self._active)
+        self.memory.replace(ACTIVE, changed)
+        self._take(changed)
+        self._record.hold(self._digest)
+        self._remember(restart_needed=True, changed_at_control=True)
+
+    # -- requests ----------------------------------------------------------------------------------
+
+    def open_download(self, wish: OpenDownload) -> int:
+        """Begin a download or take it up again; return the offset to go on from."""
+        if self._record.answer_to(wish.transfer, wish.sha256) is not None:
+            return wish.size
+        if wish.signature != self.identity.signature and not self._record.has_held(wish.sha256):
+            raise RefusalError(
+                Code.SIGNATURE,
+                "the control numbers its parameters by another schema and has not held this image",
+            )
+        self._need_estop("download")
+        self._need_expected(wish.expected)
+        if wish.size > self._capacity:
+            raise RefusalError(
+                Code.TOO_LARGE,
+                f"the image has {wish.size} bytes, and the control has room for {self._capacity}",
+            )
+        pending = PendingDownload(wish.transfer, wish.size, wish.sha256, wish.expected)
+        begun = self._staging.pending
+        if begun != pending:
+            if begun is not None and begun.transfer == pending.transfer:
+                raise RefusalError(Code.MALFORMED, "this transfer was begun with another image")
+            with _storing():
+                self._staging.begin(pending)
+        return self._staging.size
+
+    def stage(self, transfer: bytes, content: bytes) -> None:
+        """Add to the end of what is staged."""
+        pending = self._pending(transfer)
+        if self._staging.size + len(content) > pending.size:
+            raise RefusalError(Code.OUT_OF_RANGE, f"the image was to have {pending.size} bytes")
+        with _storing():
+            self._staging.add(pending, content)
+
+    def commit(self, request: Commit) -> Committed:
+        """Put what is staged in the place of the active image; asked again, answer the same again."""
+        answered = self._record.answer_to(request.transfer, request.sha256)
+        if answered is not None:
+            return answered
+        pending = self._pending(request.transfer)
+        self._need_estop("download")
+        self._need_expected(pending.expected)
+        self._check_whole(pending, request.sha256)
+        record = self._record
+        answer = Committed(pending.transfer, pending.sha256, record.incarnation, record.autostart)
+        self.is_committing = True
+        try:
+            self._replace_active(pending, {"to": pending.sha256.hex(), "answer": written(answer)})
+        finally:
+            self.is_committing = False
+        return answer
+
+    def abort(self, transfer: bytes) -> None:
+        """Throw a download away."""
+        committed = self._record.committed
+        if committed is not None and committed["transfer"] == transfer.hex():
+            raise RefusalError(Code.ALREADY_COMMITTED, "this download is committed and cannot be taken back")
+        if self._staging.pending is not None and self._staging.pending.transfer == transfer:
+            self._staging.drop()
+
+    # -- the parts of a commit ---------------------------------------------------------------------
+
+    def _check_whole(self, pending: PendingDownload, sha256: bytes) -> None:
+        if self._staging.size < pending.size:
+            raise RefusalError(Code.INCOMPLETE, f"{self._staging.size} of {pending.size} bytes have come")
+        content = self._staging.content(pending) if sha256 == pending.sha256 else None
+        if content is None:
+            self._staging.drop()
+            raise RefusalError(Code.DIGEST, "what has come does not have the digest that was stated")
+        if self._accept is not None and not self._record.has_held(sha256):
+            try:
+                self._accept(content)
+            except Exception as error:  # an image is a stranger's: whatever it upsets, it is not taken
+                self._staging.drop()
+                said = str(error) if isinstance(error, ValueError) else type(error).__name__
+                raise RefusalError(
+                    Code.REJECTED, f"the control has not held this image and does not take it: {said}"
+                ) from None
+
+    def _replace_active(self, pending: PendingDownload, intent: dict[str, Any]) -> None:
+        """Rename the staged file to active.img, with everything that must be on the disk before."""
+        fault = "unknown reason"
+        try:
+            self.memory.sync(pending.part)
+            self.memory.replace(OUTGOING, self._active)
+            self.memory.replace(INTENT, to_json(intent))
+            self.memory.move(pending.part, ACTIVE)
+        except OSError as error:
+            fault = error.strerror or str(error)
+        # Whatever went wrong above: what now stands in active.img is what the control holds.
+        self._take(self.memory.read(ACTIVE) or b"")
+        if self._digest != pending.sha256:
+            self._forget_intent()
+            raise RefusalError(Code.STORAGE, f"the control cannot store the image ({fault})")
+        self._finish(intent)
+        self._staging.drop()
+
+    def _finish(self, intent: dict[str, Any]) -> None:
+        """Write down a commit that has happened; what cannot be written now, the next start writes."""
+        record = self._record
+        record.running, record.restart_needed, record.changed_at_control = False, True, False
+        record.committed = intent["answer"]
+        record.hold(self._digest)
+        with contextlib.suppress(OSError):
+            record.save(self.memory)
+            if OUTGOING in self.memory.names():
+                self.memory.move(OUTGOING, PREVIOUS)
+            self._forget_intent()
+
+    def _forget_intent(self) -> None:
+        # One that cannot be removed says nothing wrong: the digest of active.img decides.
+        with contextlib.suppress(OSError):
+            self.memory.remove(INTENT)
+
+    # -- small parts -------------------------------------------------------------------------------
+
+    def _boot(self, initial: bytes, estop: bool | None, autostart: bool | None) -> None:
+        self.memory.clear_temporaries()
+        active = self.memory.read(ACTIVE)
+        if active is None:
+            self.memory.replace(ACTIVE, initial)
+            active = initial
+        self._take(active)
+        self._record = load_record(self.memory, self.identity)
+        self._record.hold(self._digest)
+        intent = load_json(self.memory, INTENT)
+        if intent is not None and not (isinstance(intent.get("to"), str) and is_answer(intent.get("answer"))):
+            raise StateError(f"{self.memory.folder / INTENT} is damaged")
+        if intent is not None and intent["to"] == self._digest.hex():
+            self._finish(intent)
+        elif intent is not None:
+            self._forget_intent()
+        self._staging = Staging(self.memory)
+        pending = self._staging.pending
+        if pending is not None and self._record.answer_to(pending.transfer, pending.sha256) is not None:
+            self._staging.drop()
+        self._record.estop = self._record.estop if estop is None else estop
+        self._record.autostart = self._record.autostart if autostart is None else autostart
+        self.restart()
+
+    def _take(self, image: bytes) -> None:
+        self._active = image
+        self._digest = hashlib.sha256(image).digest()
+
+    def _remember(self, **changes: Any) -> None:
+        for name, value in changes.items():
+            setattr(self._record, name, value)
+        self._record.save(self.memory)
+
+    def _pending(self, transfer: bytes) -> PendingDownload:
+        pending = self._staging.pending
+        if pending is None or pending.transfer != transfer:
+            raise RefusalError(Code.UNKNOWN_TRANSFER, "the control knows nothing of this download")
+        return pending
+
+    def _need_estop(self, what: str) -> None:
+        if not self._record.estop:
+            raise RefusalError(Code.NOT_IN_ESTOP, f"please place the control in E-stop to {what}")
+
+    def _need_expected(self, expected: bytes) -> None:
+        if expected != self._digest:
+            raise RefusalError(
+                Code.IMAGE_CHANGED, "the control's image was changed by somebody else in the meantime"
+            )
+
+
+@contextlib.contextmanager
+def _storing() -> Any:
+    """Turn a fault of the disk into a refusal."""
+    try:
+        yield
+    except OSError as error:
+        raise RefusalError(
+            Code.STORAGE, f"the control cannot store the image ({error.strerror or error})"
+        ) from None

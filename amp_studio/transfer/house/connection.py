@@ -1,0 +1,246 @@
+"""The line to one control, made again whenever it is cut, until patience ends."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from typing import TypeVar
+
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ControlBusyError,
+    ControlSilentError,
+    ProtocolMismatchError,
+    TransferError,
+    WrongFamilyError,
+)
+from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.progress import SILENT, Progress, Stop, quiet
+
+from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, RefusalError, Welcome
+from .retry_timer import RetryPolicy
+from .streaming import window_limit
+from .transaction import NoAnswerError, Transaction
+
+Result = TypeVar("Result")
+OpenLink = Callable[[Callable[[], None]], Link]
+
+PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
+LONGEST_PAUSE = 2.0  # up to this
+SLICE = 0.1  # seconds a pause may last before the cancel event is looked at again
+SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is told so
+SILENT_EVERY = 1.0  # seconds until he is told again
+LINGER = 5.0  # seconds a commit is seen through after somebody has asked to stop
+
+# Patience begins anew only with a step of so many bytes (fewer of a small image, on a slow line, or at the
+# end): a control cannot keep a client for ever by giving it a byte every few seconds.
+STEP = 1_024
+STEPS = 64
+
+
+class OutOfTimeError(NoAnswerError):
+    """Patience has ended, or nobody wants to wait any longer."""
+
+
+class Connection:
+    """Conversations with one control, one after the other; ``welcome`` is what it said last about itself.
+
+    ``open_link`` gets a function to call at least every 0.1 s while it waits. ``cancel`` may be set from
+    another thread: then whatever waits here raises CancelledError; while ``is_committing`` it waits a little
+    longer for the answer. ``progress`` is told of silences too, and nothing it raises matters.
+    """
+
+    def __init__(
+        self,
+        open_link: OpenLink,
+        *,
+        family: str,
+        client: str,
+        patience: float,
+        policy: RetryPolicy,
+        clock: Callable[[], float],
+        sleep: Callable[[float], None],
+        random_bytes: Callable[[int], bytes],
+    ) -> None:
+        self.cancel: threading.Event | None = None
+        self.progress: Progress = quiet
+        self.is_committing = False
+        self.welcome: Welcome | None = None
+        self.reconnections = 0
+        self.now = clock
+        self.random = random_bytes
+        self._open_link = open_link
+        self._family = family
+        self._client = client
+        self._patience = patience
+        self._policy = policy
+        self._sleep = sleep
+        self._talk: Transaction | None = None
+        self._until: float | None = None  # when patience ends
+        self._reached = 0  # bytes of the image under way when patience last began anew
+        self._best = 0  # the most bytes of it that were ever there
+        self._moved_at = self._told_at = clock()
+        self._stopped_at: float | None = None
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._talk is not None:
+            self._talk.link.close()
+            self._talk = None
+
+    def greet(self, tries: int = 3) -> Welcome:
+        """Say Hello on the line there is, or on a new one.
+
+        Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError, after which the line is closed.
+        """
+        talk = self._talk
+        if talk is None:
+            first = int.from_bytes(self.random(2), "little")
+            link = self._open_link(self._look)
+            try:
+                talk = Transaction(link, self.now, self._policy, first=first, look=self._look)
+            except BaseException:
+                link.close()
+                raise
+            self._talk = talk
+        nonce = self.random(4)
+        welcome = talk.request(Hello(PROTOCOL_VERSION, nonce, self._client), Welcome, tries=tries)
+        if welcome.nonce != nonce:
+            raise NoAnswerError
+        if welcome.version != PROTOCOL_VERSION or not 1 <= welcome.chunk <= MAX_CHUNK or welcome.window < 1:
+            self.close()
+            raise ProtocolMismatchError(
+                "the control answers in a way that version 1 of the protocol does not know"
+            )
+        if self.welcome is not None and _identity(welcome) != _identity(self.welcome):
+            self.close()
+            raise ProtocolMismatchError(f"another control answers on this line than before: '{welcome.name}'")
+        if self._family and welcome.family != self._family:
+            self.close()
+            raise WrongFamilyError(f"the control is of the family {welcome.family}, not {self._family}")
+        self.welcome = welcome
+        return welcome
+
+    def persist(self, action: Callable[[Transaction], Result]) -> Result:
+        """Run ``action`` to its end, on as many lines as it takes, until patience ends.
+
+        Raises RefusalError, ConnectionCutError, ControlSilentError, ControlBusyError, CancelledError.
+        """
+        self.begin()
+        pause = PAUSE
+        cause: Exception = NoAnswerError()
+        while True:
+            try:
+                if self._talk is None:
+                    self.greet()
+                    self.reconnections += 1
+                assert self._talk is not None
+                return action(self._talk)
+            except OutOfTimeError:
+                self.close()
+                raise self._gave_up(cause) from cause
+            except (LinkError, NoAnswerError) as error:
+                cause = error
+            except RefusalError as refusal:
+                if refusal.code != Code.BUSY:
+                    raise
+                cause = refusal
+            self.close()
+            try:
+                self.pause(pause)
+            except OutOfTimeError:
+                raise self._gave_up(cause) from cause
+            pause = min(pause * 1.5, LONGEST_PAUSE)
+
+    def once(self, action: Callable[[Transaction], object], seconds: float) -> None:
+        """Run ``action`` if there is a line, whether or not it succeeds, for so long, and hang up."""
+        self.begin(seconds)
+        if self._talk is not None:
+            with contextlib.suppress(LinkError, NoAnswerError, RefusalError):
+                action(self._talk)
+        self.close()
+
+    # -- patience ----------------------------------------------------------------------------------
+
+    def begin(self, seconds: float | None = None) -> None:
+        """Let patience begin, for ``seconds`` or as long as it is on this line."""
+        self.further()
+        self._until = self.now() + (self._patience if seconds is None else seconds)
+        self._reached = self._best = 0
+
+    def further(self) -> None:
+        """Something that was waited for is there: nothing is silent."""
+        was_silent = self._told_at > self._moved_at
+        self._moved_at = self._told_at = self.now()
+        if was_silent:
+            self.tell(SILENT, 0, round(self._patience))
+
+    def moved(self, done: int, total: int) -> None:
+        """``done`` of ``total`` bytes are there: after a step of some size patience begins anew."""
+        if self.is_committing:
+            return  # everything is there; only the answer to the commit counts
+        if done > self._best:
+            self._best = done
+            self.further()
+        rate = self._talk.link.bytes_per_second if self._talk is not None else None
+        step = min(STEP, total // STEPS, total if rate is None else int(rate * self._patience / 10))
+        if done >= min(total, self._reached + max(1, step)) and done > self._reached:
+            self._reached = done
+            self._until = self.now() + self._patience
+
+    def tell(self, stage: str, done: int, total: int) -> None:
+        """Tell whoever waits; that he cannot be told ends no exchange."""
+        with contextlib.suppress(Exception):
+            self.progress(stage, done, total)
+
+    def sizes(self, talk: Transaction) -> tuple[int, int]:
+        """Return the length of a chunk in bytes and how many may be under way."""
+        assert self.welcome is not None
+        chunk = self.welcome.chunk
+        return chunk, window_limit(chunk, self.welcome.window, talk.link.bytes_per_second)
+
+    def pause(self, seconds: float) -> None:
+        """Wait; raises CancelledError, OutOfTimeError."""
+        end = self.now() + seconds
+        while (left := end - self.now()) > 0:
+            self._look()
+            self._sleep(min(left, SLICE))
+
+    def _look(self) -> None:
+        """Be called by everything that waits, at least every 0.1 s."""
+        now = self.now()
+        if self.cancel is not None and self.cancel.is_set():
+            self._stop(self.cancel, now)
+        if self._until is not None and now >= self._until:
+            raise OutOfTimeError
+        silent = now - self._moved_at
+        if silent >= SILENT_AFTER and now - self._told_at >= SILENT_EVERY:
+            self._told_at = now
+            left = 0.0 if self._until is None else self._until - now
+            self.tell(SILENT, round(silent), round(silent + left))
+
+    def _stop(self, cancel: threading.Event, now: float) -> None:
+        if not self.is_committing:
+            raise CancelledError("stopped")
+        if self._stopped_at is None:
+            self._stopped_at = now
+        if now - self._stopped_at >= LINGER or (isinstance(cancel, Stop) and cancel.is_urgent):
+            raise OutOfTimeError
+
+    def _gave_up(self, cause: Exception) -> TransferError:
+        waited = f"for {self._patience:g} s"
+        if self.cancel is not None and self.cancel.is_set():
+            return CancelledError("stopped before the control has answered")
+        if isinstance(cause, LinkError):
+            return ConnectionCutError(
+                f"the line to the control is cut and could not be made again {waited} ({cause})"
+            )
+        if isinstance(cause, RefusalError):
+            return ControlBusyError(f"another client has had the control {waited}")
+        return ControlSilentError(f"the control has not answered {waited}")
+
+
+def _identity(welcome: Welcome) -> tuple[str, str, str]:
+    return welcome.family, welcome.signature, welcome.name

@@ -1,0 +1,167 @@
+"""One download from the client's side: stage, commit, and know at every moment what the control holds."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from dataclasses import dataclass
+
+from amp_studio.transfer.errors import (
+    CancelledError,
+    Held,
+    ImageChangedError,
+    ProtocolMismatchError,
+    TransferError,
+    unforeseen,
+)
+
+from .connection import STEPS, Connection
+from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, RefusalError
+from .refusals import error_of
+from .streaming import push
+from .transaction import Transaction
+
+ATTEMPTS = 3  # how often in a row a control may lose or spoil what is staged
+COMMIT_WAIT = 2.0  # seconds a control may at least take to write an image to its memory
+COMMIT_TRIES = 2  # then the line may be the fault: the commit is asked for again on another
+ABORT_WAIT = 0.5  # seconds
+
+
+@dataclass(frozen=True)
+class Sent:
+    """An image that a control has committed: what it answered, and how often the line was made again."""
+
+    committed: Committed
+    reconnections: int
+
+
+class DownloadTransfer:
+    """Sends one image under one transfer id; ``held`` is what the control holds as far as can be known."""
+
+    def __init__(self, line: Connection, image: bytes, signature: str, expected: bytes) -> None:
+        self._line = line
+        self._image = image
+        self._signature = signature
+        self._expected = expected
+        self._digest = hashlib.sha256(image).digest()
+        self._transfer = line.random(16)
+        self._reached = 0
+        self._lost = 0  # how often the control had less than it had said before
+        self.held: Held = "old"
+
+    def run(self, cancel: threading.Event | None) -> Sent:
+        """Return what the control answered to the commit; raises TransferError."""
+        self._line.cancel = cancel
+        self._line.is_committing = False
+        self._line.reconnections = 0
+        try:
+            return Sent(self._stage_and_commit(), self._line.reconnections)
+        except TransferError as error:
+            error.held = self.held
+            self._abort()
+            raise
+        except KeyboardInterrupt:
+            self._abort()
+            raise CancelledError("stopped", self.held) from None
+        except Exception as error:  # no memory, no handle: what the control holds is to be said all the same
+            self._abort()
+            raise TransferError(f"the exchange broke off ({unforeseen(error)})", self.held) from error
+        finally:
+            self._line.cancel = None
+            self._line.is_committing = False
+
+    def _stage_and_commit(self) -> Committed:
+        idle = spoilt = 0
+        while True:
+            before = self._reached
+            try:
+                return self._line.persist(self._attempt)
+            except RefusalError as refusal:
+                # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
+                # control may also have begun anew without the client's noticing; then it says how much it
+                # has.
+                if refusal.code == Code.DIGEST:
+                    spoilt, self._reached = spoilt + 1, 0
+                elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):
+                    further = self._reached - before > len(self._image) // STEPS
+                    idle = 0 if further else idle + 1
+                else:
+                    raise self._error(refusal) from None
+                if max(idle, spoilt) >= ATTEMPTS:
+                    raise self._error(refusal) from None
+                self._old_holds()
+
+    def _attempt(self, talk: Transaction) -> Committed:
+        """Take the download up where the control says, and commit it."""
+        total = len(self._image)
+        opening = OpenDownload(self._transfer, total, self._digest, self._expected, self._signature)
+        ready = talk.request(opening, Ready)
+        if ready.offset > total:
+            raise ProtocolMismatchError(
+                f"the control has staged {ready.offset} bytes of {total}, which cannot be"
+            )
+        if ready.offset < total:
+            # A commit asked for on an earlier line has not happened: what it needs is no longer staged.
+            self._old_holds()
+        if ready.offset < self._reached:
+            self._lose(ready.offset)
+
+        def done(staged: int) -> None:
+            self._reached = max(self._reached, staged)
+            self._line.moved(staged, total)
+            self._line.tell("download", staged, total)
+
+        done(ready.offset)
+        push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
+        return self._commit(talk)
+
+    def _commit(self, talk: Transaction) -> Committed:
+        cancel = self._line.cancel
+        if self.held == "old":
+            if cancel is not None and cancel.is_set():
+                raise CancelledError("stopped")
+            self._line.begin()  # the time for the commit counts from its first asking, over all lines
+        self._line.tell("commit", 0, 1)
+        self._line.is_committing = True  # from here on the matter is seen through
+        self.held = "unknown"
+        committed = talk.request(
+            Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT, tries=COMMIT_TRIES
+        )
+        self.held = "new"
+        self._line.further()
+        self._line.tell("commit", 1, 1)
+        return committed
+
+    def _old_holds(self) -> None:
+        """No commit has happened, and nothing needs to be seen through."""
+        self.held = "old"
+        self._line.is_committing = False
+
+    def _lose(self, offset: int) -> None:
+        """The control has lost some of what was staged: send it again, but not for ever."""
+        self._lost += 1
+        if self._lost > ATTEMPTS:
+            raise ProtocolMismatchError("the control loses again and again what was sent to it")
+        self._reached = offset
+        self._line.begin()
+
+    def _error(self, refusal: RefusalError) -> TransferError:
+        """Return the error of a refusal, which changes nothing: a commit that has happened is not refused.
+
+        Only where the image is another one after a commit was asked for, ours may have come and gone.
+        """
+        error = error_of(refusal)
+        welcome = self._line.welcome
+        if isinstance(error, ImageChangedError) and self.held == "unknown":
+            error.held = "new" if welcome is not None and welcome.sha256 == self._digest else "unknown"
+        self.held = error.held
+        return error
+
+    def _abort(self) -> None:
+        """Have the control throw the staged bytes away; one that does not hear it keeps them for nothing."""
+        self._line.cancel = None
+        if self.held == "old":
+            self._line.once(
+                lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1),
+                ABORT_WAIT,
+            )

@@ -1,0 +1,187 @@
+"""The client's side of an exchange: it survives cut lines and ends by saying what the control holds."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import threading
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, TransferError
+from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
+from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.progress import Progress, quiet
+
+from .connection import PAUSE, Connection, OpenLink, OutOfTimeError
+from .download_transfer import DownloadTransfer, Sent
+from .message import (
+    RefusalError,
+    Restart,
+    Restarting,
+    State,
+    Status,
+    Welcome,
+    shorten,
+)
+from .refusals import error_of
+from .retry_timer import RetryPolicy
+from .transaction import NoAnswerError, Transaction
+from .upload_transfer import UploadTransfer
+
+Result = TypeVar("Result")
+
+
+__all__ = ["Progress", "Session", "quiet"]
+
+
+class Session:
+    """An exchange with one control.
+
+    ``open_link`` makes the line, and makes it again when it is cut, for up to ``patience`` seconds without
+    progress; while it waits, it calls the function it is given at least every 0.1 s. ``family`` is the family
+    the control must be of ("" for any). ``clock`` and ``sleep`` are in seconds. A session belongs to one
+    thread; only a cancel event may be set from another. A ``progress`` is told within 2 s when nothing is
+    answered.
+    """
+
+    def __init__(
+        self,
+        open_link: OpenLink,
+        *,
+        family: str = "",
+        patience: float = 20.0,
+        policy: RetryPolicy | None = None,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+        random_bytes: Callable[[int], bytes] = os.urandom,
+        client: str = "AMP Studio",
+    ) -> None:
+        self._line = Connection(
+            open_link,
+            family=family,
+            client=shorten(client),
+            patience=patience,
+            policy=policy or RetryPolicy(),
+            clock=clock,
+            sleep=sleep,
+            random_bytes=random_bytes,
+        )
+
+    @classmethod
+    def at(cls, address: Endpoint | str, *, family: str = "", patience: float = 20.0) -> Session:
+        """Return a session with the control at an address; raises ValueError when it is none."""
+        place = parse_endpoint(address) if isinstance(address, str) else address
+        return cls(lambda look: connect(place, look=look), family=family, patience=patience)
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Hang up."""
+        self._line.close()
+
+    # -- asking ------------------------------------------------------------------------------------
+
+    def hello(self, cancel: threading.Event | None = None, progress: Progress = quiet) -> Welcome:
+        """Return who the control is and what it holds; connects where there is no line yet.
+
+        Raises NoConnectionError, ControlSilentError, ControlBusyError, WrongFamilyError, ProtocolMismatchError, CancelledError.
+        """
+        self._line.cancel, self._line.progress = cancel, progress
+        self._line.begin()
+        try:
+            return self._line.greet()
+        except LinkError as error:
+            failure: TransferError = NoConnectionError(f"no connection to the control ({error})")
+        except NoAnswerError:
+            failure = ControlSilentError("the control does not answer")
+        except RefusalError as refusal:
+            failure = error_of(refusal)
+        self.close()
+        raise failure
+
+    def status(self) -> State:
+        """Return the state of the control; raises TransferError."""
+        return self._ask(lambda talk: talk.request(Status(), State))
+
+    def restart(self) -> int:
+        """Have the control restart and return the incarnation that ends; raises TransferError."""
+        incarnation = self.hello().incarnation
+        self._ask(lambda talk: talk.request(Restart(incarnation), Restarting))
+        self.close()
+        return incarnation
+
+    def wait_restarted(
+        self,
+        incarnation: int,
+        seconds: float,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Welcome | None:
+        """Call the control until it answers with another incarnation; None when it has not after ``seconds``.
+
+        Raises CancelledError and what tells that another control answers.
+        """
+        line = self._line
+        start = line.now()
+
+        def waiting(*_: object) -> None:  # the control's silence is what is waited out here
+            progress("restart", int((line.now() - start) * 10), max(1, int(seconds * 10)))
+
+        line.cancel, line.progress = cancel, waiting
+        self.close()
+        line.begin(seconds)
+        while line.now() - start < seconds:
+            line.tell("restart", 0, 1)
+            try:
+                welcome = line.greet(tries=1)
+            except (LinkError, NoAnswerError, RefusalError):
+                self.close()
+            else:
+                if welcome.incarnation != incarnation:
+                    line.further()
+                    line.progress = progress
+                    line.tell("restart", 1, 1)
+                    return welcome
+            with contextlib.suppress(OutOfTimeError):
+                line.pause(PAUSE)
+        return None
+
+    # -- images ------------------------------------------------------------------------------------
+
+    def fetch(
+        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+    ) -> bytes:
+        """Return the control's active image, checked against its digest; raises TransferError."""
+        self._line.cancel, self._line.progress = cancel, progress
+        return UploadTransfer(self._line, stage).run()
+
+    def send(
+        self,
+        image: bytes,
+        *,
+        signature: str,
+        expected: bytes,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Sent:
+        """Have the control replace the image whose SHA-256 is ``expected`` by ``image``, all or nothing.
+
+        Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through, for
+        up to 5 s more (not at all where the event is a Stop that was set twice). Raises TransferError, whose
+        ``held`` says what the control holds.
+        """
+        self._line.progress = progress
+        return DownloadTransfer(self._line, image, signature, expected).run(cancel)
+
+    def _ask(self, action: Callable[[Transaction], Result]) -> Result:
+        try:
+            return self._line.persist(action)
+        except RefusalError as refusal:
+            raise error_of(refusal) from None

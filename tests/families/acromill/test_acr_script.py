@@ -1,0 +1,519 @@
+"""The ACR command script: every command as the guide prints it, and what else a terminal may be sent."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from amp_studio.cli import run
+from amp_studio.families.acromill.formats.acr_command import commands_of
+from amp_studio.families.acromill.formats.acr_script import FORMAT, ORDER
+from amp_studio.files import Header, ParameterFile, content_of, new_file, open_file
+from amp_studio.files.storage import read_content
+from amp_studio.formats import FormatError, export_file, file_of, import_file
+from amp_studio.schema import Schema, Value, load_schema, read_address
+from amp_studio.schema.catalog import schema_of
+from amp_studio.schema.load import compile_family
+from tests.families.servo57c422b.small_module import taken, told
+
+MILL = load_schema("acromill")
+AXES = "XYZABCUV"
+
+# The blocks of appendix C (pages 114 to 135), one behind the other; of MULT and DAC0 GAIN one form each.
+PRINTED = """PROG0
+PPU X4096 Y4096
+EXC AXIS0 4 AXIS1 4 AXIS2 4 AXIS3 4 AXIS4 4 AXIS5 4 AXIS6 4 AXIS7 4
+
+PLC0
+HALT
+NEW
+10    LD 769
+20    AND 801
+90    OUT 32
+RUN
+
+MULT X-4     (Times 4 multiplication in opposite direction)
+DAC0 GAIN 3276.8 (Dac0 normal polarity)
+NOTCH X(500, 50)
+
+REM This sets up one of the BiQuads as a NOTCH filter at 500Hz with 50Hz bandwidth.
+P12341=P12336
+"""
+
+
+def said_of(file: ParameterFile) -> dict[str, Value]:
+    return {f"{a[0]}@{a[1]}" if a[1] else a[0]: value for a, value in file.values.items()}
+
+
+def mill(**said: Value) -> ParameterFile:
+    """Return a file with values: ``servo_p_gain_X=Value(…)``."""
+    file = ParameterFile(MILL, Header(name="TRY"))
+    for key, value in said.items():
+        group, _, rest = key.partition("_")
+        name, _, instance = rest.rpartition("_")
+        file.set((f"{group}.{name}", instance), value)
+    return file
+
+
+# -- as it is printed ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("line", "values"),
+    [
+        (
+            "PPU X4096 Y4096",
+            {f"axes.pulses_per_unit@{a}": Value(4096.0, "counts/in") for a in "XY"},
+        ),  # page 114
+        (
+            "EXC AXIS0 4 AXIS1 4 AXIS2 4 AXIS3 4 AXIS4 4 AXIS5 4 AXIS6 4 AXIS7 4",  # page 114
+            {f"axes.excess_error_band@{a}": Value(4.0, "in") for a in AXES},
+        ),
+        (
+            "MULT X4      (Times 4 multiplication in default direction)",
+            {"axes.encoder_multiplier@X": Value(4)},
+        ),
+        (
+            "MULT X-4     (Times 4 multiplication in opposite direction)",
+            {"axes.encoder_multiplier@X": Value(-4)},
+        ),
+        ("DAC0 GAIN 3276.8 (Dac0 normal polarity)", {"tuning.dac_gain@X": Value(3276.8)}),
+        ("DAC0 GAIN -3276.8 (Dac0 opposite polarity)", {"tuning.dac_gain@X": Value(-3276.8)}),
+        ("TLM X 2", {"servo.torque_limits@X": Value(2.0, "V")}),  # page 115
+        ("TLM X4", {"servo.torque_limits@X": Value(4.0, "V")}),  # page 115
+        ("LOPASS X1000", {"tuning.lopass_frequency@X": Value(1000.0, "Hz")}),  # page 128
+        (
+            "NOTCH X(500, 50)",  # page 128
+            {"tuning.notch_frequency@X": Value(500.0, "Hz"), "tuning.notch_width@X": Value(50.0, "Hz")},
+        ),
+        (
+            "NOTCH X(100,100)",
+            {"tuning.notch_frequency@X": Value(100.0, "Hz"), "tuning.notch_width@X": Value(100.0, "Hz")},
+        ),
+        ("REM This sets up one of the BiQuads as a LOPASS filter", {}),
+        ("", {}),
+        ("P3=55555", {"p.controller@3": Value(55555.0)}),
+    ],
+)
+def test_a_line_of_the_guide_is_read_as_it_is_printed(line: str, values: dict[str, Value]) -> None:
+    assert said_of(taken(FORMAT, MILL, line)) == values
+
+
+@pytest.mark.parametrize(
+    ("word", "name", "figure", "value"),
+    [
+        ("PGAIN", "servo.p_gain", "0.08", 0.08),
+        ("IGAIN", "servo.i_gain", "2", 2.0),
+        ("IDELAY", "servo.i_delay", "0.01", 0.01),
+        ("ILIMIT", "servo.i_limit", "2", 2.0),
+        ("DWIDTH", "servo.d_time", "0", 0.0),
+        ("DGAIN", "servo.d_gain", "0.00021", 0.00021),
+        ("FFVEL", "servo.vel_ffwd", "0.0000015", 1.5e-6),
+        ("FFACC", "servo.acc_ffwd", "0.000000199", 1.99e-7),
+        ("TLM", "servo.torque_limits", "4", 4.0),
+        ("FBVEL", "tuning.fbvel", "0", 0.0),
+    ],
+)
+def test_a_gain_of_appendix_c_is_written_with_its_axis_and_without_an_exponent(
+    word: str, name: str, figure: str, value: float
+) -> None:
+    """The figures are those the appendix ends with; it prints them in lists, and only TLM with an axis (page 115)."""
+    unit = MILL.units_of(MILL.parameter(name))[0]
+    for axis in "XV":
+        file = mill()
+        file.set((name, axis), Value(value, unit))
+        assert FORMAT.write(file).split("\n")[2:] == [f"{word} {axis}{figure}", ""]
+        assert taken(FORMAT, MILL, f"{word} {axis}{figure}").values == file.values
+
+
+def test_a_script_has_one_setting_a_line_and_scales_and_limits_before_the_gains() -> None:
+    file = mill(
+        servo_p_gain_X=Value(0.00244, "V/count"), servo_p_gain_Y=Value(1e-7, "V/count"),
+        axes_excess_error_band_Y=Value(25.4, "mm"), axes_pulses_per_unit_X=Value(4096.0, "counts/in"),
+        axes_encoder_multiplier_X=Value(-4), tuning_dac_gain_Z=Value(-3276.8), p_controller_12=Value(0.5),
+        tuning_notch_frequency_X=Value(500.0, "Hz"), tuning_notch_width_X=Value(50.0, "Hz"),
+    )  # fmt: skip
+    assert FORMAT.write(file).split("\n") == [
+        "REM ACR command script of TRY",
+        "REM units inch",  # the printed default (page 61)
+        "PPU X4096",
+        "MULT X-4",
+        "DAC2 GAIN -3276.8",
+        "EXC AXIS1 1",
+        "NOTCH X(500, 50)",
+        "PGAIN X0.00244",
+        "PGAIN Y0.0000001",
+        "P12=0.5",
+        "",
+    ]
+
+
+def test_no_gain_stands_before_its_scale_its_sign_its_limits_and_its_damping() -> None:
+    """A controller obeys line by line: pages 114 and 115 set them in this order."""
+    rows = FORMAT.write(new_file("acromill")).split("\n")[2:-1]
+    words = list(dict.fromkeys(row.split(" ")[0].rstrip("01234567") for row in rows))
+    assert words == [
+        "PPU", "MULT", "DAC", "EXC", "TLM", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT", "IGAIN", "FFVEL",
+        "FFACC",
+    ]  # fmt: skip
+
+
+def test_every_word_of_the_order_is_that_of_a_command() -> None:
+    words = {re.match("[A-Z]*", s.template)[0] for c in commands_of(MILL, "mill") for s in c.settings}  # type: ignore[index]  # it always matches
+    assert words == {*ORDER, "P"}
+
+
+def test_what_is_set_later_stands_before_the_gains_of_a_kept_script() -> None:
+    back = taken(FORMAT, MILL, "PROG0\nPGAIN X0.01\nRES X", keep=True)
+    back.set(("servo.torque_limits", "X"), Value(4.0, "V"))
+    back.set(("servo.i_gain", "X"), Value(0.1, "V/count/s"))
+    assert FORMAT.write(back).split("\n") == ["PROG0", "TLM X4", "PGAIN X0.01", "IGAIN X0.1", "RES X"]
+
+
+def test_a_new_file_reads_back_as_it_was() -> None:
+    file = new_file("acromill", name="NEW")
+    back = taken(FORMAT, MILL, FORMAT.write(file))
+    assert len(back.values) == 1 + 14 * 8, "the unit, and fourteen commands for eight axes"
+    assert back.values.items() <= file.values.items()
+
+
+# -- units -------------------------------------------------------------------------------------------------
+
+
+def test_bare_figures_are_in_the_unit_of_the_machine() -> None:
+    """Default Units says what a unit is (page 61), and the remark of the script what it was."""
+    file = mill(axes_excess_error_band_X=Value(1.0, "in"), axes_pulses_per_unit_X=Value(25400.0, "counts/in"))
+    file.set(("control.default_units", ""), Value("metric"))
+    assert FORMAT.write(file).split("\n")[1:] == ["REM units metric", "PPU X1000", "EXC AXIS0 25.4", ""]
+    back = taken(FORMAT, MILL, FORMAT.write(file))
+    assert said_of(back) == {
+        "control.default_units": Value("metric"),
+        "axes.pulses_per_unit@X": Value(1000.0, "counts/mm"),
+        "axes.excess_error_band@X": Value(25.4, "mm"),
+    }
+    assert FORMAT.write(back).split("\n")[1:] == FORMAT.write(file).split("\n")[1:]
+
+
+def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
+    back = taken(FORMAT, MILL, "EXC AXIS0 4")
+    assert said_of(back) == {"axes.excess_error_band@X": Value(4.0, "in")}
+    assert FORMAT.write(back).split("\n")[2:] == ["EXC AXIS0 4", ""]
+    assert told(FORMAT, MILL, "PPU X1\nREM units furlong") == (
+        "line 2, column 11: 'furlong' is no unit system here: metric, inch"
+    )
+
+
+# -- what cannot be meant ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("PPU X1\nPROG0", "line 2, column 1: 'PROG0' is no command that sets a parameter here"),
+        ("PPU X1\n  RES X", "line 2, column 3: 'RES X' is no command that sets a parameter here"),
+        ("P12341=P12336", "line 1, column 1: 'P12341=P12336' is no command that sets a parameter here"),
+        ("P200=1", "line 1, column 1: 'P200=1' is no command"),
+        (f"PRINT {'9' * 34}", f"line 1, column 1: 'PRINT {'9' * 34}' is no command"),
+        (f"PRINT {'9' * 35}", f"line 1, column 1: 'PRINT {'9' * 33}…' is no command"),
+        ("10    LD 769", "line 1, column 1: '10    LD 769' is no command"),
+        ("DAC8 GAIN 1", "line 1, column 1: 'DAC8 GAIN 1' is no command"),
+        ("DAC0 GAIN 1 DAC1 GAIN 2", "line 1, column 13: 'DAC1 GAIN 2' is no command"),
+        ("PGAIN\t0.05", "line 1, column 7: '0.05' sets nothing: PGAIN is written as 'PGAIN X1', for X, Y, Z, A, B, C, U, V"),
+        ("PGAIN", "line 1, column 6: PGAIN alone sets nothing: it is written as 'PGAIN X1', for X, Y"),
+        ("PGAIN X", "line 1, column 7: 'X' sets nothing: PGAIN is written as 'PGAIN X1'"),
+        ("PPU X4096 Q4096", "line 1, column 11: 'Q4096' sets nothing: PPU is written as 'PPU X1'"),
+        ("PPU X4096Y4096", "line 1, column 5: 'X4096Y4096' sets nothing: PPU is written as"),
+        ("EXC X4", "line 1, column 5: 'X4' sets nothing: EXC is written as 'EXC AXIS0 1'"),
+        ("EXC AXIS0 4 AXIS8 4", "line 1, column 13: 'AXIS8 4' sets nothing: EXC is written as 'EXC AXIS0 1'"),
+        ("NOTCH X(500)", "line 1, column 7: 'X(500)' sets nothing: NOTCH is written as 'NOTCH X(1, 1)'"),
+        ("TLM X#1", "line 1, column 5: 'X#1' sets nothing: TLM is written as 'TLM X1'"),
+        ("MULT X1.5", "line 1, column 7: Encoder Mult takes whole numbers, not 1.5"),
+        ("PPU X1 Y1E400", "line 1, column 9: '1E400' is too large"),
+        ("TLM X1\nTLM Y1 X2", "line 2, column 8: TLM X stands twice, in line 1 already"),
+        ("NOTCH X(1, 2)\nNOTCH X(3, 4)", "line 2, column 7: NOTCH X stands twice, in line 1 already"),
+        ("P1=1 (x)\np1 = 2", "line 2, column 1: P1 stands twice, in line 1 already"),
+    ],
+)  # fmt: skip
+def test_a_script_that_cannot_be_meant_is_told_with_its_place(text: str, said: str) -> None:
+    assert told(FORMAT, MILL, text).startswith(said)
+
+
+@pytest.mark.parametrize(
+    ("line", "values"),
+    [
+        ("ppu x 4096  y +4096.", {f"axes.pulses_per_unit@{a}": Value(4096.0, "counts/in") for a in "XY"}),
+        ("\tNotch X ( 500 , 5.E1 )\r", {"tuning.notch_frequency@X": Value(500.0, "Hz"), "tuning.notch_width@X": Value(50.0, "Hz")}),
+        ("EXC AXIS1 -.25 Axis 0 0.000000E+00", None),
+        ("EXC AXIS1 -.25 axis0 0.000000E+00", {"axes.excess_error_band@Y": Value(-0.25, "in"), "axes.excess_error_band@X": Value(0.0, "in")}),
+        ("dac7  gain  1", {"tuning.dac_gain@V": Value(1.0)}),
+        ("P33 = -2", {"p.controller@33": Value(-2.0)}),
+        ("rem PPU X1", {}),
+        ("REMOTE", None),
+    ],
+)  # fmt: skip
+def test_blanks_and_small_letters_make_no_difference(line: str, values: dict[str, Value] | None) -> None:
+    if values is None:
+        assert told(FORMAT, MILL, line)
+    else:
+        assert said_of(taken(FORMAT, MILL, line)) == values
+
+
+def test_a_setting_that_lacks_one_of_its_values_is_told() -> None:
+    file = mill(tuning_notch_frequency_Y=Value(500.0, "Hz"))
+    with pytest.raises(
+        FormatError, match=r"^NOTCH Y has several values, and tuning\.notch_width@Y is not set$"
+    ):
+        FORMAT.write(file)
+
+
+def test_a_value_in_a_unit_of_something_else_is_told() -> None:
+    for value, name in ((Value(1.0, "ms"), "ms"), (Value(1.0), "a bare number")):
+        with pytest.raises(
+            FormatError, match=rf"^servo\.p_gain@X: P Gain is kept in V/count, not in {name}$"
+        ):
+            FORMAT.write(mill(servo_p_gain_X=value))
+
+
+def test_a_script_without_settings_is_known_by_its_head() -> None:
+    assert FORMAT.recognises(FORMAT.write(mill()))
+    assert not FORMAT.recognises("REM hello\nPROG0\n")
+
+
+def test_an_axis_the_machine_does_not_have_is_left_out() -> None:
+    file = mill(axes_encoder_multiplier_X=Value(4), axes_encoder_multiplier_Z=Value(4))
+    file.set(("view.number_of_axes", ""), Value(2))
+    assert FORMAT.write(file).split("\n")[2:] == ["MULT X4", ""]
+
+
+# -- what is kept --------------------------------------------------------------------------------------------
+
+
+def test_commands_that_set_nothing_are_kept_and_written_back_in_their_place() -> None:
+    file = taken(FORMAT, MILL, PRINTED, keep=True)
+    assert list(file.unknown.items()) == [
+        ("acr line 1", "PROG0"),
+        ("acr line 5", "PLC0"),
+        ("acr line 6", "HALT"),
+        ("acr line 7", "NEW"),
+        ("acr line 8", "10    LD 769"),
+        ("acr line 9", "20    AND 801"),
+        ("acr line 10", "90    OUT 32"),
+        ("acr line 11", "RUN"),
+        ("acr line 18", "P12341=P12336"),
+    ]
+    written = (
+        PRINTED.replace("X4096 Y4096", "X4096\nPPU Y4096")
+        .replace(" 4 AXIS", " 4\nEXC AXIS")
+        .replace("     (Times 4 multiplication in opposite direction)", "")
+        .replace(" (Dac0 normal polarity)", "")
+    )
+    assert FORMAT.write(file) == written
+    assert taken(FORMAT, MILL, written, keep=True).values == file.values
+    again = read_content(Path("TRY.amp"), content_of(file))
+    assert FORMAT.write(again) == written, "the parameter file keeps them too"
+
+
+def test_values_changed_in_a_kept_script_stand_in_its_place() -> None:
+    file = taken(FORMAT, MILL, "PROG0\nTLM X4\nPPU X1\nPROG1\nTLM Y4\nHALT", keep=True)
+    file.set(("servo.torque_limits", "X"), Value(3.0, "V"))
+    file.set(("servo.torque_limits", "Y"), None)
+    file.set(("servo.p_gain", "X"), Value(0.1, "V/count"))
+    file.set(("servo.torque_limits", "Z"), Value(5.0, "V"))
+    assert FORMAT.write(file).split("\n") == [
+        "PROG0",
+        "TLM X3",
+        "PPU X1",
+        "TLM Z5",
+        "PGAIN X0.1",
+        "PROG1",
+        "HALT",
+    ]
+
+
+def test_what_is_set_twice_is_kept_for_the_run_of_the_script_to_decide() -> None:
+    """X of program 0 may be another axis than X of program 1."""
+    text = "PROG0\nPPU X1 Y2\nPROG1\nPPU X3\nTLM X4\n"
+    file = taken(FORMAT, MILL, text, keep=True)
+    assert (said_of(file), FORMAT.write(file)) == ({"servo.torque_limits@X": Value(4.0, "V")}, text)
+
+
+def test_a_kept_script_names_its_unit_once_it_is_another_one() -> None:
+    file = taken(FORMAT, MILL, "HALT\nEXC AXIS0 1\n", keep=True)
+    file.set(("control.default_units", ""), Value("metric"))
+    assert FORMAT.write(file) == "REM units metric\nHALT\nEXC AXIS0 25.4\n"
+    back = taken(FORMAT, MILL, FORMAT.write(file), keep=True)
+    back.set(("control.default_units", ""), Value("inch"))
+    assert FORMAT.write(back) == "REM units inch\nHALT\nEXC AXIS0 1\n"
+
+
+def test_new_values_stand_at_the_end_of_a_script_that_had_none() -> None:
+    file = taken(FORMAT, MILL, "SYS\nHALT ALL\n", keep=True)
+    file.set(("servo.torque_limits", "X"), Value(4.0, "V"))
+    assert FORMAT.write(file) == "SYS\nHALT ALL\nTLM X4\n"
+
+
+def test_a_script_of_known_commands_leaves_nothing_behind() -> None:
+    read = FORMAT.read("REM of mine\n\nTLM X4 (volts)\n", MILL, True)
+    assert (read.unknown, read.extra) == ({}, {})
+
+
+# -- the verbs -------------------------------------------------------------------------------------------------
+
+
+def test_the_verbs_know_a_script_by_its_commands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    script = tmp_path / "initfile.8k"
+    script.write_bytes(b"\xef\xbb\xbfREM caf\xc3\xa9\r\nTLM X4\r\nRES X\r\n")
+    assert run(["import", str(script), "-o", str(tmp_path / "a.amp")]) == 2
+    assert "line 3, column 1: 'RES X' is no command" in capsys.readouterr().err
+    assert run(["import", str(script), "-o", str(tmp_path / "a.amp"), "--keep-unknown"]) == 0
+    assert "kept without knowing it: acr line 3" in capsys.readouterr().err
+    file = open_file(tmp_path / "a.amp").file
+    assert said_of(file) == {"servo.torque_limits@X": Value(4.0, "V")}
+    assert run(["export", str(tmp_path / "a.amp"), "-o", str(tmp_path / "b.acr")]) == 0
+    assert (tmp_path / "b.acr").read_bytes() == b"REM caf\xc3\xa9\r\nTLM X4\r\nRES X\r\n"
+    export_file(new_file("acromill", name="NEW"), tmp_path / "c.acr")
+    assert import_file(tmp_path / "c.acr").get(("servo.p_gain", "U")) == Value(0.00244, "V/count")
+
+
+# -- properties --------------------------------------------------------------------------------------------------
+
+SETTINGS = [s for command in commands_of(MILL, "mill") for s in command.settings]
+FIGURES = st.one_of(
+    st.integers(-(10**6), 10**6).map(float),
+    st.floats(-1e9, 1e9),
+    st.floats(-1e-6, 1e-6),
+    st.sampled_from([5e-324, 1.7976931348623157e308, -0.0, 0.1 + 0.2]),
+)
+
+
+@given(
+    data=st.data(),
+    chosen=st.lists(st.sampled_from(SETTINGS), unique=True),
+    system=st.sampled_from(["inch", "metric"]),
+)
+@settings(max_examples=60)
+def test_a_value_in_the_unit_of_its_figure_comes_back_exactly(
+    data: st.DataObject, chosen: list[object], system: str
+) -> None:
+    file = mill()
+    file.set(("control.default_units", ""), Value(system))
+    for setting in chosen:
+        for address in setting.addresses:
+            parameter = MILL.parameter(address[0])
+            unit = (parameter.storage.unit if parameter.storage else None) or MILL.unit(
+                parameter, system, False
+            )
+            number = data.draw(FIGURES if parameter.type == "real" else st.integers(-(2**31), 2**31))
+            file.set(address, Value(number, unit))
+    text = FORMAT.write(file)
+    assert not re.search(r"[0-9]e[+-]?[0-9]", text, re.IGNORECASE), "no figure has an exponent"
+    back = file_of(MILL, FORMAT.read(text, MILL, False), "TRY")
+    assert back.values == file.values
+    assert FORMAT.write(back) == text
+
+
+@given(
+    lines=st.lists(
+        st.sampled_from(
+            ["PROG0", "HALT", "", "  ", "REM x", "TLM X4", "PPU X1", "EXC AXIS2 -0.5", "DAC1 GAIN 2", "NOTCH Y(1, 2)", "P7=8",
+             "10 LD 769", "P12341=P12336", "{axes.pulses_per_unit@X}", "{{line 1}", "{line 1}", "TLM X", "REM units inch", "RES X #"]
+        )
+    )
+)  # fmt: skip
+def test_a_script_with_other_commands_comes_back_as_it_was(lines: list[str]) -> None:
+    text = "\n".join(lines)
+    file = file_of(MILL, FORMAT.read(text, MILL, True), "TRY")
+    if file.unknown:
+        assert FORMAT.write(file) == text
+        again = read_content(Path("TRY.amp"), content_of(file))
+        assert FORMAT.write(again) == text
+
+
+@given(
+    text=st.lists(
+        st.sampled_from(
+            ["PPU", "X", "Y", "EXC", "AXIS0", "AXIS9", " ", "4", "-", ".5", "E", "(", ")", ",", "NOTCH", "P", "=", "DAC0", "GAIN",
+             "\n", "\r\n", "\t", "REM", "é", "{", "}", "#", "1E999", "REM units inch\n", "units"]
+        ),
+        max_size=12,
+    ).map("".join),
+    keep=st.booleans(),
+)  # fmt: skip
+def test_any_text_is_read_or_told_with_its_line(text: str, keep: bool) -> None:
+    place = None
+    try:
+        file = file_of(MILL, FORMAT.read(text, MILL, keep), "TRY")
+    except FormatError as fault:
+        place = fault.line or 0
+    if place is None:
+        FORMAT.write(file)
+    else:
+        assert 1 <= place <= text.count("\n") + 1
+
+
+# -- other forms that a family may have ----------------------------------------------------------------------------
+
+SMALL = """
+family: small
+name: Small mill
+document: small-guide
+title: Small Guide
+machines: [{key: mill, name: Mill}]
+default_machine: mill
+scopes: {global: {instances: [""], label: Control}, axis: {instances: [X, X2, W], label: "Axis {i}"}}
+units: {metric: {length: mm}}
+effect: {level: at-once}
+groups: [all]
+"""
+COMMANDS = """
+  - {id: a.sense, name: Sense, type: choice, choices: [{key: up, label: Up, raw: 1}, {key: down, label: Down}],
+     storage: {command: "SENSE {v}"}, help: {what: A choice.}, page: "1"}
+  - {id: a.time, name: Time, scope: axis, type: real, quantity: time, unit: s,
+     storage: {unit: ms, scale: 2, decimals: 1, command: "SET TIME{n}: {a.time} {a.sense2}"}, help: {what: A time.}, page: "1"}
+  - {id: a.sense2, name: Word, scope: axis, type: bits, storage: {bits: 16, command: "SET TIME{n}: {a.time} {a.sense2}"},
+     help: {what: A word.}, page: "1"}
+  - {id: a.note, name: Note, type: text, storage: {command: "NOTE {v}"}, help: {what: A text.}, page: "1"}
+"""
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> Schema:
+    """Return a family with other forms of commands than AcroMill has."""
+    folder = tmp_path_factory.mktemp("made") / "small"
+    (folder / "groups").mkdir(parents=True)
+    (folder / "family.yaml").write_text(SMALL, "utf-8")
+    (folder / "groups" / "all.yaml").write_text(
+        f'key: all\nname: All\nchapter: "1"\nparameters:\n{COMMANDS}', "utf-8"
+    )
+    return schema_of(compile_family(folder))
+
+
+def test_codes_scales_and_decimals_are_those_of_the_schema(small: Schema) -> None:
+    file = ParameterFile(small, Header(name="TRY"))
+    for name, value in (
+        ("a.sense", Value("up")),
+        ("a.time@X2", Value(0.01234, "s")),
+        ("a.sense2@X2", Value(7)),
+    ):
+        file.set(read_address(name), value)
+    assert FORMAT.write(file).split("\n")[1:] == ["SENSE 1", "SET TIME1: 24.7 7", ""]  # 24.68, to one decimal
+    back = taken(FORMAT, small, "SENSE 1\nset time1 : 24.7 7")
+    assert said_of(back) == {"a.sense": Value("up"), "a.time@X2": Value(12.35, "ms"), "a.sense2@X2": Value(7)}
+    assert said_of(taken(FORMAT, small, "SENSE -3")) == {"a.sense": Value("raw:-3")}
+    assert told(FORMAT, small, "SENSE .5") == "line 1, column 7: Sense takes whole numbers, not .5"
+
+
+def test_what_has_no_figure_is_told(small: Schema) -> None:
+    file = ParameterFile(small)
+    for name, value, said in (
+        ("a.note", Value("hello"), "a.note: Note is a text, which is no figure"),
+        ("a.sense", Value("down"), "a.sense: no code is printed for 'Down' of Sense"),
+    ):
+        file.set((name, ""), value)
+        with pytest.raises(FormatError, match=said):
+            FORMAT.write(file)
+        file.set((name, ""), None)

@@ -1,0 +1,15 @@
+"""The small servo module of the tests of the AutoMax formats."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.schema import Schema
+
+from .small_module import small_module
+
+
+@pytest.fixture(scope="session")
+def module(tmp_path_factory: pytest.TempPathFactory) -> Schema:
+    """Return a small servo module with every kind of register."""
+    return small_module(tmp_path_factory.mktemp("made") / "small")

@@ -1,0 +1,510 @@
+r"""AutoMax texts of a servo module: tables of registers, and the assignments of BASIC tasks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import run
+from amp_studio.families.servo57c422b.formats.automax import TABLE, TASK
+from amp_studio.families.servo57c422b.formats.registers import Registers
+from amp_studio.files import Header, ParameterFile, content_of, open_file
+from amp_studio.files.storage import read_content
+from amp_studio.formats import FormatError, export_file, import_file
+from amp_studio.schema import Schema, Value, load_schema
+from tests.families.servo57c422b.small_module import filled, taken, told
+
+# The example of section 5.3 as it is printed (page 5-5), line 24999 and its end put right where the text of the
+# page has them out of order.
+INITIALIZATION = r"""1000 !
+1010 ! Initialize Axis Parameters
+1020 !
+2000 ENCODER_SETUP%=01414H\!Rotary, polarity reversed, *4
+2010 DRIVE_SETUP%=02H \!Polarity reversed, current ref
+2020 SWITCHES%=01DH \!Marker pulse, home negative
+2030 PGAIN%=18700 \!Position Gain
+2040 IGAIN%=1575 \!Integral Gain
+2050 VGAIN%=140 \!Velocity Gain
+2060 FGAIN%=8256 \!V Feedforward Gain
+2070 DBCOMP%=27 \!Deadband Compensation
+2080 MAX_FOLL_ERR%=1000 \!Maximum following error
+2090 MAX_VEL_ERR%=8 \!Maximum velocity error
+2100 IN_TOLERANCE%=40 \!In position tolerance
+2110 GEAR_RATIO!=16777216 \!Gear ratio
+2120 MAX_VOLTS%=1984 \!Maximum drive reference value
+2130 P_CONST%=-1 \!Positive linearization constant
+2140 N_CONST%=-1 \!Negative linearization constant
+2150 FDBK_UNWIND!=4000 \!V Fdbk unwind = 1 revolution
+2160 GEAR_UNWIND!=4000 \!Gearing unwind = 1 revolution
+2170 MODES%=0
+"""
+COMMAND = r"""2180 CMD66%=0200H\GOSUB 25000\!Change default setups
+2190 !
+24999 ! Subroutine to write command to module
+25000 DELAY 2 TICKS \IF NOT (CMD_ACK@ OR ILLEGAL_CMD@) &
+THEN GOTO 25000
+25005 FAULT@=ILLEGAL_CMD@
+25010 CMD66%=0 \CMD67%=0
+25015 DELAY 2 TICKS \IF CMD_ACK@ THEN GOTO 25015
+25020 RETURN
+30000 END
+"""
+PRINTED = {
+    "setup.encoder@X": Value(0x1414),
+    "setup.drive@X": Value(2),
+    "setup.switches@X": Value(0x1D),
+    "gain.proportional@X": Value(18700),
+    "gain.integral@X": Value(1575),
+    "gain.velocity@X": Value(140),
+    "gain.feedforward@X": Value(8256),
+    "gain.deadband@X": Value(27),
+    "setup.max_position_error@X": Value(1000, "counts"),
+    "setup.max_velocity_error@X": Value(6400.0, "counts/s"),  # 8 counts in a scan of 1.25 ms (page 4-9)
+    "setup.in_position_tolerance@X": Value(40, "counts"),
+    "command.gear_ratio@X": Value(1.0),
+    "output.max_voltage@X": Value(10.0, "V"),
+    "output.linearization_positive@X": Value(-1),
+    "output.linearization_negative@X": Value(-1),
+    "output.feedback_unwind@X": Value(4000, "counts"),
+    "output.gearing_unwind@X": Value(4000, "counts"),
+    "control.mode@X": Value(0),
+}
+
+
+@pytest.fixture(scope="module")
+def servo() -> Schema:
+    """Return the real 57C422B family."""
+    return load_schema("57c422b")
+
+
+def said_of(file: ParameterFile) -> dict[str, Value]:
+    return {f"{a[0]}@{a[1]}": value for a, value in file.values.items()}
+
+
+# -- tables of registers -----------------------------------------------------------------------------
+
+
+def test_a_table_has_a_line_a_register_and_two_for_a_double_word(module: Schema) -> None:
+    file = filled(
+        module, gain_X="-5", gain_Y="3", travel_X="40000 counts", setup_X="0x1414", slow_Y="2000 counts/s",
+        point_X__1="-2 counts", volts_X="10 V", sense_X="Down", marker_Y="On",
+    )  # fmt: skip
+    file.header.name = "SHUTTLE"
+    assert TABLE.write(file).split("\n") == [
+        "! Register table of SHUTTLE, Small module",
+        "! register\tvalue\tparameter",
+        "0\t01414H\tSetup (X axis), 0x1414",
+        "3\t-5\tGain (X axis), -5",
+        "11\t0H\tTravel (X axis), 40000 counts",
+        "12\t09C40H\tthe rest of it",
+        "28\t1984\tVolts (X axis), 10 V",
+        "40\t-1\tSense (X axis), Down",
+        "134\t0FFFEH\tPoint (X axis, point 1), -2 counts",
+        "135\t0FFFFH\tthe rest of it",
+        "2051\t3\tGain (Y axis), 3",
+        "2063\t02H\tSlow (Y axis), 2000 counts/s",  # 2000 * 65.536 = 131072
+        "2064\t0H\tthe rest of it",
+        "2089\t1\tMarker (Y axis), On",
+        "",
+    ]
+    assert taken(TABLE, module, TABLE.write(file)).values == file.values
+
+
+def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
+    file = taken(
+        TABLE,
+        module,
+        """\
+        ! Saved on the machine
+        R3 = 100
+          r2051\t-1 ! proportional gain
+        12, 40000
+        11, 0
+        4;0FFFFH
+        134 65534
+        135 -1
+        """,
+    )
+    assert said_of(file) == {
+        "r.gain@X": Value(100),
+        "r.gain@Y": Value(-1),
+        "r.travel@X": Value(40000, "counts"),
+        "r.limit@X": Value(65535, "counts"),
+        "r.point@X.1": Value(-2, "counts"),
+    }
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("3 1\n12 5", "line 2, column 1: register 12 is half of Travel (X axis), registers 11, 12, and 11 is missing"),
+        ("11 5", "line 1, column 1: register 11 is half of Travel (X axis), registers 11, 12, and 12 is missing"),
+        ("! x\n\n  R300 17", "line 3, column 4: register 300 is of no parameter"),
+        ("2348 17", "line 1, column 1: register 2348 is of no parameter"),
+        ("3 40000", "line 1, column 3: 40000 does not fit the 16 bits of Gain, -32768 to 32767"),
+        ("3 65536", "line 1, column 3: 65536 does not fit the 16 bits of a register"),
+        ("3 -32769", "line 1, column 3: -32769 does not fit the 16 bits of a register"),
+        ("3 010000H", "line 1, column 3: 65536 does not fit the 16 bits of a register"),
+        ("4 -1", "line 1, column 3: -1 does not fit the 16 bits of Limit, 0 to 65535"),
+        ("5 128", "line 1, column 3: 128 does not fit the 8 bits of Byte, -128 to 127"),
+        ("5 0FFH", "line 1, column 3: 255 does not fit the 8 bits of Byte, -128 to 127"),
+        ("72 1", "line 1, column 1: register 72, Status (X axis), can only be read"),
+        ("2120 1", "line 1, column 1: register 2120, Status (Y axis), can only be read"),
+        ("3 1\n4 1\n3 1", "line 3, column 1: register 3 is written twice, in line 1 already"),
+        ("3", "line 1: a line is the number of a register and its value"),
+        ("gain 3", "line 1: a line is the number of a register and its value"),
+        ("3\tfast", "line 1, column 3: 'fast' is no whole number, as 1984, -1 or 01414H"),
+        ("3 0x10", "line 1, column 3: '0x10' is no whole number"),
+    ],
+)  # fmt: skip
+def test_a_table_that_cannot_be_meant_is_told_with_its_place(module: Schema, text: str, said: str) -> None:
+    assert told(TABLE, module, text).startswith(said)
+
+
+def test_the_other_registers_decide_what_a_shared_register_means(module: Schema) -> None:
+    """Registers 25 and 26 are one gear ratio or two numbers (page 4-15)."""
+    file = taken(TABLE, module, "25 1\n26 3\n38 04H\n2073 256\n2074 0")
+    assert said_of(file) == {
+        "r.modes@X": Value(4),
+        "r.over@X": Value(1),
+        "r.under@X": Value(3),
+        "r.ratio@Y": Value(1.0),
+    }
+    assert taken(TABLE, module, TABLE.write(file)).values == file.values
+    assert "register 25 is half of Ratio (X axis)" in told(TABLE, module, "25 1\n38 0")
+    assert said_of(taken(TABLE, module, "25 1\n38 04H")) == {"r.modes@X": Value(4), "r.over@X": Value(1)}
+
+
+def test_a_value_that_does_not_exist_here_is_not_written(module: Schema) -> None:
+    file = filled(module, modes_X="0x4", ratio_X="1", over_X="1", status_X="0x1")
+    assert [line.split("\t")[0] for line in TABLE.write(file).split("\n")[2:-1]] == ["25", "38"]
+    assert "\t1\tOver" in TABLE.write(file)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ({"gain_X": "70000"}, r"register 3, r\.gain@X: 70000 does not fit the 16 bits of Gain"),
+        (
+            {"fast_Y": "1e9 counts/s"},
+            r"register 2065, r\.fast@Y: 65536000000 does not fit the 32 bits of Fast",
+        ),
+        ({"sense_X": "Odd"}, r"register 40, r\.sense@X: no code is printed for 'Odd' of Sense"),
+    ],
+)
+def test_a_value_that_no_register_can_hold_is_told(module: Schema, value: dict[str, str], said: str) -> None:
+    file = filled(module, **value)
+    for form in (TABLE, TASK):
+        with pytest.raises(FormatError, match=said):
+            form.write(file)
+
+
+def test_registers_of_no_parameter_and_odd_halves_are_kept_where_that_is_wanted(module: Schema) -> None:
+    text = "3 1\n12 5\n300 17\n301 0FFFFH\n"
+    file = taken(TABLE, module, text, keep=True)
+    assert said_of(file) == {"r.gain@X": Value(1)}
+    assert file.unknown == {"R12": "5", "R300": "17", "R301": "0FFFFH"}
+    rows = TABLE.write(file).split("\n")[2:-1]
+    assert [row.split("\t")[:2] for row in rows] == [
+        ["3", "1"],
+        ["12", "5"],
+        ["300", "17"],
+        ["301", "0FFFFH"],
+    ]
+    assert taken(TABLE, module, TABLE.write(file), keep=True).unknown == file.unknown
+    with pytest.raises(FormatError, match=r"register 72, .* can only be read"):
+        taken(TABLE, module, "72 1", keep=True)
+    file.unknown["R300"] = "17\n18"
+    with pytest.raises(FormatError, match=r"R300: '17\\n18' is no whole number"):
+        TABLE.write(file)
+
+
+def test_a_dos_file_may_end_with_its_own_sign(module: Schema) -> None:
+    assert said_of(taken(TABLE, module, "3 1\r\n4 2\r\n\x1a")) == {
+        "r.gain@X": Value(1),
+        "r.limit@X": Value(2, "counts"),
+    }
+
+
+def test_names_with_other_signs_do_not_spoil_a_dos_file(module: Schema, tmp_path: Path) -> None:
+    file = filled(module, gain_X="3")
+    file.header.name = "Läufer\nЖ"
+    for form in (TABLE, TASK):
+        assert (
+            form.write(file)
+            .encode("cp437")
+            .splitlines()[0]
+            .endswith("Läufer ?, Small module".encode("cp437"))
+        )
+
+
+# -- the real module -----------------------------------------------------------------------------------
+
+
+def test_the_printed_initialization_gives_its_values(servo: Schema) -> None:
+    """Page 5-5: every variable of the example is the register its name and remark say."""
+    assert said_of(taken(TASK, servo, INITIALIZATION)) == PRINTED
+
+
+def test_the_printed_initialization_comes_back_as_it_was(servo: Schema) -> None:
+    file = taken(TASK, servo, INITIALIZATION + COMMAND, keep=True)
+    assert said_of(file) == PRINTED | {"control.command_67@X": Value(0)}
+    assert list(file.unknown) == [f"basic line {n}" for n in (2180, 25000, 25005, 25010, 25015, 25020, 30000)]
+    assert file.unknown["basic line 25010"] == "25010 CMD66%=0 \\{67}", (
+        "one command is given twice, so nothing tells"
+    )
+    assert TASK.write(file) == INITIALIZATION + COMMAND
+
+
+def test_a_kept_task_outlasts_the_parameter_file(servo: Schema) -> None:
+    file = taken(TASK, servo, INITIALIZATION + COMMAND, keep=True)
+    again = read_content(Path("TRY.amp"), content_of(file))
+    assert (again.values, again.unknown, again.header.extra) == (file.values, file.unknown, file.header.extra)
+    again = read_content(Path("TRY.amp"), content_of(again, content_of(file)))
+    assert TASK.write(again) == INITIALIZATION + COMMAND
+
+
+def test_values_changed_in_a_kept_task_stand_in_its_place(servo: Schema) -> None:
+    file = taken(TASK, servo, INITIALIZATION + COMMAND, keep=True)
+    file.set(("gain.proportional", "X"), Value(100))
+    file.set(("setup.drive", "X"), None)
+    file.set(("control.mode", "X"), None)
+    file.set(("setup.overtravel_positive", "X"), Value(-40000, "counts"))
+    file.set(("gain.proportional", "Y"), Value(7))
+    changed = (
+        (INITIALIZATION + COMMAND)
+        .replace("PGAIN%=18700", "PGAIN%=100")
+        .replace("2010 DRIVE_SETUP%=02H \\!", "2010 !")
+        .replace("2170 MODES%=0", "2170 !")
+        .replace("IN_TOLERANCE%=40 \\!", "IN_TOLERANCE%=40 \\ REG_11!=-40000 \\!")
+        .replace("CMD67%=0", "CMD67%=0 \\ REG_2051%=7")
+    )
+    assert TASK.write(file) == changed
+    assert taken(TASK, servo, changed, keep=True).values == file.values
+
+
+def test_the_printed_numbers_of_a_move_are_read_back_in_engineering_units(servo: Schema) -> None:
+    """20 units of 4000 counts at 40 units/s, and 12.5 units/s2 (page 4-48)."""
+    file = taken(TASK, servo, "4010 CMD_POS!=80000\n4020 CMD_VEL! = 10485760\n4030 CMD_ACC!=3277")
+    assert said_of(file) == {
+        "command.position@X": Value(80000, "counts"),
+        "command.velocity@X": Value(160000.0, "counts/s"),
+        "command.acceleration@X": Value(3277 / 0.065536, "counts/s2"),
+    }
+
+
+def test_a_double_precision_variable_has_its_upper_half_first(servo: Schema) -> None:
+    """INT_ENA_X!=80000000H is bit 15 of register 68, 00010000H its bit 0 (page 4-48)."""
+    for number, word in (("80000000H", 0x8000), ("00010000H", 1)):
+        values = said_of(taken(TASK, servo, f"15010 INT_ENA_X!={number}"))
+        assert values == {"interrupt.enable_status@X": Value(word), "interrupt.enable_fault@X": Value(0)}
+
+
+def test_a_cam_of_positions_is_written_word_by_word(servo: Schema) -> None:
+    """Its even registers are the lower half (page 4-57), and those of a ``!`` the upper one."""
+    file = ParameterFile(servo, Header(name="CAM"))
+    for name, value in (("cam.mode@X", Value(0x100)), ("cam.points@X", Value(2)),
+                        ("cam.position_points@X.0", Value(0, "counts")), ("cam.position_points@X.1", Value(70000, "counts"))):  # fmt: skip
+        file.set((name.split("@")[0], name.split("@")[1]), value)
+    task = TASK.write(file)
+    assert "REG_134%=01170H \\ REG_135%=01H \\!" in task
+    assert taken(TASK, servo, task).values == file.values == taken(TABLE, servo, TABLE.write(file)).values
+    assert said_of(taken(TASK, servo, "1 CAM_MODE%=0100H\n2 REG_128%=1\n3 REG_132!=1"))[
+        "cam.position_points@X.0"
+    ] == (Value(65536, "counts"))
+
+
+def test_registers_beyond_the_points_of_a_cam_stand_for_nothing(servo: Schema) -> None:
+    said = told(TABLE, servo, "130 1\n128 1\n132 5\n133 5")
+    assert said.startswith("line 4, column 1: register 133 stands for nothing here: ")
+    assert taken(TABLE, servo, "130 1\n128 1\n132 5\n133 5", keep=True).unknown == {"R133": "5"}
+
+
+# -- tasks -----------------------------------------------------------------------------------------------
+
+
+def test_a_task_has_an_assignment_a_line_and_acts_last(module: Schema) -> None:
+    file = filled(
+        module, mode_X="0x1", gain_X="5", gain_Y="6", travel_X="-7 counts", fast_X="40000000 counts/s"
+    )
+    file.header.name = "SHUTTLE"
+    assert TASK.write(file).split("\n") == [
+        "1000 ! SHUTTLE, Small module",
+        "2000 PGAIN%=5 \\!Gain (X axis), 5",
+        "2010 REG_11!=-7 \\!Travel (X axis), -7 counts",
+        "2020 REG_17!=09C400000H \\!Fast (X axis), 40000000 counts/s",  # more than a signed double word says
+        "2030 REG_2051%=6 \\!Gain (Y axis), 6",
+        "2040 REG_65%=01H \\!Mode (X axis), 0x0001",  # the module acts on it at once
+        "",
+    ]
+    assert taken(TASK, module, TASK.write(file)).values == file.values
+
+
+def test_a_task_may_have_more_settings_than_tens_of_lines(servo: Schema) -> None:
+    file = ParameterFile(servo)
+    file.values |= {("cam.mode", a): Value(1) for a in "XY"} | {("cam.points", a): Value(1915) for a in "XY"}
+    file.values |= {
+        ("cam.time_points", f"{a}.{n}"): Value(n % 900, "counts") for a in "XY" for n in range(1915)
+    }
+    numbers = [int(line.split()[0]) for line in TASK.write(file).split("\n")[1:-1]]
+    assert numbers == list(range(2000, 2000 + 3834)) == sorted(set(numbers))
+    assert taken(TASK, servo, TASK.write(file)).values == file.values
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("10 REG_300%=1", "line 1, column 4: register 300 is of no parameter"),
+        ("10 ! x\n20 A%=1", "line 2, column 4: A% is the variable of no register: REG_3% is that of register 3"),
+        ("10 REG_12!=1", "line 1, column 4: register 12 is half of Travel (X axis), registers 11, 12, and 11 is missing"),
+        ("10 REG_11%=1", "line 1, column 4: register 11 is half of Travel (X axis)"),
+        ("10 PGAIN%=32768", "line 1, column 11: 32768 does not fit the 16 bits of Gain, -32768 to 32767"),
+        ("10 PGAIN%=70000", "line 1, column 11: 70000 does not fit the 16 bits of a register"),
+        ("10 REG_11!=2147483648", "line 1, column 12: 2147483648 does not fit the 32 bits of Travel"),
+        ("10 REG_11!=4294967296", "line 1, column 12: 4294967296 does not fit the 32 bits of two registers"),
+        ("10 REG_11!=0100000000H", "line 1, column 12: 4294967296 does not fit the 32 bits of two registers"),
+        ("10 REG_17!=-1", "line 1, column 12: -1 does not fit the 32 bits of Fast, 0 to 4294967295"),
+        ("10 REG_72%=0", "line 1, column 4: register 72, Status (X axis), can only be read"),
+        ("10 PGAIN%=1 \\ PGAIN%=2", "line 1, column 15: register 3 is written twice, in line 1 already"),
+        ("10 REG_11!=1\n20 REG_12%=2", "line 2, column 4: register 12 is written twice, in line 1 already"),
+        ("10 PGAIN%=2*3", "line 1, column 11: PGAIN%: '2*3' is no whole number"),
+        ("10 PGAIN%=1.5", "line 1, column 11: PGAIN%: '1.5' is no whole number"),
+        ("10 PGAIN% = ", "line 1, column 12: PGAIN%: '' is no whole number"),
+        ("10 DELAY 5 TICKS", "line 1, column 4: 'DELAY 5 TICKS' assigns no value to a register"),
+        (f"10 GOSUB {'9' * 34}", f"line 1, column 4: 'GOSUB {'9' * 34}' assigns no value"),
+        (f"10 GOSUB {'9' * 35}", f"line 1, column 4: 'GOSUB {'9' * 33}…' assigns no value"),
+        ("10 PGAIN%=1 \\GOTO 10", "line 1, column 14: 'GOTO 10' assigns no value to a register"),
+        ("10 IF A@ THEN PGAIN%=1", "line 1, column 4: 'IF A@ THEN PGAIN%=1' assigns no value to a register"),
+        ("PGAIN%=1", "line 1, column 1: a line of a task begins with its number"),
+        ("10 PGAIN%=1\n10 REG_4%=1", "line 2, column 1: number 10 stands twice, in line 1 already"),
+        ("10 PGAIN%=1\n20 A@=B@ &", "line 2: the last line ends with '&' and goes on nowhere"),
+        ("10 ! x\n20 WAIT &\n  ON X \\PGAIN%=A", "line 2, column 4: 'WAIT & ON X' assigns no value to a register"),
+        ("10 PGAIN%=1 &\n   \\REG_4%=A", "line 1, column 11: PGAIN%: '1 &' is no whole number"),
+    ],
+)  # fmt: skip
+def test_a_task_that_cannot_be_meant_is_told_with_its_place(module: Schema, text: str, said: str) -> None:
+    assert told(TASK, module, text).startswith(said)
+
+
+def test_statements_share_a_line_and_remarks_are_no_statements(module: Schema) -> None:
+    text = """\
+        10 rem PGAIN%=9
+        20 LET PGAIN%=5 \\ reg_4%=0FFH! 255 \\ PGAIN%=1
+        30 REG_2051% = +6. !Y
+        40 !
+        50 REG_11%=0 \\REG_12%=1\\
+        """
+    assert said_of(taken(TASK, module, text)) == {
+        "r.gain@X": Value(5),
+        "r.limit@X": Value(255, "counts"),
+        "r.gain@Y": Value(6),
+        "r.travel@X": Value(1, "counts"),
+    }
+
+
+def test_what_a_condition_decides_is_no_setting(module: Schema) -> None:
+    """The rest of the line hangs on the condition too: 4090 IF X_AXIS_DONE@ THEN INT_SRC_X! = 0 \\ INT_ENA_X! = 0 (page 4-48)."""
+    text = "10 IF A@ THEN PGAIN%=1 \\ REG_4%=2\n20 REG_2051%=3\n"
+    file = taken(TASK, module, text, keep=True)
+    assert said_of(file) == {"r.gain@Y": Value(3)}
+    assert TASK.write(file) == text
+
+
+def test_a_setting_that_is_unset_takes_its_separator_along(module: Schema) -> None:
+    text = "10 STOP \\PGAIN%=1\n20 REG_4%=2\\ CONT\n30 A@=B@ \\REG_2051%=3 \\! y\n40 REG_5%=4\n"
+    file = taken(TASK, module, text, keep=True)
+    file.values.clear()
+    assert TASK.write(file) == "10 STOP \n20  CONT\n30 A@=B@ \\! y\n40 !\n"
+
+
+def test_marks_of_somebody_else_are_text(module: Schema) -> None:
+    text = "10 {3} \\ PGAIN%=1 \\ {{line 10}\n20 ! {line 10}\n"
+    file = taken(TASK, module, text, keep=True)
+    assert (said_of(file), TASK.write(file)) == ({"r.gain@X": Value(1)}, text)
+
+
+def test_a_kept_line_that_has_lost_its_place_is_not_written_anywhere(module: Schema) -> None:
+    file = taken(TASK, module, "10 PGAIN%=1\n20 STOP\n", keep=True)
+    file.header.extra.clear()
+    with pytest.raises(
+        FormatError, match="'basic line 20' is kept in the file, and 'basic_script' in its header does not"
+    ):
+        TASK.write(file)
+    del file.unknown["basic line 20"]
+    assert TASK.write(file).endswith("\n2000 PGAIN%=1 \\!Gain (X axis), 1\n")
+
+
+def test_a_kept_line_that_a_person_removes_is_gone(module: Schema) -> None:
+    file = taken(TASK, module, "10 PGAIN%=1\n20 STOP\n30 END\n", keep=True)
+    del file.unknown["basic line 20"]
+    assert TASK.write(file) == "10 PGAIN%=1\n30 END\n"
+
+
+def test_a_sign_that_a_dos_file_does_not_have_is_told(servo: Schema, tmp_path: Path) -> None:
+    file = taken(TASK, servo, "10 PGAIN%=1\n20 STOP\n", keep=True)
+    file.unknown["basic line 20"] = "20 STOP ! Ж"
+    with pytest.raises(
+        FormatError, match=r"^line 2: 'Ж' is no sign of cp437, in which this format is written$"
+    ):
+        export_file(file, tmp_path / "a.bas")
+    assert not (tmp_path / "a.bas").exists()
+
+
+def test_new_values_stand_before_a_task_that_had_none(module: Schema) -> None:
+    file = taken(TASK, module, "10 DELAY 5 TICKS\n", keep=True)
+    file.set(("r.gain", "X"), Value(3))
+    file.set(("r.limit", "X"), Value(4, "counts"))
+    assert TASK.write(file) == "10 PGAIN%=3 \\ REG_4%=4 \\ DELAY 5 TICKS\n"
+
+
+# -- the verbs -------------------------------------------------------------------------------------------
+
+
+def test_the_verbs_know_the_formats_by_name_and_by_content(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source = tmp_path / "axisinit.bas"
+    source.write_text(INITIALIZATION, "utf-8")
+    assert run(["import", str(source), "-o", str(tmp_path / "a.amp")]) == 0
+    assert said_of(open_file(tmp_path / "a.amp").file) == PRINTED
+    assert run(["export", str(tmp_path / "a.amp"), "-o", str(tmp_path / "a.reg")]) == 0
+    assert (tmp_path / "a.reg").read_bytes().startswith(b"! Register table of a, ")
+    assert b"\r\n19\t" not in (tmp_path / "a.reg").read_bytes(), "an unset register stays as it is"
+    assert import_file(tmp_path / "a.reg").values == open_file(tmp_path / "a.amp").file.values
+    export_file(open_file(tmp_path / "a.amp").file, tmp_path / "b.bas")
+    assert import_file(tmp_path / "b.bas").values == open_file(tmp_path / "a.amp").file.values
+    (tmp_path / "bare.txt").write_text("R3 18700\nR2051 5\n", "utf-8")
+    assert said_of(import_file(tmp_path / "bare.txt")) == {
+        "gain.proportional@X": Value(18700),
+        "gain.proportional@Y": Value(5),
+    }
+    source.write_text(INITIALIZATION + COMMAND, "utf-8")
+    capsys.readouterr()
+    assert run(["import", str(source), "-o", str(tmp_path / "c.amp")]) == 2
+    assert "line 22, column 19: 'GOSUB 25000' assigns no value" in capsys.readouterr().err
+    assert run(["import", str(source), "-o", str(tmp_path / "c.amp"), "--keep-unknown"]) == 0
+    assert "kept without knowing it: basic line 2180" in capsys.readouterr().err
+    assert run(["export", str(tmp_path / "c.amp"), "-o", str(tmp_path / "c.bas")]) == 0
+    assert (tmp_path / "c.bas").read_bytes() == (INITIALIZATION + COMMAND).replace("\n", "\r\n").encode()
+
+
+def test_a_text_is_a_table_if_most_of_its_lines_are_rows() -> None:
+    assert TABLE.recognises("! x\n\n3 1\nR4 = 0FFH\n  gain\n")
+    assert not TABLE.recognises("3 1\nPROG0\nPPU X4\n")
+    assert not TABLE.recognises("10 PGAIN%=1\n")
+    assert not TABLE.recognises("! nothing\n")
+
+
+def test_the_names_of_registers_are_those_of_the_printed_tasks(servo: Schema) -> None:
+    """What two tables of the family say of one register agrees, and each ``!`` has two registers and each ``%`` one."""
+    names = servo.tables["basic-variables"]
+    registers = dict(zip(names.column("Variable") or (), names.column("Register") or (), strict=True))
+    printed = servo.tables["printed-programs"]
+    for said, name in zip(printed.column("Register") or (), printed.column("Variable") or (), strict=True):
+        numbers = [int(n) for n in str(said).split(", ")]
+        assert (registers[name], len(numbers)) == (numbers[0], 2 if str(name).endswith("!") else 1)
+    for name, register in registers.items():
+        known = Registers(servo, "module")
+        last = int(register) + (1 if str(name).endswith("!") else 0)
+        assert {len(known.claims.get(n, ())) for n in range(int(register), last + 1)} <= {1, 2, 3}, name

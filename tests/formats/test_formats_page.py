@@ -1,0 +1,54 @@
+"""What docs/formats.md says of the formats is what they do."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+from ruamel.yaml import YAML
+
+from amp_studio.families.num.formats.layout import Layout
+from amp_studio.families.num.formats.table import FORMAT
+from amp_studio.formats import all_formats, families_of
+from amp_studio.schema import Schema
+from tests.families.num.small_num import SAMPLE, taken
+
+
+@pytest.fixture(scope="module")
+def page(checkout: Path) -> str:
+    """Return the page."""
+    return (checkout / "docs" / "formats.md").read_text(encoding="utf-8")
+
+
+def block(page: str, first: str) -> str:
+    """Return the indented block that begins with a line."""
+    return dedent(re.search(rf"(?m)^    {first}\n(?:    .*\n|\n(?=    ))*", page)[0])  # type: ignore[index]  # it is there
+
+
+def test_every_format_has_its_line_and_its_section(page: str) -> None:
+    for found in all_formats():
+        own = families_of(found)
+        families = ", ".join(f"`{family}`" for family in own) if own else "all"
+        endings = ", ".join(f"`{ending}`" for ending in found.endings)
+        assert re.search(rf"(?m)^\| `{found.key}` \| .* \| {families} \| {endings} \|$", page), found.key
+        assert re.search(rf"(?m)^## .* \(`{found.key}`\)$", page), found.key
+
+
+def test_what_a_file_remembers_of_a_table_may_be_written_as_the_page_says(page: str, num: Schema) -> None:
+    told = YAML(typ="safe").load(block(page, "num_table:"))["num_table"]
+    assert Layout.of_told(told).told() == told
+    file = taken(num, SAMPLE)
+    file.header.extra["num_table"] = told
+    text = FORMAT.write(file)
+    assert text.startswith("%12345678 Machine 7;13\r\nP0N0;04\r\n")
+    assert "\r\nP9N0:t0n32;0A\r\n#0 1 2 FF " in text
+    assert "\r\nP9N10;05\r\n#FF FF " in text
+    assert text.endswith("\r\n\x13\r\n\x1a")
+
+
+def test_kept_words_may_be_written_as_the_page_says(page: str, num: Schema) -> None:
+    file = taken(num, SAMPLE)
+    file.unknown.update(YAML(typ="safe").load(block(page, "values:"))["values"])
+    assert FORMAT.write(file).endswith("\nP12N10:t1n12;0C\n#3 4;04\nP130N0;06\n#5;02\n\x13")

@@ -1,0 +1,125 @@
+"""Numbers of unreasonable size in the texts of controls: refused in their line, at once, or kept as what they are."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile
+from amp_studio.files.storage import readable_content
+from amp_studio.formats import FormatError, import_file
+
+HUGE = [
+    "1e99999999",
+    "1e-99999999",
+    "-1E400",
+    "9" * 5000,
+    "9" * 17,
+    "0." + "0" * 5000 + "1",
+    "1e-400",
+    "9007199254740993",
+]
+TEXTS = {
+    "acr": ("acromill", "PPU X{}\r\n"),
+    "csv of a length": ("9pc", "id,instance,value,unit\nhome.calibration,1,{},mm\n"),
+    "csv of a whole number": ("57c422b", "id,instance,value,unit\ngain.integral,X,{},\n"),
+    "csv of a choice": ("9pc", "id,instance,value,unit\naxis.type,1,raw:{},\n"),
+    "patch of a length": ("9pc", "# Patch sheet of x\n# machine mill\n1300\t{}\tmm\tHome Calibration\n"),
+    "patch of a choice": ("9pc", "# Patch sheet of x\n# machine mill\n1010\t{}\t\tAxis Type\n"),
+    "patch of a whole number": ("9pc", "# Patch sheet of x\n# machine mill\n1755\t{}\t\tinternal\n"),
+    "registers": ("57c422b", "! Register table\n4\t{}\n"),
+    "register number": ("57c422b", "! Register table\n{}\t4\n"),
+    "task": ("57c422b", "10 REG_4%={}\n"),
+    "task line": ("57c422b", "{} REG_4%=5\n"),
+    "task register": ("57c422b", "10 REG_{}%=5\n"),
+    "ballscrew": ("acromill", "X{}E.00325\r\n"),
+}  # fmt: skip
+
+
+def taken(path: Path, family: str, key: str | None, keep: bool) -> ParameterFile | None:
+    """Return what a text holds, None where it is refused."""
+    try:
+        return import_file(path, family, format_key=key, keep_unknown=keep)
+    except FormatError:
+        return None
+
+
+@pytest.mark.parametrize("number", HUGE, ids=lambda text: text[:12])
+@pytest.mark.parametrize("kind", TEXTS)
+def test_a_number_that_no_value_can_be_is_refused_at_once(tmp_path: Path, kind: str, number: str) -> None:
+    family, text = TEXTS[kind]
+    path = tmp_path / "a.txt"
+    path.write_text(text.format(number), newline="")
+    key = {
+        "acr": "acr",
+        "csv": "csv",
+        "patch": "patch",
+        "regis": "registers",
+        "task": "basic",
+        "balls": "bsc",
+    }
+    chosen = next(found for start, found in key.items() if kind.startswith(start))
+    begun = time.process_time()
+    for keep in (False, True):
+        file = taken(path, family, chosen, keep)
+        if file is not None:
+            readable_content(file, tmp_path / "a.amp")
+            assert keep or (kind, number) in TAKEN, file.values
+    assert time.process_time() - begun < 3
+
+
+TAKEN = {(f"{kind} of a length", "9" * 17) for kind in ("csv", "patch")} | {("acr", "9" * 17)} | {
+    (f"{kind} of a length", "9007199254740993") for kind in ("csv", "patch")} | {("acr", "9007199254740993")}  # fmt: skip
+"""A real number takes the nearest double, as everywhere."""
+
+
+@pytest.mark.parametrize(
+    ("family", "key", "text"),
+    [
+        ("acromill", "acr", "PPU X" + "1" * 200_000 + "x\n"),
+        ("acromill", "acr", "PPU" + " " * 500_000 + "!\n"),
+        ("acromill", "acr", "PPU X1 " + " " * 500_000 + "!\n"),
+        ("acromill", "acr", "PPU X4096\n" * 20_000),
+        ("57c422b", "registers", "! Register table\n" + "4\t" + "0" * 500_000 + "x\n"),
+        (
+            "57c422b",
+            "registers",
+            "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 100_000)),
+        ),
+        ("57c422b", "basic", "10 " + "{" * 200_000 + "\n"),
+        ("57c422b", "basic", "".join(f"{n} REG_4%=5 &\n" for n in range(100_000))),
+        ("57c422b", None, "\n" * 500_000 + "10 x"),
+        ("9pc", "csv", "id,value,unit\n" + "a" * 2_000_000 + ",,\n"),
+        ("num", "num", "%" + "0" * 2_000_000),
+    ],
+)
+def test_a_text_that_is_made_to_cost_time_costs_little(
+    tmp_path: Path, family: str, key: str | None, text: str
+) -> None:
+    path = tmp_path / "a.txt"
+    path.write_text(text, newline="")
+    begun = time.process_time()
+    for keep in (False, True):
+        taken(path, family, key, keep)
+    assert time.process_time() - begun < 10
+
+
+def test_a_value_of_a_table_without_its_unit_or_with_that_of_something_else_is_refused(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "a.csv"
+    for value, unit, said in [
+        ("5", "", "'5' has no unit: write 5 mm"),
+        ("5", "ms", "given in mm, not in ms"),
+        ("5", "furlong", "'furlong' is not a unit"),
+        ("", "", None),
+        ("5", "MM", None),
+    ]:
+        path.write_text(f"id,instance,value,unit\nhome.calibration,1,{value},{unit}\n")
+        if said is None:
+            readable_content(import_file(path, "9pc"), path)
+        else:
+            with pytest.raises(FormatError, match=said):
+                import_file(path, "9pc")

@@ -1,0 +1,325 @@
+"""Download, upload, verify: what a person is told, and that nothing is replaced before it is kept."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from amp_studio.transfer.client.exchange import download, first_difference, upload, verify
+from amp_studio.transfer.emulated.faults import Faults
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ControlSilentError,
+    ImageChangedError,
+    KeepFailedError,
+    NoConnectionError,
+    NotInEmergencyStopError,
+    SignatureMismatchError,
+    TransferError,
+)
+from amp_studio.transfer.house import download_transfer
+from amp_studio.transfer.house.message import Flags
+
+OLD = b"1 old\n" * 20
+NEW = b"2 new!\n" * 25
+
+
+class Shelf:
+    """Where old images are kept; remembers what the control held at that moment."""
+
+    def __init__(self, control: Any) -> None:
+        self.control = control
+        self.kept: list[bytes] = []
+
+    def __call__(self, image: bytes) -> str:
+        assert self.control.image == image, "nothing has been replaced yet"
+        self.kept.append(image)
+        return "machine.before.amp"
+
+
+@pytest.fixture
+def bench(rig: Callable[..., Any], new_control: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a function that sets up a session, its control and a shelf."""
+
+    def make(
+        faults: Faults | None = None, *, lines: int = 1_000_000, initial: bytes = OLD, **options: Any
+    ) -> Any:
+        made = rig(faults, control=new_control(initial=initial, **options), lines=lines)
+        return made, made.session(), Shelf(made.control)
+
+    return make
+
+
+def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+    told: list[str] = []
+    outcome = download(
+        session, NEW, shelf, signature="s1", progress=lambda stage, done, total: told.append(stage)
+    )
+    assert (outcome.held, outcome.verified, outcome.written, outcome.restart) == ("new", True, True, "done")
+    assert outcome.sha256 == hashlib.sha256(NEW).hexdigest()
+    assert outcome.kept == "machine.before.amp"
+    assert outcome.text == (
+        "Download complete and read back equal; the control has restarted with it. "
+        "What it held before is kept in machine.before.amp."
+    )
+    assert shelf.kept == [OLD]
+    assert made.control.image == NEW
+    assert list(dict.fromkeys(told)) == ["keep", "download", "commit", "restart", "verify"]
+
+
+def test_without_autostart_a_person_must_restart_the_control(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench(autostart=False)
+    outcome = download(session, NEW, shelf, signature="s1")
+    assert (outcome.held, outcome.verified, outcome.restart) == ("new", True, "needed")
+    assert "Restart the control to make it current" in outcome.text
+    assert made.control.flags & Flags.RESTART_NEEDED
+    again = download(session, NEW, shelf, signature="s1")
+    assert (again.written, again.restart) == (False, "needed")
+    assert "Restart the control" in again.text
+
+
+def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench(estop=False)
+    outcome = download(session, OLD, shelf, signature="s1")
+    assert (outcome.held, outcome.verified, outcome.written, outcome.kept) == ("new", True, False, None)
+    assert outcome.text == "The control holds exactly this image already; nothing was written."
+    assert shelf.kept == []
+    assert made.control.incarnation == 1
+
+
+def test_a_control_without_an_image_has_nothing_to_keep(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench(initial=b"")
+    outcome = download(session, NEW, shelf, signature="s1")
+    assert (outcome.held, outcome.kept, shelf.kept) == ("new", None, [])
+    assert outcome.text.endswith("It held nothing before.")
+    assert made.control.image == NEW
+
+
+def test_out_of_estop_nothing_is_even_fetched(bench: Callable[..., Any]) -> None:
+    _, session, shelf = bench(estop=False)
+    with pytest.raises(
+        NotInEmergencyStopError, match="place the control in E-stop to download; nothing was replaced"
+    ):
+        download(session, NEW, shelf, signature="s1")
+    assert shelf.kept == []
+
+
+def test_another_schema_is_refused_before_anything_moves(bench: Callable[..., Any]) -> None:
+    _, session, shelf = bench()
+    with pytest.raises(SignatureMismatchError, match=r"CNC_1.*another schema"):
+        download(session, NEW, shelf, signature="s2")
+    assert shelf.kept == []
+
+
+def test_what_cannot_be_kept_is_not_replaced(bench: Callable[..., Any]) -> None:
+    made, session, _ = bench()
+
+    def full(image: bytes) -> str:
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(KeepFailedError, match=r"could not be kept.*No space left.*nothing was replaced"):
+        download(session, NEW, full, signature="s1")
+    assert made.control.image == OLD
+
+
+def test_a_change_at_the_control_after_it_was_kept_is_not_overwritten(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+
+    def keep_and_patch(image: bytes) -> str:
+        made.control.patch(lambda held: held + b"11 = 5\n")
+        return shelf.kept.append(image) or "kept.amp"
+
+    with pytest.raises(ImageChangedError) as caught:
+        download(session, NEW, keep_and_patch, signature="s1")
+    assert (caught.value.held, caught.value.kept) == ("old", "kept.amp")
+    assert made.control.image == OLD + b"11 = 5\n"
+
+
+def sha(image: bytes) -> bytes:
+    return hashlib.sha256(image).digest()
+
+
+def test_only_the_image_that_was_approved_is_replaced(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+    with pytest.raises(ImageChangedError, match="approved to be replaced") as caught:
+        download(session, NEW, shelf, signature="s1", expected=sha(b"seen"))
+    assert f"(sha256 {sha(OLD).hex()[:12]}…, approved {sha(b'seen').hex()[:12]}…)" in str(caught.value)
+    assert str(caught.value).endswith("nothing was replaced in the control")
+    assert (made.control.image, shelf.kept) == (OLD, [])
+    assert download(session, NEW, shelf, signature="s1", expected=sha(OLD)).verified
+
+
+def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callable[..., Any]) -> None:
+    """What is kept is what was approved, or nothing is kept."""
+    made, session, shelf = bench()
+    greet = session.hello
+
+    def greet_and_patch(*arguments: Any) -> Any:
+        welcome = greet(*arguments)
+        made.control.patch(lambda held: held + b"11 = 5\n")
+        return welcome
+
+    session.hello = greet_and_patch
+    with pytest.raises(ImageChangedError, match="approved to be replaced"):
+        download(session, NEW, shelf, signature="s1", expected=sha(OLD))
+    assert (made.control.image, shelf.kept) == (OLD + b"11 = 5\n", [])
+
+
+def test_what_is_there_already_must_still_be_what_was_approved(bench: Callable[..., Any]) -> None:
+    _, session, shelf = bench(initial=NEW)
+    with pytest.raises(ImageChangedError):
+        download(session, NEW, shelf, signature="s1", expected=sha(OLD))
+    assert not download(session, NEW, shelf, signature="s1", expected=sha(NEW)).written
+
+
+def test_what_a_control_has_held_goes_back_under_no_signature(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+    download(session, NEW, shelf, signature="s1")
+    outcome = download(session, OLD, shelf, signature="", is_return=True)
+    assert (outcome.held, outcome.verified, made.control.image) == ("new", True, OLD)
+    with pytest.raises(SignatureMismatchError, match="has not held this image; nothing was replaced"):
+        download(session, b"other", shelf, signature="", is_return=True)
+
+
+def test_an_error_while_only_looking_does_not_say_what_was_replaced(bench: Callable[..., Any]) -> None:
+    """A download before may have replaced something."""
+    for look in (upload, lambda session: verify(session, OLD)):
+        _, session, _ = bench(lines=0)
+        with pytest.raises(NoConnectionError) as caught:
+            look(session)
+        assert caught.value.held == ""
+        assert "replaced" not in str(caught.value)
+
+
+def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+
+    def pull_the_cable(stage: str, done: int, total: int) -> None:
+        if stage == "commit" and done == 0:
+            made.lines_left = 0
+            session._line._talk.link.close()
+
+    with pytest.raises(ConnectionCutError) as caught:
+        download(session, NEW, shelf, signature="s1", progress=pull_the_cable)
+    assert caught.value.held == "unknown"
+    assert "not known: verify before you go on" in str(caught.value)
+    assert "kept in machine.before.amp" in str(caught.value)
+
+
+def test_a_control_that_does_not_come_back_is_told(bench: Callable[..., Any]) -> None:
+    _, session, shelf = bench(lines=1)
+    outcome = download(session, NEW, shelf, signature="s1", restart_wait=5)
+    assert (outcome.held, outcome.verified, outcome.restart) == ("new", False, "missed")
+    assert "has not come back from its restart within 5 s" in outcome.text
+    assert "kept in machine.before.amp" in outcome.text
+
+
+def test_a_cancel_while_the_control_restarts_says_that_the_new_image_is_there(
+    bench: Callable[..., Any],
+) -> None:
+    made, session, shelf = bench()
+    cancel = threading.Event()
+
+    def while_restarting(stage: str, done: int, total: int) -> None:
+        if stage == "restart":
+            cancel.set()
+
+    with pytest.raises(
+        CancelledError, match=r"the control holds the new image.*kept in machine\.before\.amp"
+    ) as caught:
+        download(session, NEW, shelf, signature="s1", cancel=cancel, progress=while_restarting)
+    assert caught.value.held == "new"
+    assert made.control.image == NEW
+
+
+def test_a_control_that_holds_something_else_after_the_commit_is_found_out(bench: Callable[..., Any]) -> None:
+    made, session, shelf = bench()
+
+    def rot(stage: str, done: int, total: int) -> None:
+        if stage == "restart" and (done, total) == (1, 1):
+            made.control._take(NEW[:50] + b"?" + NEW[51:])
+
+    outcome = download(session, NEW, shelf, signature="s1", progress=rot)
+    assert (outcome.held, outcome.verified) == ("unknown", False)
+    assert "differs from byte 50 on" in outcome.text
+    assert "kept in machine.before.amp" in outcome.text
+
+
+def test_a_download_is_all_or_nothing_wherever_the_line_is_cut(bench: Callable[..., Any]) -> None:
+    """Cut at every seventh byte of the whole exchange, from the first Hello to the last byte read back."""
+    cut_at, was_cut, first_hello_failed = 0, True, []
+    while was_cut:
+        made, session, shelf = bench(Faults(drop_after_bytes=cut_at))
+        try:
+            outcome = download(session, NEW, shelf, signature="s1")
+        except (NoConnectionError, ControlSilentError):
+            first_hello_failed.append(cut_at)
+            assert made.control.image == OLD
+        else:
+            assert (outcome.held, outcome.verified, outcome.kept) == ("new", True, "machine.before.amp")
+            assert made.control.image == NEW
+            was_cut = made.modem.lines > 2
+        made.control.close()
+        cut_at += 7
+    assert cut_at > 900
+    assert first_hello_failed == list(range(0, first_hello_failed[-1] + 1, 7))
+    assert first_hello_failed[-1] < 200, "once it has answered, no single cut ends the exchange"
+
+
+def test_an_upload_is_the_exact_image(bench: Callable[..., Any]) -> None:
+    _, session, _ = bench(estop=False)
+    assert upload(session) == OLD
+
+
+def test_a_verification_names_the_first_byte_that_differs(bench: Callable[..., Any]) -> None:
+    _, session, _ = bench()
+    assert verify(session, OLD).same
+    found = verify(session, OLD[:33] + b"X" + OLD[34:])
+    assert (found.same, found.first_difference, found.held) == (False, 33, OLD)
+    assert verify(session, OLD + b"more").first_difference == len(OLD)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "at"),
+    [(b"", b"", None), (b"a", b"", 0), (b"abc", b"abd", 2), (b"ab", b"abc", 2), (b"ab", b"ab", None)],
+)
+def test_where_two_images_first_differ(a: bytes, b: bytes, at: int | None) -> None:
+    assert first_difference(a, b) == at
+
+
+@pytest.mark.parametrize(
+    "error", [MemoryError(), OSError(28, "No space left on device"), RuntimeError("odd")]
+)
+@pytest.mark.parametrize(("part", "held"), [("OpenDownload", "old"), ("Commit", "unknown")])
+def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception, part: str, held: str
+) -> None:
+    def breaks(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(download_transfer, part, breaks)
+    _, session, shelf = bench()
+    with pytest.raises(TransferError) as caught:
+        download(session, NEW, shelf, signature="s1")
+    assert caught.value.held == held
+    assert (str(error) or "MemoryError") in str(caught.value)
+
+
+@pytest.mark.parametrize("error", [MemoryError(), OSError(24, "Too many open files")])
+def test_whatever_ends_the_reading_back_is_told_with_what_the_control_holds(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def breaks(*_: object) -> None:
+        raise error
+
+    _, session, shelf = bench()
+    monkeypatch.setattr(session, "wait_restarted", breaks)
+    with pytest.raises(TransferError, match=r"kept in machine\.before\.amp") as caught:
+        download(session, NEW, shelf, signature="s1")
+    assert caught.value.held == "new"

@@ -1,0 +1,483 @@
+"""An emulated control holds its old image or the new one, whatever happens to its disk and whenever."""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.record import Identity, StateError
+from amp_studio.transfer.house.message import Code, Commit, Committed, Flags, OpenDownload, RefusalError
+
+NEW = b"new image\n" * 40
+OLD = b"old image\n" * 30
+TRANSFER = bytes(range(16))
+LOCK = [".control.holder", ".control.lock"]
+
+
+class Died(BaseException):
+    """The plug is pulled."""
+
+
+def sha(image: bytes) -> bytes:
+    return hashlib.sha256(image).digest()
+
+
+def opening(
+    image: bytes = NEW, old: bytes = OLD, transfer: bytes = TRANSFER, signature: str = "s1"
+) -> OpenDownload:
+    return OpenDownload(transfer, len(image), sha(image), sha(old), signature)
+
+
+def download(control: Control, image: bytes = NEW) -> Committed:
+    """Take the download up where it is, and commit it."""
+    offset = control.open_download(opening(image))
+    while offset < len(image):
+        control.stage(TRANSFER, image[offset : offset + 100])
+        offset += len(image[offset : offset + 100])
+    return control.commit(Commit(TRANSFER, sha(image)))
+
+
+@pytest.fixture
+def make(new_control: Callable[..., Control]) -> Callable[..., Control]:
+    return lambda folder=None, **options: new_control(folder, OLD, **options)
+
+
+def test_a_new_control_is_in_estop_and_restarts_by_itself(make: Callable[..., Control]) -> None:
+    control = make()
+    assert control.flags == Flags.ESTOP | Flags.RUNNING | Flags.AUTOSTART
+    assert (control.image, control.incarnation) == (OLD, 1)
+
+
+def test_a_download_replaces_the_image_and_keeps_the_one_before(make: Callable[..., Control]) -> None:
+    control = make()
+    assert download(control) == Committed(TRANSFER, sha(NEW), 1, True)
+    assert control.image == NEW
+    assert control.flags & Flags.RESTART_NEEDED
+    assert not control.flags & Flags.RUNNING, "the CNC is stopped until the restart"
+    control.restart()
+    assert not control.flags & Flags.RESTART_NEEDED
+    assert control.memory.read("previous.img") == OLD
+    assert control.memory.names() == [*LOCK, "active.img", "control.json", "previous.img"]
+
+
+def test_what_it_holds_and_its_state_outlive_the_process(make: Callable[..., Control]) -> None:
+    control = make()
+    folder = control.memory.folder
+    download(control)
+    control.set_autostart(False)
+    control.set_estop(False)
+    control.close()
+    control = make(folder)
+    assert control.image == NEW
+    assert control.flags == Flags.RUNNING, "not in E-stop, no autostart, and a start makes the image current"
+    assert control.incarnation == 2
+    control.close()
+    assert make(folder, estop=True).flags & Flags.ESTOP, "the panel can be set anew at the start"
+
+
+def test_a_download_is_taken_up_after_a_restart(make: Callable[..., Control]) -> None:
+    control = make()
+    control.open_download(opening())
+    control.stage(TRANSFER, NEW[:150])
+    control.close()
+    control = make(control.memory.folder)
+    assert control.open_download(opening()) == 150
+    assert download(control).sha256 == sha(NEW)
+
+
+@pytest.mark.parametrize(
+    ("wish", "code"),
+    [
+        (opening(signature="s2"), Code.SIGNATURE),
+        (opening(old=b"another"), Code.IMAGE_CHANGED),
+        (OpenDownload(TRANSFER, 1 << 30, sha(NEW), sha(OLD), "s1"), Code.TOO_LARGE),
+    ],
+)
+def test_what_a_download_is_refused_for(make: Callable[..., Control], wish: OpenDownload, code: Code) -> None:
+    with pytest.raises(RefusalError) as caught:
+        make().open_download(wish)
+    assert caught.value.code == code
+
+
+def test_estop_is_needed_to_begin_and_to_commit(make: Callable[..., Control]) -> None:
+    control = make(estop=False)
+    with pytest.raises(RefusalError) as caught:
+        control.open_download(opening())
+    assert caught.value.code == Code.NOT_IN_ESTOP
+    control.set_estop(True)
+    control.open_download(opening())
+    control.stage(TRANSFER, NEW)
+    control.set_estop(False)
+    with pytest.raises(RefusalError) as caught:
+        control.commit(Commit(TRANSFER, sha(NEW)))
+    assert caught.value.code == Code.NOT_IN_ESTOP
+    assert control.image == OLD
+
+
+def test_a_change_at_the_control_before_the_commit_is_noticed(make: Callable[..., Control]) -> None:
+    control = make()
+    control.open_download(opening())
+    control.stage(TRANSFER, NEW)
+    control.patch(lambda image: image + b"11 = 5\n")
+    assert control.flags & Flags.CHANGED_AT_CONTROL
+    with pytest.raises(RefusalError) as caught:
+        control.commit(Commit(TRANSFER, sha(NEW)))
+    assert caught.value.code == Code.IMAGE_CHANGED
+    assert control.image == OLD + b"11 = 5\n"
+
+
+def test_a_commit_asked_for_again_is_answered_again(make: Callable[..., Control]) -> None:
+    control = make()
+    first = download(control)
+    control.restart()
+    control.close()
+    control = make(control.memory.folder, estop=False)
+    assert control.commit(Commit(TRANSFER, sha(NEW))) == first, "after two restarts, and out of E-stop"
+    assert control.open_download(opening()) == len(NEW)
+    assert control.memory.read("previous.img") == OLD, "it happened once"
+
+
+def test_bytes_that_are_missing_or_wrong_are_not_committed(make: Callable[..., Control]) -> None:
+    control = make()
+    control.open_download(opening())
+    control.stage(TRANSFER, NEW[:100])
+    with pytest.raises(RefusalError) as caught:
+        control.commit(Commit(TRANSFER, sha(NEW)))
+    assert caught.value.code == Code.INCOMPLETE
+    control.stage(TRANSFER, b"?" * (len(NEW) - 100))
+    with pytest.raises(RefusalError) as caught:
+        control.commit(Commit(TRANSFER, sha(NEW)))
+    assert caught.value.code == Code.DIGEST
+    assert control.open_download(opening()) == 0, "the spoilt bytes are gone"
+    with pytest.raises(RefusalError) as caught:
+        control.stage(TRANSFER, NEW + b"!")
+    assert caught.value.code == Code.OUT_OF_RANGE
+
+
+def test_a_control_may_look_into_the_image(make: Callable[..., Control]) -> None:
+    def accept(image: bytes) -> None:
+        raise ValueError("record 3 is damaged")
+
+    control = make(accept=accept)
+    with pytest.raises(RefusalError, match="record 3") as caught:
+        download(control)
+    assert caught.value.code == Code.REJECTED
+    assert control.image == OLD
+
+
+def refuse(image: bytes) -> None:
+    raise ValueError("nobody can read it")
+
+
+def test_a_control_takes_back_whatever_it_has_held(make: Callable[..., Control]) -> None:
+    """Under any signature and unread, also after a restart; what it has not held it looks into."""
+    control = make()
+    download(control)
+    folder = control.memory.folder
+    control.close()
+    control = make(folder, accept=refuse)
+
+    control.open_download(opening(OLD, NEW, b"b" * 16, signature=""))
+    control.stage(b"b" * 16, OLD)
+    control.commit(Commit(b"b" * 16, sha(OLD)))
+
+    assert control.image == OLD
+    with pytest.raises(RefusalError, match="has not held this image") as caught:
+        control.open_download(opening(b"other", OLD, b"c" * 16, signature=""))
+    assert caught.value.code == Code.SIGNATURE
+    control.open_download(opening(b"other", OLD, b"c" * 16))
+    control.stage(b"c" * 16, b"other")
+    with pytest.raises(
+        RefusalError, match="has not held this image and does not take it: nobody can read it"
+    ):
+        control.commit(Commit(b"c" * 16, sha(b"other")))
+
+
+def test_a_control_remembers_what_was_keyed_in_and_what_lay_in_its_memory(
+    make: Callable[..., Control],
+) -> None:
+    """Every image that was active at some time counts as held."""
+    control = make()
+    control.patch(lambda image: b"patched")
+    folder = control.memory.folder
+    control.close()
+    (folder / "active.img").write_bytes(b"laid there")
+    control = make(folder, accept=refuse)
+
+    for image in (OLD, b"patched"):
+        assert control.open_download(opening(image, b"laid there", sha(image)[:16], signature="")) == 0
+    download_back = opening(b"laid there", b"laid there", b"d" * 16, signature="")
+    assert control.open_download(download_back) == 0
+
+
+def test_the_memory_of_images_does_not_grow_for_ever(make: Callable[..., Control]) -> None:
+    control = make()
+    for number in range(150):
+        control.patch(lambda image, n=number: b"%d" % n)
+    record = json.loads((control.memory.folder / "control.json").read_bytes())
+    assert len(record["images"]) == 100
+    assert record["images"][-1] == sha(b"149").hex()
+
+
+def test_a_memory_of_an_earlier_program_is_taken_over(make: Callable[..., Control]) -> None:
+    """It knows only the image it holds."""
+    control = make()
+    folder = control.memory.folder
+    control.close()
+    record = json.loads((folder / "control.json").read_bytes())
+    del record["images"]
+    (folder / "control.json").write_text(json.dumps(record))
+    assert make(folder).open_download(opening(OLD, OLD, signature="")) == 0
+
+
+@pytest.mark.parametrize("images", [5, "x", None, {}])
+def test_a_damaged_memory_of_images_is_told(images: object, make: Callable[..., Control]) -> None:
+    control = make()
+    folder = control.memory.folder
+    control.close()
+    record = json.loads((folder / "control.json").read_bytes())
+    (folder / "control.json").write_text(json.dumps(record | {"images": images}))
+    with pytest.raises(StateError, match="is not what an emulated control writes"):
+        make(folder)
+
+
+def test_only_one_download_is_kept_and_an_abort_ends_it(make: Callable[..., Control]) -> None:
+    control = make()
+    control.open_download(opening())
+    control.stage(TRANSFER, NEW[:100])
+    assert control.open_download(opening(transfer=bytes(16))) == 0
+    assert len([name for name in control.memory.names() if name.startswith("staged-")]) == 2
+    control.abort(bytes(16))
+    control.abort(b"unknown to it...")
+    assert not [name for name in control.memory.names() if name.startswith("staged-")]
+    download(control)
+    with pytest.raises(RefusalError) as caught:
+        control.abort(TRANSFER)
+    assert caught.value.code == Code.ALREADY_COMMITTED
+
+
+def test_what_belongs_to_no_download_is_removed_at_the_start(
+    make: Callable[..., Control], tmp_path: Path
+) -> None:
+    control = make(tmp_path)
+    control.open_download(opening())
+    control.close()
+    (tmp_path / "staged-00.part").write_bytes(b"left over")
+    (tmp_path / "active.img.tmp").write_bytes(b"left over")
+    control = make(tmp_path)
+    note, part = f"staged-{TRANSFER.hex()}.json", f"staged-{TRANSFER.hex()}.part"
+    assert control.memory.names() == [*LOCK, "active.img", "control.json", note, part]
+
+
+def test_a_folder_belongs_to_one_control(make: Callable[..., Control], tmp_path: Path) -> None:
+    control = make(tmp_path)
+    with pytest.raises(StateError, match="control is open in another program"):
+        make(tmp_path)
+    control.close()
+    for identity, said in (
+        (Identity("num", "s1"), "memory of a 9pc"),
+        (Identity("9pc", "s2"), "another parameter schema"),
+    ):
+        with pytest.raises(StateError, match=said):
+            Control(tmp_path, identity)
+    (tmp_path / "control.json").write_text("{")
+    with pytest.raises(StateError, match="damaged"):
+        make(tmp_path)
+
+
+# -- crashes and faults of the disk at every step --------------------------------------------------
+
+
+def spoil(control: Control, step: str) -> None:
+    """Leave what a write that is cut in the middle leaves."""
+    verb, _, name = step.rpartition(" ")
+    if verb == "write":
+        (control.memory.folder / name).write_bytes(b"{half of it")
+    elif verb == "append to":
+        with (control.memory.folder / name).open("ab") as stream:
+            stream.write(NEW[control.staged_size : control.staged_size + 37])
+
+
+def plug_at(control: Control, at: int) -> list[str]:
+    """Pull the plug of a control at its ``at``-th step; return the list the steps are written to."""
+    steps: list[str] = []
+
+    def on_step(step: str) -> None:
+        steps.append(step)
+        if len(steps) == at:
+            spoil(control, step)
+            raise Died
+
+    control.memory.on_step = on_step
+    return steps
+
+
+def test_pulling_the_plug_at_any_step_leaves_the_old_image_or_the_new(make: Callable[..., Control]) -> None:
+    at, ended, committed_at = 0, False, []
+    while not ended:
+        at += 1
+        control = make()
+        folder = control.memory.folder
+        steps = plug_at(control, at)
+        try:
+            download(control)
+            control.restart()
+            ended = True
+        except Died:
+            pass
+        control.close()
+
+        control = make(folder)
+        assert control.image in (OLD, NEW), f"step {at}: {steps[-1]}"
+        if control.image == NEW:
+            committed_at.append(at)
+        assert control.flags & Flags.ESTOP
+        assert download(control).sha256 == sha(NEW), f"step {at}: the client asks again and gets there"
+        control.restart()
+        assert control.memory.read("previous.img") == OLD, f"step {at}: {steps[-1]}"
+        assert control.memory.names() == [*LOCK, "active.img", "control.json", "previous.img"]
+        control.close()
+    assert at > 20
+    assert committed_at == list(range(committed_at[0], at + 1)), "there is one moment a commit happens in"
+
+
+def test_pulling_the_plug_while_starting_does_no_harm(make: Callable[..., Control]) -> None:
+    """The recovery is attacked itself: died in the middle of a commit, then at each step of the start."""
+    for died_at in range(1, 40):
+        for at in range(1, 40):
+            control = make()
+            folder = control.memory.folder
+            plug_at(control, died_at)
+            try:
+                download(control)
+                control.close()
+                return
+            except Died:
+                pass
+            control.close()
+            again = Control.__new__(Control)
+            if start_and_die(again, folder, at):
+                break
+            control = make(folder)
+            assert control.image in (OLD, NEW)
+            assert download(control).sha256 == sha(NEW)
+            assert control.memory.read("previous.img") == OLD
+            control.close()
+
+
+def start_and_die(control: Control, folder: Path, at: int) -> bool:
+    """Start a control and pull its plug at a step; whether it got through."""
+    from amp_studio.transfer.emulated import memory
+
+    count = 0
+
+    class Plugged(memory.Memory):
+        def __init__(self, where: Path) -> None:
+            super().__init__(where)
+            self.on_step = self.step
+
+        def step(self, step: str) -> None:
+            nonlocal count
+            count += 1
+            if count == at:
+                raise Died
+
+    patch = pytest.MonkeyPatch()
+    patch.setattr("amp_studio.transfer.emulated.control.Memory", Plugged)
+    try:
+        Control.__init__(control, folder, Identity("9pc", "s1", "CNC_1", "3.05"), OLD)
+        control.close()
+        return True
+    except Died:
+        return False
+    finally:
+        patch.undo()
+
+
+@pytest.mark.parametrize("for_ever", [False, True], ids=["once", "from then on"])
+def test_a_disk_that_fails_at_any_step_of_a_commit_gives_old_or_new_and_says_which(
+    make: Callable[..., Control], for_ever: bool
+) -> None:
+    at, failed = 0, True
+    while failed:
+        at += 1
+        control = make()
+        folder = control.memory.folder
+        control.open_download(opening())
+        control.stage(TRANSFER, NEW)
+        count, failed = 0, False
+
+        def on_step(step: str, at: int = at) -> None:
+            nonlocal count, failed
+            count += 1
+            if count == at or (for_ever and count > at):
+                failed = True
+                raise OSError(errno.ENOSPC, "No space left on device")
+
+        control.memory.on_step = on_step
+        said, code = NEW, None
+        try:
+            control.commit(Commit(TRANSFER, sha(NEW)))
+        except RefusalError as refusal:
+            said, code = OLD, refusal.code
+        assert code in (None, Code.STORAGE)
+        assert control.image == said, f"step {at}"
+        control.close()
+        control = make(folder)
+        assert control.image == said, f"step {at}: it is the same after the next start"
+        assert download(control).sha256 == sha(NEW)
+        assert control.memory.read("previous.img") == OLD, f"step {at}"
+        control.close()
+    assert at > 10
+
+
+def test_a_full_disk_leaves_what_is_staged_as_it_was(make: Callable[..., Control]) -> None:
+    control = make()
+    control.memory.full_at = 200
+    control.open_download(opening())
+    control.stage(TRANSFER, NEW[:150])
+    with pytest.raises(RefusalError) as caught:
+        control.stage(TRANSFER, NEW[150:250])
+    assert caught.value.code == Code.STORAGE
+    assert control.staged_size == 150
+    control.memory.full_at = None
+    assert download(control).sha256 == sha(NEW)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("control.json", {"incarnation": "many"}),
+        ("control.json", {"incarnation": 1 << 40}),
+        ("control.json", {"estop": 1}),
+        ("control.json", {"committed": {"transfer": 5}}),
+        ("control.json", {"committed": []}),
+        ("commit.json", {}),
+        ("commit.json", {"to": "00", "answer": {"incarnation": 1}}),
+    ],
+)
+def test_a_state_that_no_control_has_written_is_refused_with_its_file(
+    new_control: Callable[..., Control], tmp_path: Path, name: str, content: dict[str, Any]
+) -> None:
+    folder = tmp_path / "control"
+    new_control(folder).close()
+    path = folder / name
+    before = json.loads(path.read_text()) if path.exists() else {}
+    path.write_text(json.dumps(before | content))
+    with pytest.raises(StateError, match=name):
+        new_control(folder)
+
+
+def test_a_state_nested_beyond_reason_is_refused(new_control: Callable[..., Control], tmp_path: Path) -> None:
+    folder = tmp_path / "control"
+    new_control(folder).close()
+    (folder / "control.json").write_text("[" * 100_000)
+    with pytest.raises(StateError, match="damaged"):
+        new_control(folder)
