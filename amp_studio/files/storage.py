@@ -318,14 +318,24 @@ def readable_content(file: ParameterFile, path: Path, previous: bytes | None = N
     """Return a file's content that has been read back and means what the file does; raises SaveError."""
     try:
         content = content_of(file, previous)
-        found = _difference(file, read_content(path, content, file.schema))
+        found = _fault_of(file, path, content)
+        if found and previous is not None:
+            # YAML takes a blank line with a tab behind some entries and not behind others.
+            content = re.sub(rb"(?m)^ *\t[ \t]*$", b"", content)
+            found = _fault_of(file, path, content)
     except UnicodeEncodeError as error:
         found = f"the sign U+{ord(error.object[error.start]):04X} is in no file"
-    except ParameterFileError as error:
-        found = f"it would be unreadable: {f'line {error.line}: ' if error.line else ''}{error.what}"
     if found:
         raise SaveError(f"{path} was not written: {found}")
     return content
+
+
+def _fault_of(file: ParameterFile, path: Path, content: bytes) -> str:
+    """Return why a content does not mean what the file does; empty where it does."""
+    try:
+        return _difference(file, read_content(path, content, file.schema))
+    except ParameterFileError as error:
+        return f"it would be unreadable: {f'line {error.line}: ' if error.line else ''}{error.what}"
 
 
 def _difference(file: ParameterFile, again: ParameterFile) -> str:

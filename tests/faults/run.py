@@ -35,7 +35,7 @@ def main() -> int:
     parser.add_argument("--share", type=float, default=1.0, help="of the whole number of runs")
     parser.add_argument("--processes", type=int, default=os.cpu_count())
     options = parser.parse_args()
-    violations: list[str] = []
+    violated = False
     print(f"{'campaign':44} {'runs':>9} {'violations':>11} {'seconds':>9}")
     with ProcessPoolExecutor(options.processes, initializer=_start) as pool:
         for number, campaign in enumerate(CAMPAIGNS):
@@ -45,10 +45,10 @@ def main() -> int:
             sizes = [min(campaign.at_once, runs - done) for done in range(0, runs, campaign.at_once)]
             parts = [pool.submit(_part, number, options.seed + n, size) for n, size in enumerate(sizes)]
             found = [fault for part in parts for fault in part.result()]
-            violations += [f"{campaign.name}: {fault}" for fault in found]
+            violated |= bool(found)
             print(f"{campaign.name:44} {runs:9} {len(found):11} {time.monotonic() - began:9.0f}", flush=True)
-    print(*violations, sep="\n")
-    return int(bool(violations))
+            print(*(f"    {fault}\n" for fault in found), sep="", end="", flush=True)
+    return int(violated)
 
 
 if __name__ == "__main__":

@@ -183,9 +183,9 @@ def _open_and_save(text: str) -> None:
             file.set(address, default)
     file.header.notes = chance.choice(("", "a: 'b' # c", "two\nlines"))
     before = read_yaml(text).data
-    readable_content(file, path, content)
+    saved = readable_content(file, path, content)
     extra = {key: value for key, value in before.items() if key in file.header.extra}
-    after = read_yaml(content_of(file, content).decode()).data
+    after = read_yaml(saved.decode()).data
     assert repr({key: after.get(key) for key in extra}) == repr(extra), "an extra key changed"
 
 

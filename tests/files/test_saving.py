@@ -396,3 +396,16 @@ def test_values_stand_in_the_order_of_the_manual(on_disk: Path, mill: ParameterF
     written = [line.strip().split(":")[0] for line in lines[lines.index("values:") + 1 : -1]]
     expected = [f"{p}@{i}" if i else p for p, i in mill.addresses() if (p, i) in mill.values]
     assert expected == written
+
+
+def test_a_blank_line_with_a_tab_does_not_keep_a_file_from_being_saved(tmp_path: Path) -> None:
+    """YAML takes it behind a bare figure, and no longer when that entry is gone and a remark precedes it."""
+    path = tmp_path / "press.amp"
+    path.write_bytes(
+        b"amp_studio: 1\nfamily: 57c422b\nvalues:\n  setup.encoder@X: '0x1414'    # page 4-48\n"
+        b"  gain.proportional@X: 17595\n    \t\n  gain.integral@X: 768\n...\n"
+    )
+    with Document.open(path) as document:
+        document.file.set(("gain.proportional", "X"), None)
+        document.save()
+    assert b"# page 4-48\n\n  gain.integral@X: 768\n" in path.read_bytes()
