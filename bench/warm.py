@@ -52,8 +52,8 @@ def _memory() -> float:
     gc.collect()
     tracemalloc.start()
     schema = load_schema("9pc")
-    schema.addressed_by("1", "mill")
-    schema.addressed_by("1", "lathe")
+    schema.on("mill").addressed_by("1")
+    schema.on("lathe").addressed_by("1")
     gc.collect()
     held = tracemalloc.get_traced_memory()[0] / 1e6
     tracemalloc.stop()

@@ -19,8 +19,8 @@ from pydantic import TypeAdapter
 from ruamel.yaml import YAML
 
 from amp_studio.schema import Parameter, Rule, load_schema, program
-from amp_studio.schema.catalog import number_of
 from amp_studio.schema.load import compile_family
+from amp_studio.schema.machine_schema import number_of
 
 ROOMS = ("schema", "files", "validate", "formats", "report", "transfer", "sim", "families", "ui")
 CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}

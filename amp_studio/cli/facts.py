@@ -17,7 +17,7 @@ def families_verb(options: argparse.Namespace) -> int:
     rows = []
     for family_id in family_ids():
         schema = family(family_id)
-        values = max(len(schema.addresses(m.key)) for m in schema.family.machines)
+        values = max(len(schema.on(m.key).addresses) for m in schema.family.machines)
         rows.append(
             {
                 "id": family_id,

@@ -69,7 +69,7 @@ def set_verb(options: argparse.Namespace) -> int:
             note("nothing changed: every value was so already")
         for change in changes:
             parameter = file.schema.parameters[change.address[0]]
-            name = file.schema.named(change.address, file.machine)
+            name = file.machine_schema.named(change.address)
             print(f"{name}: {show_value(parameter, change.old)} -> {show_value(parameter, change.new)}")
             state = file.evaluation.state(change.address)
             if state.state != "in-force":
@@ -112,7 +112,7 @@ def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
     words = (file.get(address), file.default(address))
     word, default = (None if v is None else field_value(field, int(v.value)) for v in words)
     labels = {c.raw: c.label for c in field.choices or ()}
-    return {"param": f"{file.schema.short(address, file.machine)}.{bit}", "id": address[0], "instance": address[1],
+    return {"param": f"{file.machine_schema.short(address)}.{bit}", "id": address[0], "instance": address[1],
             "bit": bit, "label": field.label, "value": labels.get(word, word), "unit": "", "raw": word,
             "default": word == default, "state": file.evaluation.state(address).state,
             "forced": address in file.forced}  # fmt: skip
@@ -129,7 +129,7 @@ def _row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]
     if value is not None and not masked:
         raw = stored_number(parameter, value, file.evaluation.turns(address))
     return {
-        "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
+        "param": file.machine_schema.short(address), "id": address[0], "instance": address[1],
         "value": plain, "unit": value.unit if value else file.evaluation.unit(address, file.header.units), "raw": raw,
         "default": file.is_default(address), "state": file.evaluation.state(address).state,
         "forced": address in file.forced,
@@ -162,7 +162,7 @@ def get_verb(options: argparse.Namespace) -> int:
             shown = show_value(parameter, file.get(address), secrets=options.secrets)
             if file.get(address) is None and rows[-1]["unit"]:
                 shown += f" (in {unit_shown(rows[-1]['unit'])})"
-            print(f"{file.schema.named(address, file.machine):52} {shown}{mark}{state}")
+            print(f"{file.machine_schema.named(address):52} {shown}{mark}{state}")
     if options.json:
         print_json({"values": rows})
     return 0
@@ -194,7 +194,7 @@ def difference_json(file: ParameterFile, difference: Difference, secrets: bool) 
         None if v is None else MASKED if masked else write_value(parameter, v)
         for v in (difference.a, difference.b)
     )
-    found = {"param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
+    found = {"param": file.machine_schema.short(address), "id": address[0], "instance": address[1],
              "a": a, "b": b}  # fmt: skip
     return found | ({"secret": True} if parameter.secret else {})
 
@@ -211,7 +211,7 @@ def print_difference(file: ParameterFile, difference: Difference, secrets: bool)
     """Print one difference."""
     parameter = file.schema.parameters[difference.address[0]]
     sides = (show_value(parameter, v, secrets=secrets) for v in (difference.a, difference.b))
-    print(f"{file.schema.named(difference.address, file.machine):52} {'  |  '.join(sides)}")
+    print(f"{file.machine_schema.named(difference.address):52} {'  |  '.join(sides)}")
 
 
 def _side(text: str) -> tuple[ParameterFile, str | None]:
@@ -239,7 +239,7 @@ def merge_verb(options: argparse.Namespace) -> int:
             print(f"conflict at {'@'.join(filter(None, c.address))}: ours stands")
             continue
         was, mine, wanted = (show_value(p, v, secrets=options.secrets) for v in (c.base, c.ours, c.theirs))
-        print(f"conflict at {base.schema.named(c.address, ours.machine)}: base {was}, "
+        print(f"conflict at {base.schema.on(ours.machine).named(c.address)}: base {was}, "
               f"ours {mine}, theirs {wanted}; ours stands")  # fmt: skip
     print(f"{options.output}: {len(conflicts)} conflicts")
     return 1 if conflicts else 0

@@ -77,7 +77,7 @@ def _addresses(file: ParameterFile, text: str) -> Collection[Address]:
     """Return the values that a number or an id means; an id without instance means all. Raises UsageError."""
     parameter = file.schema.parameters.get(text.strip())
     if parameter is not None:
-        return {(parameter.id, instance) for instance in file.schema.instances(parameter, file.machine)}
+        return {(parameter.id, instance) for instance in file.machine_schema.instances(parameter)}
     try:
         return {file.find(text)}
     except UnknownParameterError as error:
@@ -121,7 +121,7 @@ def _json(file: ParameterFile, fixed: Fixed) -> dict[str, Any]:
     address, old, new = fixed.change.address, fixed.change.old, fixed.change.new
     parameter = file.schema.parameters[address[0]]
     return {
-        "param": file.schema.short(address, file.machine), "id": address[0], "instance": address[1],
+        "param": file.machine_schema.short(address), "id": address[0], "instance": address[1],
         "old": _text(parameter, old), "new": _text(parameter, new), "rule": fixed.rule,
     }  # fmt: skip
 

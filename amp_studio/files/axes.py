@@ -20,7 +20,7 @@ class AxisError(ValueError):
 def axis_instances(file: ParameterFile) -> tuple[str, ...]:
     """Return the axes a file can have; empty for a family without an axis profile."""
     profile = file.schema.family.axes
-    return file.schema.instances(file.schema.parameters[profile.type], file.machine) if profile else ()
+    return file.machine_schema.instances(file.schema.parameters[profile.type]) if profile else ()
 
 
 def axis_type(file: ParameterFile, axis: str) -> str:
@@ -167,7 +167,7 @@ def _unfitted(profile: AxisProfile, axis: str) -> dict[Address, Value]:
 
 
 def _is_axis(file: ParameterFile, parameter_id: str) -> bool:
-    layout = file.schema.layout(file.schema.parameters[parameter_id], file.machine)
+    layout = file.machine_schema.layout(file.schema.parameters[parameter_id])
     return layout is not None and layout.scope == "axis"
 
 

@@ -281,7 +281,7 @@ class Document:
         address = read_address(entry)
         parameter = schema.parameters.get(address[0])
         if parameter is None or not any(
-            address[1] in schema.instances(parameter, machine) for machine in schema.machines
+            address[1] in schema.on(machine).instances(parameter) for machine in schema.machines
         ):
             return None
         try:

@@ -37,7 +37,7 @@ def held_text(file: ParameterFile, address: Address) -> str:
         words = words_of(parameter, value, storage.unit or value.unit)
     except WordError:
         return told
-    number = file.schema.number(address, file.machine) or ""
+    number = file.machine_schema.number(address) or ""
     names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]
     each = ", ".join(f"{name} = {word} (0x{word:04X})" for name, word in zip(names, words, strict=True))
     return f"{write_number(round(stored))}: {each}"

@@ -16,7 +16,5 @@ def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:
             continue
         said = fault(file.evaluation, address, value)
         if said:
-            found.append(
-                (address, f"{file.schema.label(address, file.machine)} ({written(address)}): {said}")
-            )
+            found.append((address, f"{file.machine_schema.label(address)} ({written(address)}): {said}"))
     return found

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from amp_studio.schema import (
     Address,
     Evaluation,
+    MachineSchema,
     Schema,
     Value,
     fault,
@@ -82,6 +83,11 @@ class ParameterFile:
             return family.default_machine
         return self.header.machine or family.default_machine
 
+    @property
+    def machine_schema(self) -> MachineSchema:
+        """The schema on the file's machine type: instances, numbers and labels."""
+        return self.schema.on(self.machine)
+
     # -- reading ---------------------------------------------------------------
 
     def get(self, address: Address) -> Value | None:
@@ -90,7 +96,7 @@ class ParameterFile:
 
     def addresses(self) -> tuple[Address, ...]:
         """Return every addressable value of this machine type, in the manual's order."""
-        return self.schema.addresses(self.machine)
+        return self.machine_schema.addresses
 
     def find(self, text: str) -> Address:
         """Return the instance a person means; raises UnknownParameterError."""
@@ -109,9 +115,7 @@ class ParameterFile:
         parameter, own = self.schema.parameters[address[0]], [address]
         if parameter.secret:
             own += [
-                a
-                for i in self.schema.instances(parameter, self.machine)
-                if (a := (address[0], i)) in self.values
+                a for i in self.machine_schema.instances(parameter) if (a := (address[0], i)) in self.values
             ]
         return all(same_value(self.get(a), self.default(a)) for a in own)
 
@@ -240,7 +244,7 @@ def new_file(
         file.set((schema.family.machine_parameter, ""), Value(machine or schema.family.default_machine))
     if file.schema.family.axes:
         profile = file.schema.family.axes
-        for instance in schema.instances(schema.parameters[profile.type], file.machine):
+        for instance in schema.on(file.machine).instances(schema.parameters[profile.type]):
             default = file.default((profile.type, instance))
             if default is not None:
                 file.set((profile.type, instance), default)
@@ -281,7 +285,7 @@ def without_secrets(file: ParameterFile) -> ParameterFile:
 
 def describe(file: ParameterFile, address: Address) -> str:
     """Return ``1300 Home Calibration`` for messages."""
-    return file.schema.label(address, file.machine)
+    return file.machine_schema.label(address)
 
 
 __all__ = ["Change", "Header", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults", "new_file",

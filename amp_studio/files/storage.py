@@ -199,7 +199,7 @@ def _value(file: ParameterFile, address: Address, said: str) -> Value | None:
     """Return the value, None for an address the schema does not have; raises InvalidValueError."""
     schema = file.schema
     parameter = schema.parameters.get(address[0])
-    if parameter is None or address[1] not in schema.instances(parameter, file.machine):
+    if parameter is None or address[1] not in schema.on(file.machine).instances(parameter):
         return None
     try:
         if len(said) > _REMEMBERED:

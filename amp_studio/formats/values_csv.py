@@ -34,7 +34,7 @@ def _write(file: ParameterFile) -> str:
         value = file.get(address)
         if value is not None:
             parameter = file.schema.parameters[address[0]]
-            number = file.schema.number(address, file.machine) or ""
+            number = file.machine_schema.number(address) or ""
             plain = write_value(parameter, Value(value.value))
             cells = (number, *address, parameter.name, plain, value.unit)
             table.writerow(map(text_cell, cells))
@@ -68,7 +68,9 @@ def _take(
     is_text = parameter is not None and parameter.type == "text"
     said = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
     offered = (
-        {i for m in schema.family.machines for i in schema.instances(parameter, m.key)} if parameter else ()
+        {i for m in schema.family.machines for i in schema.on(m.key).instances(parameter)}
+        if parameter
+        else ()
     )
     if parameter is None or address[1] not in offered:
         if not keep_unknown:

@@ -24,12 +24,12 @@ from .manual_page import entry_units, erratum_text, sharing_numbers
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
     """Return one parameter definition as ``schema --json`` gives it."""
     machines = [m.key for m in schema.family.machines]
-    layout = schema.layout(parameter, schema.family.default_machine)
-    printed = {m: schema.numbers(parameter, m) for m in machines}
+    layout = schema.on(schema.family.default_machine).layout(parameter)
+    printed = {m: schema.on(m).numbers(parameter) for m in machines}
     # A number that the manual prints by mistake addresses another parameter: it is no number of this one.
-    numbers = {m: {} if schema.is_disputed(parameter.id, m) else n for m, n in printed.items()}
+    numbers = {m: {} if schema.on(m).is_disputed(parameter.id) else n for m, n in printed.items()}
     same = all(n == numbers[machines[0]] for n in numbers.values())
-    instances = {m: list(schema.instances(parameter, m)) for m in machines}
+    instances = {m: list(schema.on(m).instances(parameter)) for m in machines}
     found: dict[str, Any] = {
         "id": parameter.id,
         "name": parameter.name,
@@ -66,7 +66,7 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         found["numbers_by_machine"] = numbers
     if len({tuple(i) for i in instances.values() if i}) > 1:
         found["instances_by_machine"] = instances
-    if any(schema.is_disputed(parameter.id, m) for m in machines):
+    if any(schema.on(m).is_disputed(parameter.id) for m in machines):
         found["numbers_disputed"] = True
         found["printed_numbers"] = next(n for m, n in printed.items() if n != numbers[m])
     if sharing := sharing_numbers(schema, parameter):
@@ -128,11 +128,11 @@ def _help(parameter: Parameter) -> str:
 
 def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
     """Return a finding as ``validate --json`` gives it."""
-    schema, machine = file.schema, file.machine
+    here = file.machine_schema
     return {
         "rule": finding.rule, "severity": finding.severity,
-        "params": [schema.short(a, machine) for a in finding.addresses],
-        "compared": [schema.short(a, machine) for a in finding.compared],
+        "params": [here.short(a) for a in finding.addresses],
+        "compared": [here.short(a) for a in finding.compared],
         "message": finding.message,
         "fix": [_setting_json(file, setting) for setting in finding.repairs],
         "effective": [_setting_json(file, setting) for setting in finding.effective],
@@ -142,7 +142,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
 
 def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
     parameter = file.schema.parameters[setting.address[0]]
-    param = file.schema.short(setting.address, file.machine)
+    param = file.machine_schema.short(setting.address)
     if parameter.secret:
         return {"param": param, "value": None, "secret": True}
     return {"param": param, "value": write_value(parameter, setting.value)}
@@ -175,4 +175,4 @@ def _written(parameter: Parameter, value: Value) -> str:
 
 def _named(file: ParameterFile, address: Address) -> str:
     """Return what a person can look up: number and name, with the address where the number is not its own."""
-    return file.schema.named(address, file.machine)
+    return file.machine_schema.named(address)

@@ -85,11 +85,11 @@ def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool)
 
     Without a number it is the name and the axis of the first, and the axis alone of the others.
     """
-    schema, machine = file.schema, file.machine
-    number = schema.number(address, machine)
-    if number and not schema.is_disputed(address[0], machine):
-        return schema.label(address, machine) if is_last else number
-    return schema.label(address, machine) if is_first else schema.instance_label(address, machine)
+    here = file.machine_schema
+    number = here.number(address)
+    if number and not here.is_disputed(address[0]):
+        return here.label(address) if is_last else number
+    return here.label(address) if is_first else here.instance_label(address)
 
 
 def _settings(file: ParameterFile, settings: Sequence[Setting]) -> Iterable[str]:

@@ -40,7 +40,9 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
         _check_instance(schema, found, param, machines)
         wanted = [found.id]
     else:
-        wanted = [a[0] for m in machines for a in schema.addressed_by(param, m) or schema.words(param, m)]
+        wanted = [
+            a[0] for m in machines for a in schema.on(m).addressed_by(param) or schema.on(m).words(param)
+        ]
         if not wanted:
             raise UnknownParameterError(*unknown(schema, param.strip()))
     pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
@@ -50,8 +52,8 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
 def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: Sequence[str]) -> None:
     """Raise UnknownParameterError for an instance that the parameter has nowhere; a letter may be that of an axis."""
     instance = read_address(param.strip())[1]
-    offered = {i.casefold() for m in machines for i in schema.instances(parameter, m)}
-    on_an_axis = any(schema.kin(schema.scopes(m)[parameter.id], "axis") for m in machines)
+    offered = {i.casefold() for m in machines for i in schema.on(m).instances(parameter)}
+    on_an_axis = any(schema.on(m).kin(schema.on(m).scopes[parameter.id], "axis") for m in machines)
     if instance and instance.casefold() not in offered and not (on_an_axis and instance.isalpha()):
         evaluation = Evaluation(schema, lambda _: None, lambda: machines[0])
         evaluation.find(param)  # says what it has
@@ -170,27 +172,29 @@ def _instances_without_number(schema: Schema, parameter: Parameter, machine: str
     """Yield ``fov.position@1 to fov.position@16 (Pos 1 to Pos 16)`` for instances that no number addresses."""
     texts: dict[str, None] = {}
     for key in [m.key for m in schema.family.machines if machine in (None, m.key)]:
-        numbers = {} if schema.is_disputed(parameter.id, key) else schema.numbers(parameter, key)
-        bare = [i for i in schema.instances(parameter, key) if i and i not in numbers]
+        here = schema.on(key)
+        numbers = {} if here.is_disputed(parameter.id) else here.numbers(parameter)
+        bare = [i for i in here.instances(parameter) if i and i not in numbers]
         if bare:
             ends = list(dict.fromkeys((bare[0], bare[-1])))
-            named = " to ".join(schema.instance_label((parameter.id, i), key) for i in ends)
+            named = " to ".join(here.instance_label((parameter.id, i)) for i in ends)
             texts[" to ".join(f"{parameter.id}@{i}" for i in ends) + f" ({named})"] = None
     yield from texts
 
 
 def sharing_numbers(schema: Schema, parameter: Parameter) -> list[str]:
     """Return the other parameters for which the manual prints numbers of this one."""
-    machines = [m.key for m in schema.family.machines]
-    claims = (a for m in machines for n in schema.numbers(parameter, m).values() for a in schema.claims(n, m))
+    machines = [schema.on(m.key) for m in schema.family.machines]
+    claims = (a for m in machines for n in m.numbers(parameter).values() for a in m.claims(n))
     return [i for i in dict.fromkeys(a[0] for a in claims) if i != parameter.id]
 
 
 def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     """Return ``1300, 2300 … 8300 (Axis 1 to Axis 8)``."""
-    numbers = schema.numbers(parameter, machine)
+    here = schema.on(machine)
+    numbers = here.numbers(parameter)
     if not numbers:
-        return "none" if schema.layout(parameter, machine) else ""
+        return "none" if here.layout(parameter) else ""
     runs = []
     for _, group in groupby(numbers.items(), key=lambda item: item[0].rpartition(".")[0]):
         members = list(group)
@@ -200,7 +204,7 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     if not others:
         return text
     named = ", ".join(f"{schema.parameters[i].name} ({i})" for i in others)
-    if schema.is_disputed(parameter.id, machine):
+    if here.is_disputed(parameter.id):
         return f"{text}; printed, but they address {named}"
     return f"{text}; also printed for {named}"
 
@@ -222,7 +226,7 @@ def _run(schema: Schema, parameter: Parameter, machine: str, run: list[tuple[str
     written = [number for _, number in run]
     if len(written) > 3:
         written = [written[0], f"{written[1]} … {written[-1]}"]
-    ends = (schema.instance_label((parameter.id, run[end][0]), machine) for end in (0, -1))
+    ends = (schema.on(machine).instance_label((parameter.id, run[end][0])) for end in (0, -1))
     named = " to ".join(label for label in dict.fromkeys(ends) if label)
     return ", ".join(written) + (f" ({named})" if named else "")
 
@@ -232,7 +236,7 @@ def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
     if parameter.choices or parameter.type in ("text", "format", "bits"):
         return ()
     turns = schema.family.angular_when is not None and any(
-        schema.scopes(m.key)[parameter.id] == "axis" for m in schema.family.machines
+        schema.on(m.key).scopes[parameter.id] == "axis" for m in schema.family.machines
     )
     systems = tuple(schema.family.units) or ("",)
     units = (schema.unit(parameter, s, t) for t in (False, True)[: 1 + turns] for s in systems)
@@ -329,7 +333,7 @@ def _plain(parameter: Parameter, value: float | bool | str) -> str:
 def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
     """Yield the command that sets the first instance, with a gap for each value: ``NOTCH X(…, …)``."""
     if parameter.storage and parameter.storage.command:
-        first = schema.instances(parameter, schema.family.default_machine)[0]
+        first = schema.on(schema.family.default_machine).instances(parameter)[0]
         known = {"{i}": first, "{n}": "0"}
         yield re.sub("{.*?}", lambda gap: known.get(gap[0], "…"), parameter.storage.command)
 
@@ -373,8 +377,8 @@ def erratum_text(erratum: Erratum) -> str:
 
 def _short_span(schema: Schema, parameter: Parameter, machine: str) -> str:
     """Return ``1300…8300`` or, where there are no numbers, the instances: ``@1…@16``."""
-    own = {} if schema.is_disputed(parameter.id, machine) else schema.numbers(parameter, machine)
-    every = list(own.values()) or [f"@{i}" for i in schema.instances(parameter, machine) if i]
+    own = {} if schema.on(machine).is_disputed(parameter.id) else schema.on(machine).numbers(parameter)
+    every = list(own.values()) or [f"@{i}" for i in schema.on(machine).instances(parameter) if i]
     return "" if not every else every[0] if every[0] == every[-1] else f"{every[0]}…{every[-1]}"
 
 

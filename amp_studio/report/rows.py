@@ -72,7 +72,7 @@ def printed_axes(file: ParameterFile) -> tuple[str, ...]:
 
 def scope_of(file: ParameterFile, address: Address) -> str:
     """Return the scope of a value on the machine type of the file."""
-    layout = file.schema.layout(file.schema.parameters[address[0]], file.machine)
+    layout = file.machine_schema.layout(file.schema.parameters[address[0]])
     return layout.scope if layout else "global"
 
 
@@ -93,7 +93,7 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secre
 
     A secret has no default in its row: with the mark of a change it would tell the value.
     """
-    schema, machine = file.schema, file.machine
+    schema, here = file.schema, file.machine_schema
     parameter = schema.parameters[address[0]]
     value, default, state = file.get(address), file.default(address), file.evaluation.state(address)
     masked = parameter.secret and not secrets
@@ -105,10 +105,10 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secre
     return Row(
         id=address[0],
         instance=address[1],
-        number="" if schema.is_disputed(address[0], machine) else schema.number(address, machine) or "",
+        number="" if here.is_disputed(address[0]) else here.number(address) or "",
         name=parameter.name,
         group=schema.group_of[address[0]].name,
-        place=axis_label(file, address[1]) if on_axis else schema.instance_label(address, machine),
+        place=axis_label(file, address[1]) if on_axis else here.instance_label(address),
         is_set=value is not None,
         value=MASKED if masked and value is not None else _bare(parameter, value),
         unit=unit,

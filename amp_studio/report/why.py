@@ -30,8 +30,8 @@ def why_parts(
         name = f"{seen.name} = " if seen.name else ""
         state = f" ({seen.state})" if seen.state else ""
         label, place = (
-            file.schema.label(seen.address, file.machine),
-            file.schema.instance_label(seen.address, file.machine),
+            file.machine_schema.label(seen.address),
+            file.machine_schema.instance_label(seen.address),
         )
         yield "Reads", f"{name}{seen.value}{state}: {label}{f', {place}' if place else ''}", seen.address
     if len(why.seen) > _MANY:

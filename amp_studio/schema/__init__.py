@@ -4,22 +4,15 @@ Loads ``parameter_db`` once into a compiled cache and answers questions about
 it; every other room asks here and knows no parameter by heart.
 """
 
+from .address import Address, UnknownParameterError, part_of, read_address, written
 from .addressing import Meant, all_meant, axis_meant, meant, unknown
-from .catalog import (
-    Address,
-    Schema,
-    UnknownParameterError,
-    labelled,
-    load_schema,
-    part_of,
-    read_address,
-    written,
-)
+from .catalog import Schema, load_schema
 from .conditions import IN_FORCE, Reference, StateInfo, program
 from .constraint import Limits, bounding, clip, fault, limits
 from .evaluation import Evaluation, canonical_value, same_value
 from .file_error import FileError
 from .load import DatabaseError, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
+from .machine_schema import MachineSchema, labelled
 from .model import (
     AxisProfile,
     BuilderRule,
@@ -66,6 +59,7 @@ __all__ = [
     "Group",
     "InvalidValueError",
     "Limits",
+    "MachineSchema",
     "Meant",
     "Parameter",
     "Reference",

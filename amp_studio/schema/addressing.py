@@ -21,7 +21,8 @@ from difflib import SequenceMatcher, get_close_matches
 from functools import partial
 from typing import TYPE_CHECKING
 
-from .catalog import Address, Schema, UnknownParameterError, whole_of, written
+from .address import Address, UnknownParameterError, whole_of, written
+from .catalog import Schema
 from .model import Parameter
 from .quoting import quoted
 from .values import field_value, label_of
@@ -86,25 +87,25 @@ def _whole(evaluation: Evaluation, text: str) -> Meant:
     parameter = schema.parameters.get(name.casefold())
     if parameter is not None:
         return Meant((parameter.id, _instance(evaluation, parameter, instance, text)))
-    claims = schema.addressed_by(text, evaluation.machine)
+    claims = evaluation.machine_schema.addressed_by(text)
     if claims:
         existing = [a for a in claims if evaluation.state(a).state != "hidden"] or evaluation.least_hidden(
             claims
         )
-        others = [a for a in schema.claims(text, evaluation.machine) if a != existing[0]]
+        others = [a for a in evaluation.machine_schema.claims(text) if a != existing[0]]
         return Meant(existing[0], None, text, tuple(others))
     words = _words(evaluation, text)
     if len(words) == 1:
         return Meant(words[0], None, text)
     if words:
-        first, last = (schema.number(a, evaluation.machine) for a in (words[0], words[-1]))
+        first, last = (evaluation.machine_schema.number(a) for a in (words[0], words[-1]))
         raise UnknownParameterError(f"{quoted(text)} has {len(words)} words, {first} to {last}: say which")
     raise UnknownParameterError(*unknown(schema, text))
 
 
 def _words(evaluation: Evaluation, text: str) -> list[Address]:
     """Return the words of a number that has several (P21), those that exist for this machine if any does."""
-    words = evaluation.schema.words(text, evaluation.machine)
+    words = evaluation.machine_schema.words(text)
     return [a for a in words if evaluation.state(a).state != "hidden"] or words
 
 
@@ -113,12 +114,11 @@ def _words(evaluation: Evaluation, text: str) -> list[Address]:
 
 def _instance(evaluation: Evaluation, parameter: Parameter, instance: str, text: str) -> str:
     """Return the instance that is named by itself, or by the letter of its axis; raises UnknownParameterError."""
-    schema = evaluation.schema
-    instances = schema.instances(parameter, evaluation.machine)
+    instances = evaluation.machine_schema.instances(parameter)
     if instance in instances:
         return instance
     alike = [i for i in instances if i and i.casefold() == instance.casefold()]
-    if not alike and instance and schema.kin(evaluation.scope((parameter.id, "")), "axis"):
+    if not alike and instance and evaluation.machine_schema.kin(evaluation.scope((parameter.id, "")), "axis"):
         letter, point, part = instance.partition(".")
         alike = [i for axis in _axes_named(evaluation, letter) if (i := axis + point + part) in instances]
     if len(alike) == 1:
@@ -135,7 +135,7 @@ def _instance(evaluation: Evaluation, parameter: Parameter, instance: str, text:
 
 def _letters(evaluation: Evaluation, parameter: Parameter) -> str:
     """Return the letters of the axes that can stand for the instances of a parameter."""
-    if not evaluation.schema.kin(evaluation.scope((parameter.id, "")), "axis"):
+    if not evaluation.machine_schema.kin(evaluation.scope((parameter.id, "")), "axis"):
         return ""
     letters = dict.fromkeys(name for axis, name in _axis_names(evaluation) if _is_fitted(evaluation, axis))
     return f", or an axis by its letter: {', '.join(letters)}" if letters else ""
@@ -166,7 +166,7 @@ def _axis_names(evaluation: Evaluation) -> Iterator[tuple[str, str]]:
     if named_by is None:
         return
     parameter = schema.parameters[named_by]
-    for axis in schema.instances(parameter, evaluation.machine):
+    for axis in evaluation.machine_schema.instances(parameter):
         name = evaluation.canonical((named_by, axis))
         if isinstance(name, str):
             yield axis, label_of(parameter, name)
@@ -207,7 +207,7 @@ def _nearest(schema: Schema, text: str) -> list[str]:
     """Return the ids and numbers that a person may have meant, nearest first."""
     name, sign, instance = text.partition("@")
     name = name.casefold()
-    numbers = list(dict.fromkeys(n for m in schema.family.machines for n in schema.every_number(m.key)))
+    numbers = list(dict.fromkeys(n for m in schema.family.machines for n in schema.on(m.key).every_number))
     if (
         re.fullmatch(r"[a-z$]*[0-9]+([a-z]+[0-9]*)?(\.[0-9]+)?", name)
         and not sign

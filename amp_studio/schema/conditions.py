@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import Literal
 
-from .catalog import Address, Schema, UnknownParameterError, read_address, whole_of
+from .address import Address, UnknownParameterError, read_address, whole_of
+from .catalog import Schema
 from .cel_engine import Program, compile_expression, functions_called
 from .model import Condition, Scope, State
 
@@ -69,8 +70,8 @@ class Conditions:
     """The conditions and states of one family on one machine type."""
 
     def __init__(self, schema: Schema, machine: str) -> None:
-        self._schema, self._machine = schema, machine
-        self.scopes: dict[str, Scope | None] = schema.scopes(machine)
+        self._schema, self._here = schema, schema.on(machine)
+        self.scopes: dict[str, Scope | None] = self._here.scopes
         self.reaches: dict[str, Reach] = {n: self._reach(c) for n, c in schema.family.conditions.items()}
         self.readers: dict[Address, set[Asked]] = {}
         """Address -> what was asked, in whatever file, that reads it."""
@@ -87,7 +88,7 @@ class Conditions:
             return "each"
         reads_all = True
         for parameter_id, which in map(read_address, condition.reads.values()):
-            instances = self._schema.instances(self._schema.parameters[parameter_id], self._machine)
+            instances = self._here.instances(self._schema.parameters[parameter_id])
             if which in ("<", ">") or (which == "" and any("." in instance for instance in instances)):
                 return "each"
             reads_all &= which not in ("", ".") or (which == "" and instances == ("",))
@@ -156,8 +157,8 @@ class Conditions:
     def _resolve(self, text: str, instance: str, scope: str | None) -> Reference:
         parameter_id, which = read_address(text)
         parameter = self._schema.parameter(parameter_id)
-        instances = self._schema.instances(parameter, self._machine)
-        if scope is not None and not self._schema.kin(self.scopes[parameter_id], scope):
+        instances = self._here.instances(parameter)
+        if scope is not None and not self._here.kin(self.scopes[parameter_id], scope):
             instance = ""
         if which == "":
             own = next((i for i in (instance, whole_of(instance), "") if i in instances), None)

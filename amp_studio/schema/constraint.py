@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .catalog import Address
+from .address import Address
 from .evaluation import Evaluation
 from .model import Bound, BoundRef, Parameter, Range
 from .units import angular, canonical_unit, convert, dimension, shown
@@ -194,7 +194,7 @@ def _named(evaluation: Evaluation, allowed: Limits) -> str:
     text = allowed.text()
     for bound, source in ((allowed.low, allowed.low_from), (allowed.high, allowed.high_from)):
         if bound is not None and source is not None:
-            label = evaluation.schema.label(source, evaluation.machine)
+            label = evaluation.machine_schema.label(source)
             shown_value = show_value(evaluation.schema.parameters[source[0]], evaluation.value(source))
             text += f" (set by {label}, {shown_value})"
     return text

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from .address import Address, UnknownParameterError, part_of
 from .addressing import meant
-from .catalog import Address, Schema, UnknownParameterError, part_of
+from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS, Context
 from .conditions import (
     Asked,
@@ -24,6 +25,7 @@ from .conditions import (
     program,
     same_values,
 )
+from .machine_schema import MachineSchema
 from .model import Condition, Scope
 from .quoting import quoted
 from .units import canonical, dimension
@@ -49,6 +51,11 @@ class Evaluation:
         if self._machine is None:
             self._machine = self._asked_machine()
         return self._machine
+
+    @property
+    def machine_schema(self) -> MachineSchema:
+        """The schema on that machine type."""
+        return self.schema.on(self.machine)
 
     @property
     def _conditions(self) -> Conditions:

@@ -62,13 +62,13 @@ class PatchError(InvalidValueError):
 
 def encode_image(file: ParameterFile) -> bytes:
     """Return the image of a file: every value that is set, in the manual's order; raises ImageError."""
-    schema, machine = file.schema, file.machine
+    schema, here = file.schema, file.machine_schema
     lines = head_of(file)
     order = {a: n for n, a in enumerate(file.addresses())}
     values = sorted((a for a in file.values if a in order), key=order.__getitem__)
     for address in values:
-        number = schema.number(address, machine)
-        shown = "-" if number is None or schema.is_disputed(address[0], machine) else number
+        number = here.number(address)
+        shown = "-" if number is None or here.is_disputed(address[0]) else number
         lines.append(
             f"{shown}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
         )

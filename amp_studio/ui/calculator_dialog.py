@@ -73,7 +73,7 @@ class CalculatorDialog(QDialog):
             return
         self.outcome.setText(shown_result(result))
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
-            label = self._workspace.file.schema.label(self._address, self._workspace.file.machine)
+            label = self._workspace.file.machine_schema.label(self._address)
             unit = shown(self._workspace.typed_unit(self._address))
             self.use.setText(f"Use the result as the value of {label}{f', in {unit}' if unit else ''}")
             self.use.setEnabled(self._workspace.may_edit)

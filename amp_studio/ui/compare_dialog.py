@@ -39,8 +39,8 @@ class DifferenceList(QTreeWidget):
         schema, machine = workspace.file.schema, workspace.file.machine
         for difference in found.differences:
             item = QTreeWidgetItem([
-                schema.label(difference.address, machine),
-                schema.instance_label(difference.address, machine),
+                schema.on(machine).label(difference.address),
+                schema.on(machine).instance_label(difference.address),
                 "absent here" if difference.a is None else "absent there" if difference.b is None else "different",
                 *(show_value(schema.parameters[difference.address[0]], v, secrets=workspace.secrets)
                   for v in (difference.a, difference.b)),

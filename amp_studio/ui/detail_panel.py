@@ -88,8 +88,8 @@ class DetailPanel(QWidget):
 
     def _head(self, address: Address) -> str:
         file = self._workspace.file
-        title = html.escape(file.schema.label(address, file.machine))
-        place = html.escape(file.schema.instance_label(address, file.machine))
+        title = html.escape(file.machine_schema.label(address))
+        place = html.escape(file.machine_schema.instance_label(address))
         value = self._shown(address, file.get(address))
         default = file.default(address)
         told = f"default {self._shown(address, default)}" if default is not None else "no default printed"
@@ -139,7 +139,7 @@ class DetailPanel(QWidget):
         if found is None:
             return f"no bounds printed, in {shown(unit)}" if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
-        text = found.text() + "".join(f" (set by {file.schema.label(s, file.machine)})" for s in sources)
+        text = found.text() + "".join(f" (set by {file.machine_schema.label(s)})" for s in sources)
         return text + (" — degrees are not printed; the metric figures are used" if found.borrowed else "")
 
     # -- pages -----------------------------------------------------------------

@@ -79,11 +79,11 @@ class FindingsTable(QAbstractTableModel):
     def _text(self, finding: Finding, column: int) -> str:
         file = self._workspace.file
         if column == 1:
-            names = [file.schema.label(a, file.machine) for a in finding.addresses[:3]]
+            names = [file.machine_schema.label(a) for a in finding.addresses[:3]]
             return ", ".join(names) + (" …" if len(finding.addresses) > 3 else "")
         if column == 3:
             return ", ".join(
-                f"{file.schema.short(r.address, file.machine)} = {show_value(file.schema.parameters[r.address[0]], r.value)}"
+                f"{file.machine_schema.short(r.address)} = {show_value(file.schema.parameters[r.address[0]], r.value)}"
                 for r in finding.repairs
             )
         return {0: finding.severity, 2: finding.message}.get(column, finding.page or "")

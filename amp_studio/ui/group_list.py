@@ -212,7 +212,7 @@ def _search_texts(workspace: Workspace) -> dict[str, tuple[str, str]]:
     schema, machine = workspace.file.schema, workspace.file.machine
     texts = {}
     for parameter in schema.parameters.values():
-        numbers = " ".join(schema.numbers(parameter, machine).values())
+        numbers = " ".join(schema.on(machine).numbers(parameter).values())
         choices = " ".join(c.label for c in parameter.choices or ())
         told = f"{parameter.help.what} {parameter.help.find} {parameter.help.wrong}"
         head = f"{numbers} {parameter.id} {parameter.name}".casefold()

@@ -263,7 +263,7 @@ class MainWindow(QMainWindow):
         assert self.detail is not None
         self.detail.show_address(address)
         file = self.workspace.file
-        place = file.schema.instance_label(address, file.machine)
+        place = file.machine_schema.instance_label(address)
         self.value_status.setText("   ".join(t for t in (describe(file, address), place, address[0]) if t))
 
     def go_to(self, address: Address) -> None:
@@ -287,7 +287,7 @@ class MainWindow(QMainWindow):
         """Go to a parameter that a link names, in the selected axis where it has it."""
         assert self.workspace is not None
         file, here = self.workspace.file, self.selected()
-        instances = file.schema.instances(file.schema.parameters[parameter_id], file.machine)
+        instances = file.machine_schema.instances(file.schema.parameters[parameter_id])
         if instances:
             self.go_to((parameter_id, here[1] if here and here[1] in instances else instances[0]))
         else:

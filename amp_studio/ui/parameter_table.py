@@ -23,7 +23,7 @@ from amp_studio.schema import (
     show_value,
     write_value,
 )
-from amp_studio.schema.catalog import whole_of
+from amp_studio.schema.address import whole_of
 
 from .theme import FIGURE_SPACE, severity_colour, state_colour
 from .workspace import Workspace
@@ -99,9 +99,9 @@ class ParameterTable(QAbstractTableModel):
             self._machine, self._layouts = machine, {}
         found = self._layouts.get(parameter.id)
         if found is None:
-            layout = schema.layout(parameter, machine)
-            instances = schema.instances(parameter, machine)
-            if layout and schema.kin(layout.scope, "axis"):
+            here = schema.on(machine)
+            layout, instances = here.layout(parameter), here.instances(parameter)
+            if layout and here.kin(layout.scope, "axis"):
                 parts: dict[str, dict[str, Address]] = {}
                 for i in instances:
                     parts.setdefault(i.partition(".")[2], {})[whole_of(i)] = (parameter.id, i)
@@ -252,19 +252,19 @@ class ParameterTable(QAbstractTableModel):
         """Return the name of a row: that of the parameter, and of the instance where it is one of several."""
         shown, file = self.rows[row], self.workspace.file
         first = next(iter(shown.cells.values()))
-        place = file.schema.instance_label(first, file.machine) if shown.instance else ""
+        place = file.machine_schema.instance_label(first) if shown.instance else ""
         if CONTROL not in shown.cells:
             place = place.rpartition(", ")[2]  # the column tells which axis
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
         """Return the number a row is known by: the one of its first value that exists, if it is its own."""
-        schema, machine = self.workspace.file.schema, self.workspace.file.machine
+        here = self.workspace.file.machine_schema
         first = self.first_of(row)
         address = self.address_at(row, first.column()) if first.isValid() else None
-        if address is None or schema.is_disputed(address[0], machine):
+        if address is None or here.is_disputed(address[0]):
             return "–"
-        return schema.number(address, machine) or "–"
+        return here.number(address) or "–"
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if not index.isValid():

@@ -54,7 +54,7 @@ def _checked(path: Path) -> CheckedFile:
     except ParameterFileError as fault:
         return CheckedFile(path, fault=str(fault))
     findings = Validator(file, rules_beside(path, file.schema)).run()
-    labels = tuple(file.schema.label(f.addresses[0], file.machine) if f.addresses else "" for f in findings)
+    labels = tuple(file.machine_schema.label(f.addresses[0]) if f.addresses else "" for f in findings)
     return CheckedFile(path, findings, labels)
 
 

@@ -63,14 +63,13 @@ class QuickEdit(QDialog):
             return
         self._show(address)
         file = self._workspace.file
-        place = file.schema.instance_label(address, file.machine) or "Control"
+        place = file.machine_schema.instance_label(address) or "Control"
         state = file.evaluation.state(address)
         told = "" if state.state == "in-force" else f"\n{state.state.capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)
         bounds = f"\nAllowed here: {allowed}" if allowed else ""
         self.name.setText(
-            f"{file.schema.label(address, file.machine)}, {place}{bounds}{told}"
-            + (f"\n{said}" if said else "")
+            f"{file.machine_schema.label(address)}, {place}{bounds}{told}" + (f"\n{said}" if said else "")
         )
         if file.schema.parameters[address[0]].choices:
             self.editor = ChoiceBox(self._workspace, address, self)

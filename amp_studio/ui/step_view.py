@@ -222,7 +222,7 @@ class StepView(QWidget):
         if self.trace is not None:
             parameter = url.toString().removeprefix("param:")
             schema, machine = self._workspace.file.schema, self._workspace.file.machine
-            instances = schema.instances(schema.parameters[parameter], machine)
+            instances = schema.on(machine).instances(schema.parameters[parameter])
             self._show_parameter(
                 (parameter, self.trace.axis if self.trace.axis in instances else instances[0])
             )

@@ -232,8 +232,10 @@ def _is_known(text: str, schema: Schema) -> bool:
     parameter_id, which = read_address(text)
     if parameter_id in schema.parameters:
         parameter = schema.parameters[parameter_id]
-        return not which or any(which in schema.instances(parameter, m.key) for m in schema.family.machines)
-    return any(schema.addressed_by(text, machine.key) for machine in schema.family.machines)
+        return not which or any(
+            which in schema.on(m.key).instances(parameter) for m in schema.family.machines
+        )
+    return any(schema.on(machine.key).addressed_by(text) for machine in schema.family.machines)
 
 
 @lru_cache(maxsize=4096)
@@ -318,7 +320,7 @@ def _addresses(evaluation: Evaluation, text: str) -> Iterator[tuple[str, str]]:
     """Yield what a suppression means by a number or an id; an id alone means all its instances."""
     parameter = evaluation.schema.parameters.get(text)
     if parameter is not None:
-        yield from ((parameter.id, i) for i in evaluation.schema.instances(parameter, evaluation.machine))
+        yield from ((parameter.id, i) for i in evaluation.machine_schema.instances(parameter))
         return
     try:
         yield evaluation.find(text)

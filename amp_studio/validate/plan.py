@@ -130,7 +130,7 @@ class _Further:
 @lru_cache(maxsize=32)
 def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     evaluation = Evaluation(schema, lambda _: None, lambda: machine)
-    addresses = schema.addresses(machine)
+    addresses = schema.on(machine).addresses
     checks = checks_of(evaluation, schema.rules + further.rules, late=len(schema.rules))
     return Plan(addresses, {address: n for n, address in enumerate(addresses)}, checks, evaluation)
 
@@ -205,7 +205,7 @@ def _check_read(schema: Schema, rule: Rule, text: str) -> None:
     parameter = schema.parameters.get(parameter_id)
     if parameter is None:
         raise RuleError(rule.id, f"reads '{parameter_id}', which the family does not have")
-    offered = {i for machine in schema.family.machines for i in schema.instances(parameter, machine.key)}
+    offered = {i for machine in schema.family.machines for i in schema.on(machine.key).instances(parameter)}
     if which not in ("", "*", "<", ">", ".") and which not in offered:
         raise RuleError(rule.id, f"reads '{text}', but {parameter.name} has no instance '{which}'")
 
@@ -223,9 +223,7 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
         parameter_id, which = read_address(text)
         if which in ("", "<", ">"):
             own[parameter_id] = own.get(parameter_id, False) or which == ""
-    instances = {
-        p: evaluation.schema.instances(evaluation.schema.parameters[p], evaluation.machine) for p in own
-    }
+    instances = {p: evaluation.machine_schema.instances(evaluation.schema.parameters[p]) for p in own}
     scopes = {p: evaluation.scope((p, "")) for p in own}
     if not all(instances.values()):
         return None, ()

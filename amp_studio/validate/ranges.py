@@ -53,7 +53,7 @@ class _Facts:
 def _facts(schema: Schema, machine: str) -> dict[str, _Facts]:
     found = {}
     for parameter in schema.parameters.values():
-        layout = schema.layout(parameter, machine)
+        layout = schema.on(machine).layout(parameter)
         if layout is None:
             continue
         systems = tuple(schema.family.units) or ("",)

@@ -113,7 +113,7 @@ def _unknown(parameter_id: str, schema: Schema) -> str:
 
 
 def _instances(schema: Schema, parameter: Parameter) -> list[str]:
-    every = (i for machine in schema.family.machines for i in schema.instances(parameter, machine.key))
+    every = (i for machine in schema.family.machines for i in schema.on(machine.key).instances(parameter))
     return list(dict.fromkeys(every))
 
 

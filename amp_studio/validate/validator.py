@@ -172,7 +172,7 @@ class Validator:
         unset = tuple(sorted(every, key=self._plan.order.__getitem__))
         if not unset:
             return
-        names = ", ".join(self.file.schema.label(address, self._checks.machine) for address in unset[:4])
+        names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in unset[:4])
         more = f" and {len(unset) - 4} more" if len(unset) > 4 else ""
         said = f"{len(unset)} parameters in force have no value here, so the control keeps its own: {names}{more}."
         yield Finding("schema.unset", "advice", unset, said)

@@ -116,7 +116,7 @@ def test_what_was_asked_for_comes_in_the_order_it_was_asked_for(amp, mill: Path)
 def test_without_parameters_everything_that_exists_is_given(amp, mill: Path) -> None:
     shown = {(row["id"], row["instance"]) for row in amp("get", mill, "--json").json["values"]}
     every = {(row["id"], row["instance"]): row for row in amp("get", mill, "--all", "--json").json["values"]}
-    assert set(load_schema("9pc").addresses("mill")) == set(every)
+    assert set(load_schema("9pc").on("mill").addresses) == set(every)
     is_set = {a for a, row in every.items() if row.get("set", row["value"] is not None)}
     assert shown == {a for a, row in every.items() if a in is_set and row["state"] != "hidden"}
 

@@ -16,7 +16,7 @@ def test_families_are_listed_with_their_size(amp) -> None:
     rows = {row["id"]: row for row in said.json["families"]}
     schema = load_schema("9pc")
     assert {"id", "name", "parameters", "values"} <= rows["9pc"].keys()
-    values = max(len(schema.addresses(machine)) for machine in ("mill", "lathe"))
+    values = max(len(schema.on(machine).addresses) for machine in ("mill", "lathe"))
     expected = (schema.family.name, len(schema.parameters), values)
     assert expected == (rows["9pc"]["name"], rows["9pc"]["parameters"], rows["9pc"]["values"])
 
@@ -291,7 +291,7 @@ def test_every_instance_is_listed_and_every_default_of_one(amp, family: str) -> 
     for found in amp("schema", family, "--json").json["parameters"]:
         parameter = schema.parameters[found["id"]]
         listed = {i for m in found.get("instances_by_machine", {"": found["instances"]}).values() for i in m}
-        assert listed == {i for m in schema.family.machines for i in schema.instances(parameter, m.key)}
+        assert listed == {i for m in schema.family.machines for i in schema.on(m.key).instances(parameter)}
         own = parameter.default.instances if parameter.default else None
         assert set((found["default"] or {}).get("instances", {})) == set(own or {})
         if parameter.type in ("integer", "bits") and found["default"]:

@@ -83,7 +83,7 @@ def test_no_verb_says_a_secret(machine: Path, amp, tmp_path: Path, arguments: tu
     named["UNSET"].write_text("".join(line for line in lines if SECRET not in line), "utf-8")
     if "FOLDER" in arguments:
         named["UNREADABLE"].unlink()
-    number = file.schema.short(first, file.machine)
+    number = file.machine_schema.short(first)
     said = amp(*(named.get(a) or a.replace("NUMBER", number) for a in arguments))
     told = said.out + said.err
     assert SECRET not in told, told[max(0, told.index(SECRET) - 200) : told.index(SECRET) + 50]
@@ -147,7 +147,7 @@ def test_no_export_holds_a_secret_and_what_is_masked_comes_back_as_not_set(
 
 def test_what_is_masked_is_told_apart_from_what_is_not_set(machine: Path, amp, tmp_path: Path) -> None:
     file = open_file(machine).file
-    first = file.schema.short(secret_values(file)[0], file.machine)
+    first = file.machine_schema.short(secret_values(file)[0])
     (row,) = amp("get", machine, first, "--json").json["values"]
     assert (row["value"], row["raw"], row["secret"], row["set"]) == (None, None, True, True)
     assert MASK in amp("get", machine, first).out

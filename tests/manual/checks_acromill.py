@@ -61,7 +61,7 @@ class Guide(Book):
             return found
         if numbered := re.fullmatch(r"Pos (\d+)", name):
             positions = [p for p in here if p.name == f"{section.heading} Position"]
-            return [p for p in positions if numbered[1] in self.schema.instances(p, "mill")]
+            return [p for p in positions if numbered[1] in self.schema.on("mill").instances(p)]
         if found := [p for p in here if long(name) in {long(p.name), long(section.heading + " " + p.name)}]:
             return found
         return [p for p in here if self.told(p, name)]

@@ -31,7 +31,7 @@ class Words(Book):
         """``P35`` -> word -> who claims it."""
         found: dict[str, dict[int, tuple[Claimant, ...]]] = {}
         for parameter in self.schema.parameters.values():
-            for instance, said in self.schema.numbers(parameter, MACHINE).items():
+            for instance, said in self.schema.on(MACHINE).numbers(parameter).items():
                 number, _, word = said.partition("N")
                 claimed = found.setdefault(number, {})
                 claimed[int(word)] = (*claimed.get(int(word), ()), Claimant(parameter, instance))

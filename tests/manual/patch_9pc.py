@@ -68,7 +68,7 @@ def owners_of(book: Reference, number: str) -> list[Claim]:
     machines = [machine.key for machine in book.schema.family.machines]
     claims = book.claims.get(number, ())
     return [
-        c for c in claims if not any(book.schema.is_disputed(c.parameter, machine) for machine in machines)
+        c for c in claims if not any(book.schema.on(machine).is_disputed(c.parameter) for machine in machines)
     ]
 
 

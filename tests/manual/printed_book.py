@@ -54,7 +54,7 @@ def claims_of(schema: Schema) -> dict[str, tuple[Claim, ...]]:
     found: dict[str, dict[tuple[str, str], set[str]]] = {}
     for machine in schema.family.machines:
         for parameter in schema.parameters.values():
-            for instance, number in schema.numbers(parameter, machine.key).items():
+            for instance, number in schema.on(machine.key).numbers(parameter).items():
                 found.setdefault(number, {}).setdefault((parameter.id, instance), set()).add(machine.key)
     return {
         number: tuple(Claim(*address, frozenset(machines)) for address, machines in claims.items())

@@ -86,7 +86,7 @@ def test_every_existing_value_of_a_fitted_axis_is_printed_once(mill: ParameterFi
     printed = [(r.id, r.instance) for r in build_report(mill, sort=sort).rows()]
     axes = fitted_axes(mill)
     for parameter, instance in mill.addresses():
-        layout = mill.schema.layout(mill.schema.parameters[parameter], mill.machine)
+        layout = mill.machine_schema.layout(mill.schema.parameters[parameter])
         is_fitted = layout is None or layout.scope != "axis" or instance in axes
         exists = mill.evaluation.state((parameter, instance)).state != "hidden"
         assert printed.count((parameter, instance)) == int(is_fitted and exists), (parameter, instance)
@@ -133,7 +133,7 @@ def test_each_reason_has_one_number_and_stands_below_its_table(mill: ParameterFi
 
 def test_a_number_that_belongs_to_another_parameter_is_not_printed(mill: ParameterFile) -> None:
     schema = mill.schema
-    disputed = [r for r in rows_by_anchor(mill).values() if schema.is_disputed(r.id, mill.machine)]
+    disputed = [r for r in rows_by_anchor(mill).values() if schema.on(mill.machine).is_disputed(r.id)]
     assert all(r.number == "" for r in disputed)
 
 

@@ -32,7 +32,7 @@ def registers(schema: Schema, axis: str) -> dict[int, int]:
     found: dict[int, int] = {}
     for parameter in schema.parameters.values():
         if parameter.scope == "axis":
-            number = int(schema.numbers(parameter, "module")[axis].removeprefix("R"))
+            number = int(schema.on("module").numbers(parameter)[axis].removeprefix("R"))
             found[number] = max(found.get(number, 0), parameter.storage.words)
     return found
 
@@ -48,7 +48,9 @@ def test_every_register_of_chapter_4_is_there_for_both_axes(schema: Schema, axis
 
 def test_two_registers_are_there_once_for_the_module(schema: Schema) -> None:
     """Page 4-1: registers 64 and 4095 are used for both axes."""
-    once = {p.id: schema.numbers(p, "module")[""] for p in schema.parameters.values() if p.scope == "global"}
+    once = {
+        p.id: schema.on("module").numbers(p)[""] for p in schema.parameters.values() if p.scope == "global"
+    }
     assert once == {"control.interrupt_reset": "R64", "interrupt.control": "R4095"}
 
 
@@ -215,7 +217,7 @@ def test_what_is_linear_has_limits_and_what_is_rotary_unwinds(
 def test_the_module_writes_its_status_itself(schema: Schema) -> None:
     """Pages 4-34, 4-37 and 4-43: registers 72 and 73 are read only; 74 to 87 are what the module reports."""
     found = {
-        schema.numbers(p, "module").get("X", "R4095")
+        schema.on("module").numbers(p).get("X", "R4095")
         for p in schema.parameters.values()
         if p.access == "read"
     }
@@ -244,5 +246,5 @@ def test_a_register_says_which_command_makes_the_module_read_it(schema: Schema, 
     for parameter in schema.parameters.values():
         effect = parameter.effect or schema.family.effect
         if effect.level == "command" and command in str(effect.command):
-            found.add(int(next(iter(schema.numbers(parameter, "module").values())).removeprefix("R")))
+            found.add(int(next(iter(schema.on("module").numbers(parameter).values())).removeprefix("R")))
     assert found == COMMANDS[command]

@@ -57,7 +57,7 @@ def test_a_command_comes_out_as_it_is_printed(acromill: Schema, command: str) ->
     parameter = acromill.parameter(parameter_id)
     assert parameter.storage is not None
     assert parameter.storage.command is not None
-    place = acromill.instances(parameter, "mill").index(instance)
+    place = acromill.on("mill").instances(parameter).index(instance)
     known = {"i": instance, "n": str(place), "v": value}
     known |= {"tuning.notch_frequency": "500", "tuning.notch_width": "50"}
     assert re.sub("{(.*?)}", lambda found: known[found[1]], parameter.storage.command) == command
@@ -69,7 +69,7 @@ def test_a_command_of_two_values_stands_the_same_at_both(acromill: Schema) -> No
 
 
 def test_only_p_parameters_have_numbers(acromill: Schema) -> None:
-    numbered = [p.id for p in acromill.parameters.values() if acromill.numbers(p, "mill")]
+    numbered = [p.id for p in acromill.parameters.values() if acromill.on("mill").numbers(p)]
     assert numbered == ["p.controller", "p.reserved", "p.acromill"]
     find = new_file("acromill").find
     assert [find(f"P{n}") for n in (0, 33, 34, 99, 100, 199)] == [
@@ -86,7 +86,7 @@ COUNTS = {"offset.r_geometric": 400, "offset.r_wear": 400, "offset.h_geometric":
 
 @pytest.mark.parametrize("parameter_id", COUNTS)
 def test_a_table_has_as_many_entries_as_the_guide_says(acromill: Schema, parameter_id: str) -> None:
-    assert len(acromill.instances(acromill.parameter(parameter_id), "mill")) == COUNTS[parameter_id]
+    assert len(acromill.on("mill").instances(acromill.parameter(parameter_id))) == COUNTS[parameter_id]
 
 
 def test_an_axis_beyond_the_number_of_axes_is_not_there() -> None:

@@ -54,9 +54,9 @@ def test_every_instance_is_found_by_its_address_and_every_number_means_one(famil
     schema = load_schema(family)
     for machine in schema.family.machines:
         file = new_file(family, machine.key)
-        for address in schema.addresses(machine.key)[::7]:
-            assert file.find(schema.short(address, machine.key)) == address
-            number = schema.number(address, machine.key)
+        for address in schema.on(machine.key).addresses[::7]:
+            assert file.find(schema.on(machine.key).short(address)) == address
+            number = schema.on(machine.key).number(address)
             if number is not None:
                 found = meant(file.evaluation, number)
                 assert address in (found.address, *found.others)

@@ -143,7 +143,7 @@ def test_every_condition_reads_what_exists_and_uses_what_it_reads(schema: Schema
             evaluation = Evaluation(schema, lambda _: None, lambda machine=machine: machine)
             for text in condition.reads.values():
                 parameter = schema.parameter(read_address(text)[0])
-                for instance in schema.instances(parameter, machine):
+                for instance in schema.on(machine).instances(parameter):
                     assert evaluation.reference(text, instance).addresses is not None, (name, text)
         assert condition.why.strip(), name
 
@@ -154,7 +154,7 @@ def filled(schema: Schema) -> Iterator[ParameterFile]:
         file = new_file(schema.family.family, machine)
         if profile := schema.family.axes:
             types = [c.key for c in schema.parameter(profile.type).choices or ()]
-            for n, axis in enumerate(schema.instances(schema.parameter(profile.type), machine)):
+            for n, axis in enumerate(schema.on(machine).instances(schema.parameter(profile.type))):
                 file.set((profile.type, axis), Value(types[n % len(types)]))
         yield file
 
@@ -201,9 +201,9 @@ def test_every_bound_by_another_parameter_exists_for_the_same_axis(schema: Schem
                 for bound in pair:
                     if isinstance(bound, BoundRef):
                         source = schema.parameter(bound.param)
-                        assert schema.instances(parameter, machine) == schema.instances(source, machine), (
-                            parameter.id
-                        )
+                        assert schema.on(machine).instances(parameter) == schema.on(machine).instances(
+                            source
+                        ), parameter.id
 
 
 def test_every_number_parameter_has_a_printed_range(schema: Schema) -> None:
@@ -256,8 +256,8 @@ def test_every_number_is_unique_on_its_machine_except_the_known_ones(schema: Sch
     shared = set()
     for machine in machines_of(schema):
         claims: dict[str, list[Address]] = defaultdict(list)
-        for address in schema.addresses(machine):
-            if number := schema.number(address, machine):
+        for address in schema.on(machine).addresses:
+            if number := schema.on(machine).number(address):
                 claims[number.casefold()].append(address)
         shared |= {frozenset(a[0] for a in found) for found in claims.values() if len(found) > 1}
     assert set(SHARED_NUMBERS.get(schema.family.family, {})) == shared

@@ -119,9 +119,9 @@ def test_a_number_printed_for_two_parameters_belongs_to_the_undisputed_one(facts
     """)
     here = machine(schema)
     assert here.evaluation.find("3020") == ("zone.overtravel_used", "3")
-    assert schema.short(("zone.overtravel_used", "3"), "mill") == "3020"
-    assert schema.short(("servo.velocity_port", "3"), "mill") == "servo.velocity_port@3"
-    assert schema.label(("servo.velocity_port", "3"), "mill") == "Velocity Loop Feedback Port Axis 3"
+    assert schema.on("mill").short(("zone.overtravel_used", "3")) == "3020"
+    assert schema.on("mill").short(("servo.velocity_port", "3")) == "servo.velocity_port@3"
+    assert schema.on("mill").label(("servo.velocity_port", "3")) == "Velocity Loop Feedback Port Axis 3"
 
 
 # -- what depends on mill or lathe ----------------------------------------------------------------
@@ -167,8 +167,12 @@ def test_the_scope_of_a_parameter_may_differ_between_mill_and_lathe(facts, machi
         help: {what: One value on a mill and one for each axis of a lathe.}
         page: "4-9"
     """)
-    assert schema.addresses("mill") == (("plane.radius", ""),)
-    assert schema.addresses("lathe") == (("plane.radius", "1"), ("plane.radius", "2"), ("plane.radius", "3"))
+    assert schema.on("mill").addresses == (("plane.radius", ""),)
+    assert schema.on("lathe").addresses == (
+        ("plane.radius", "1"),
+        ("plane.radius", "2"),
+        ("plane.radius", "3"),
+    )
     mill, lathe = machine(schema, machine="mill"), machine(schema, machine="lathe")
     assert mill.evaluation.find("100") == ("plane.radius", "")
     assert lathe.evaluation.find("2100") == ("plane.radius", "2")

@@ -21,7 +21,9 @@ NUMBERS = {
 @pytest.mark.parametrize("name", NUMBERS)
 def test_every_instance_has_the_number_that_is_printed(ninepc, machine, name: str) -> None:
     """Pages 33-10 to 33-13, 34-5, 37-3 and A-5."""
-    numbers = {i: ninepc.number((name, i), "mill") for i in ninepc.instances(ninepc.parameter(name), "mill")}
+    numbers = {
+        i: ninepc.on("mill").number((name, i)) for i in ninepc.on("mill").instances(ninepc.parameter(name))
+    }
     assert {i: str(number) for i, number in numbers.items()} == NUMBERS[name]
     assert [(name, i) for i in numbers] == [
         machine(ninepc).evaluation.find(n) for n in NUMBERS[name].values()

@@ -42,9 +42,9 @@ def test_a_number_means_what_the_axis_is(
 def test_the_parameter_whose_number_is_disputed_is_reached_by_its_id(ninepc, machine) -> None:
     here = machine(ninepc, {"axis.type@1": Value("linear")})
     assert here.evaluation.find("servo.velocity_port@1") == ("servo.velocity_port", "1")
-    assert ninepc.short(("servo.velocity_port", "1"), "mill") == "servo.velocity_port@1"
-    assert ninepc.short(("servo.velocity_gear_teeth", "1"), "mill") == "servo.velocity_gear_teeth@1"
-    assert ninepc.short(("home.calibration", "1"), "mill") == "1300"
+    assert ninepc.on("mill").short(("servo.velocity_port", "1")) == "servo.velocity_port@1"
+    assert ninepc.on("mill").short(("servo.velocity_gear_teeth", "1")) == "servo.velocity_gear_teeth@1"
+    assert ninepc.on("mill").short(("home.calibration", "1")) == "1300"
 
 
 @pytest.mark.parametrize(
@@ -60,8 +60,8 @@ def test_what_the_family_does_not_have_is_refused_in_one_sentence(ninepc, machin
 def test_every_address_is_found_again_by_what_it_is_called(ninepc) -> None:
     for kind in ("mill", "lathe"):
         evaluation = Evaluation(ninepc, lambda _: None, lambda kind=kind: kind)
-        for address in ninepc.addresses(kind):
-            assert address == evaluation.find(ninepc.short(address, kind))
+        for address in ninepc.on(kind).addresses:
+            assert address == evaluation.find(ninepc.on(kind).short(address))
 
 
 def test_the_processes_have_numbers_of_their_own(ninepc, machine) -> None:

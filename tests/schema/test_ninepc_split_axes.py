@@ -28,11 +28,11 @@ def test_a_slave_takes_what_page_32_4_lists_from_its_master_and_nothing_else(
     here = machine(ninepc, NAMES | pair(of), machine=kind).evaluation
     copied = {
         address[0]
-        for address in ninepc.addresses(kind)
+        for address in ninepc.on(kind).addresses
         if address[1] == "4" and here.state(address).why.startswith("the slave of a split axis")
     }
     shared = {
-        name for name, scope in ninepc.scopes(kind).items() if scope == "axis" and name.startswith(SHARED)
+        name for name, scope in ninepc.on(kind).scopes.items() if scope == "axis" and name.startswith(SHARED)
     }
     hidden = {name for name in shared if here.state((name, "4")).state == "hidden"}
     assert copied == shared - hidden - {"home.calibration"}

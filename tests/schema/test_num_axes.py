@@ -137,7 +137,7 @@ def test_the_codes_of_a_field_are_those_of_its_table(parameter_id: str, bit: int
     ],
 )  # fmt: skip
 def test_a_word_is_addressed_by_its_number(file, address: Address, number: str) -> None:
-    assert (file.find(number), SCHEMA.number(address, "cnc")) == (address, number)
+    assert (file.find(number), SCHEMA.on("cnc").number(address)) == (address, number)
 
 
 WORDS = {
@@ -155,8 +155,8 @@ def test_each_parameter_has_as_many_words_of_the_type_as_its_section_says(parame
     """The head of each section; P5 by the table of page 13-14."""
     words = {
         number: address
-        for address in SCHEMA.addresses("cnc")
-        if (number := SCHEMA.number(address, "cnc") or "").startswith(f"{parameter}N")
+        for address in SCHEMA.on("cnc").addresses
+        if (number := SCHEMA.on("cnc").number(address) or "").startswith(f"{parameter}N")
     }
     assert sorted(words) == sorted(f"{parameter}N{n}" for n in range(WORDS[parameter]))
     codes = {SCHEMA.parameter(address[0]).storage.code for address in words.values()}

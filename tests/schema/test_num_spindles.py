@@ -38,7 +38,9 @@ def file() -> ParameterFile:
 
 @pytest.mark.parametrize("number", WORDS)
 def test_a_parameter_has_all_its_words_and_each_once(num: Schema, number: str) -> None:
-    found = [n for a in num.addresses("cnc") if (n := num.number(a, "cnc")) and n.startswith(f"{number}N")]
+    found = [
+        n for a in num.on("cnc").addresses if (n := num.on("cnc").number(a)) and n.startswith(f"{number}N")
+    ]
     assert sorted(found, key=lambda n: int(n.partition("N")[2])) == [
         f"{number}N{k}" for k in range(WORDS[number])
     ]
@@ -80,7 +82,7 @@ def test_a_word_belongs_to(file: ParameterFile, number: str, name: str) -> None:
 
 
 def test_a_speed_range_is_named_after_its_spindle_and_its_m_function(num: Schema) -> None:
-    assert num.instance_label(("spindle.range_max", "3.42"), "cnc") == "Spindle 3, M42"
+    assert num.on("cnc").instance_label(("spindle.range_max", "3.42")) == "Spindle 3, M42"
     pages = [num.page(("spindle.range_max", f"{n}.40")) for n in (1, 2, 3, 4)]
     assert pages == ["8-16", "8-18", "8-20", "8-22"]
 
@@ -165,7 +167,7 @@ def test_the_codes_of_the_service_characters_are_those_of_ascii(num: Schema) -> 
 
 def of_word(num: Schema, parameter: str) -> list[str]:
     """Return the ids that the words of a parameter belong to, in the manual's order."""
-    numbers = {a: num.number(a, "cnc") for a in num.addresses("cnc")}
+    numbers = {a: num.on("cnc").number(a) for a in num.on("cnc").addresses}
     return list(dict.fromkeys(a[0] for a, n in numbers.items() if n and re.fullmatch(rf"{parameter}N\d+", n)))
 
 
@@ -204,8 +206,8 @@ def test_a_step_is_told_on_the_page_of_its_parameter(num: Schema) -> None:
         for step in guide.steps:
             words = [
                 a
-                for a in num.addresses("cnc")
-                if re.fullmatch(rf"{step.title.split()[0].strip(',')}N\d+", num.number(a, "cnc") or "")
+                for a in num.on("cnc").addresses
+                if re.fullmatch(rf"{step.title.split()[0].strip(',')}N\d+", num.on("cnc").number(a) or "")
             ]
             assert step.page in {num.page(a) for a in words}, step.title
 

@@ -66,16 +66,16 @@ def test_the_number_of_a_gear_finds_it_and_its_label_names_it(spindles, machine)
     here = machine(spindles)
     assert here.evaluation.find("931") == ("spindle.max_speed", "2.2")
     assert here.evaluation.find("spindle.max_speed@2.2") == ("spindle.max_speed", "2.2")
-    assert spindles.instance_label(("spindle.max_speed", "2.2"), "mill") == "Spindle 2, Gear 2"
-    assert spindles.instance_label(("spindle.gears", "2"), "mill") == "Spindle 2"
-    assert spindles.instance_label(("macro.g_code", "2"), "mill") == "Macro call 2"
+    assert spindles.on("mill").instance_label(("spindle.max_speed", "2.2")) == "Spindle 2, Gear 2"
+    assert spindles.on("mill").instance_label(("spindle.gears", "2")) == "Spindle 2"
+    assert spindles.on("mill").instance_label(("macro.g_code", "2")) == "Macro call 2"
 
 
 def test_a_gear_reads_the_values_of_its_own_spindle(spindles, machine) -> None:
     here = machine(spindles, {"spindle.gears@1": Value(1), "spindle.gears@2": Value(2)})
 
     def ignored() -> list[str]:
-        every = spindles.instances(spindles.parameters["spindle.max_speed"], "mill")
+        every = spindles.on("mill").instances(spindles.parameters["spindle.max_speed"])
         return [i for i in every if here.evaluation.state(("spindle.max_speed", i)).state == "ignored"]
 
     assert ignored() == ["1.2", "1.3", "2.3"]
@@ -138,7 +138,7 @@ def test_every_label_of_an_instance_is_its_own() -> None:
     for parameter in schema.parameters.values():
         for machine in ("mill", "lathe"):
             names = [
-                schema.instance_label((parameter.id, i), machine)
-                for i in schema.instances(parameter, machine)
+                schema.on(machine).instance_label((parameter.id, i))
+                for i in schema.on(machine).instances(parameter)
             ]
             assert len(set(names)) == len(names), parameter.id

@@ -201,7 +201,7 @@ def edits(draw) -> list[tuple[tuple[str, str], Value | None]]:
     for _ in range(draw(st.integers(1, 12))):
         name = draw(st.sampled_from([*drivers(), "control.type"]))
         parameter = schema.parameter(name)
-        address = (name, draw(st.sampled_from(schema.instances(parameter, "mill"))))
+        address = (name, draw(st.sampled_from(schema.on("mill").instances(parameter))))
         if parameter.type == "boolean":
             values = st.booleans().map(Value)
         elif parameter.choices:
@@ -226,7 +226,7 @@ def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
         return str(kind.value) if kind and kind.value in ("mill", "lathe") else "lathe"
 
     kept = Evaluation(schema, values.get, control)
-    watched = [a for a in schema.addresses("mill") if a[1] in ("", "1", "2")]
+    watched = [a for a in schema.on("mill").addresses if a[1] in ("", "1", "2")]
 
     def seen(evaluation: Evaluation) -> list[object]:
         return [(evaluation.state(a), evaluation.unit(a, "metric"), evaluation.canonical(a)) for a in watched]
@@ -248,7 +248,7 @@ def test_only_what_a_state_reads_can_change_it(changes) -> None:
     values: dict[tuple[str, str], Value] = {("axis.type", "1"): Value("linear")}
     for address, value in changes:
         evaluation = Evaluation(schema, values.get, lambda: "mill")
-        watched = [a for a in schema.addresses("mill") if a[1] in ("", "1")]
+        watched = [a for a in schema.on("mill").addresses if a[1] in ("", "1")]
         unread = [a for a in watched if address not in evaluation.state_reads(a)]
         before = {a: evaluation.state(a) for a in unread}
         if value is None:

@@ -87,7 +87,7 @@ def test_a_span_of_numbers_belongs_to_the_axes_in_turn(
     axes = [""] if first == last else [str(n) for n in range(1, 21)]
     for axis in axes:
         for name in names:
-            assert syntec.number((name, axis), "generic") == f"Pr{next(numbers)}"
+            assert syntec.on("generic").number((name, axis)) == f"Pr{next(numbers)}"
     assert next(numbers, None) is None
     assert {syntec.parameter(name).page for name in names} == {page}
 

@@ -39,7 +39,7 @@ OFFSETS = """
 
 def test_a_span_of_instances_is_counted_out(facts) -> None:
     schema = facts.schema(OFFSETS)
-    instances = schema.instances(schema.parameter("tool.radius"), "mill")
+    instances = schema.on("mill").instances(schema.parameter("tool.radius"))
     assert (len(instances), instances[:3], instances[-2:]) == (402, ("0", "1", "2"), ("400", "last"))
 
 

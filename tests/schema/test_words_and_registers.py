@@ -62,10 +62,10 @@ def test_a_parameter_may_be_an_array_of_words(facts, machine) -> None:
         NUM,
     )
     here = machine(schema)
-    assert len(schema.addresses("mill")) == 32
+    assert len(schema.on("mill").addresses) == 32
     assert ("servo.gain", "3") == here.evaluation.find("P21N3") == here.evaluation.find("p21n3")
     assert here.evaluation.find("P21N31") == ("servo.gain", "31")
-    assert schema.label(("servo.gain", "3"), "mill") == "P21N3 Servo-System Loop Gain"
+    assert schema.on("mill").label(("servo.gain", "3")) == "P21N3 Servo-System Loop Gain"
     assert fault(here.evaluation, ("servo.gain", "31"), Value(-32768)) is None
     assert fault(here.evaluation, ("servo.gain", "31"), Value(32768)) is not None
     with pytest.raises(UnknownParameterError, match="Unknown parameter 'P21N32'"):
@@ -430,8 +430,8 @@ def test_the_points_of_a_table_are_parts_of_their_axis(facts, machine) -> None:
     assert [i for i, found in states.items() if found == "in-force"] == ["Y.0", "Y.2"]
     here.set("cam.points@X", Value(1))
     assert [state(("cam.data", i)).state for i in ("X.0", "X.1")] == ["in-force", "hidden"]
-    assert schema.label(("cam.data", "Y.7"), "module") == "R2187 Cam Data"
-    assert schema.instance_label(("cam.data", "Y.7"), "module") == "Y axis, point 7"
+    assert schema.on("module").label(("cam.data", "Y.7")) == "R2187 Cam Data"
+    assert schema.on("module").instance_label(("cam.data", "Y.7")) == "Y axis, point 7"
     assert len(here.evaluation.reference("cam.data@.", "Y", "axis").addresses) == 1915
 
 
@@ -574,9 +574,9 @@ def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
     find = machine(schema).evaluation.find
     assert find("axes.pulses_per_unit@Y") == ("axes.pulses_per_unit", "Y")
     assert find("system.units") == ("system.units", "")
-    assert schema.number(("axes.pulses_per_unit", "X"), "mill") is None
-    assert schema.short(("axes.pulses_per_unit", "Z"), "mill") == "axes.pulses_per_unit@Z"
-    assert schema.label(("axes.pulses_per_unit", "Z"), "mill") == "Pulses/Unit Axis Z"
+    assert schema.on("mill").number(("axes.pulses_per_unit", "X")) is None
+    assert schema.on("mill").short(("axes.pulses_per_unit", "Z")) == "axes.pulses_per_unit@Z"
+    assert schema.on("mill").label(("axes.pulses_per_unit", "Z")) == "Pulses/Unit Axis Z"
     for text, said in (
         ("axes.pulses_per_unit", "has @X to @Z"),
         ("axes.pulses_per_unit@A", "has @X to @Z"),

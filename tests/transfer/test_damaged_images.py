@@ -27,7 +27,7 @@ def small(family: str) -> ParameterFile:
         if address[0] != machine and file.schema.parameters[address[0]].type != "format":
             del file.values[address]
     for parameter in file.schema.parameters.values():
-        instances = file.schema.instances(parameter, file.machine)
+        instances = file.machine_schema.instances(parameter)
         if parameter.type == "text" and instances:
             file.values[parameter.id, instances[0]] = Value("X")
     file.evaluation.forget()
@@ -247,7 +247,7 @@ def test_every_value_that_can_be_keyed_in_reads_back() -> None:
     file = new_file("9pc", "mill", ["X", "B"])
     image = encode_image(file)
     patchable = [a for a in file.addresses() if file.schema.parameters[a[0]].patchable]
-    numbers = {file.schema.number(a, "mill"): a for a in patchable}
+    numbers = {file.schema.on("mill").number(a): a for a in patchable}
     offered = [n for n, address in numbers.items() if n and file.find(n) == address]
     assert len(offered) > 500
     for number in offered[::17]:

@@ -82,7 +82,7 @@ def test_numbers_follow_the_machine_type(workspace: Workspace) -> None:
     workspace.edit("lathe", {("control.type", ""): Value("lathe")})
     schema = new_file("9pc", "lathe").schema
     for parameter in schema.parameters.values():
-        numbers = schema.numbers(parameter, "lathe").values()
+        numbers = schema.on("lathe").numbers(parameter).values()
         assert all(n.casefold() in groups._texts[parameter.id][0] for n in numbers)
     assert len(before) == len(groups._texts)
 

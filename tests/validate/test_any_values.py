@@ -64,7 +64,7 @@ def a_machine(machine: Callable[[str], ParameterFile], checkout: Path) -> Callab
 def often(schema: Schema, machine: str) -> list[Address]:
     """Return what much else depends on: whatever a condition reads."""
     read = {read_address(text)[0] for c in schema.family.conditions.values() for text in c.reads.values()}
-    return [a for a in schema.addresses(machine) if a[0] in read]
+    return [a for a in schema.on(machine).addresses if a[0] in read]
 
 
 def anything(random: Random) -> Value:
@@ -100,7 +100,7 @@ def fitting(schema: Schema, parameter: Parameter, random: Random) -> Value:
 def edit(file: ParameterFile, history: list[Change], random: Random) -> None:
     """Make one edit of any kind."""
     schema = file.schema
-    addresses, much = schema.addresses(file.machine), often(schema, file.machine)
+    addresses, much = schema.on(file.machine).addresses, often(schema, file.machine)
     address = random.choice([random.choice(addresses), random.choice(much), random.choice(list(file.values))])
     parameter = schema.parameters[address[0]]
     match random.choice(

@@ -91,7 +91,7 @@ def test_each_address_and_group_of_these_chapters_has_its_word() -> None:
     words: dict[str, set[int]] = {}
     for key in ("servo_control", "axis_travel"):
         for parameter in next(group for group in schema.groups if group.key == key).parameters:
-            for number in schema.numbers(parameter, "cnc").values():
+            for number in schema.on("cnc").numbers(parameter).values():
                 head, _, n = number.partition("N")
                 words.setdefault(head, set()).add(int(n))
     counts = {

@@ -125,6 +125,6 @@ def commands_of(schema: Schema, machine: str) -> list[Command]:
 def _settings(schema: Schema, machine: str, parameter: Parameter, template: str) -> Iterator[Setting]:
     places = [m["place"] for m in _PART.finditer(template) if m["place"] not in (None, "i", "n")]
     ids = [parameter.id if place == "v" else place for place in places]
-    for n, instance in enumerate(schema.instances(parameter, machine)):
-        if all(instance in schema.instances(schema.parameters[name], machine) for name in ids):
+    for n, instance in enumerate(schema.on(machine).instances(parameter)):
+        if all(instance in schema.on(machine).instances(schema.parameters[name]) for name in ids):
             yield Setting(template, instance, n, tuple((name, instance) for name in ids))

@@ -23,7 +23,7 @@ def _recognises(text: str) -> bool:
 
 def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
     table = schema.parameters[_TABLE]
-    offered = schema.instances(table, schema.family.default_machine)
+    offered = schema.on(schema.family.default_machine).instances(table)
     tables: dict[str, list[str]] = {}
     for n, line in enumerate(text.splitlines(), 1):
         word = line.strip()

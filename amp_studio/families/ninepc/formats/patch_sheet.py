@@ -44,8 +44,8 @@ def _write(file: ParameterFile) -> str:
         parameter, value = file.schema.parameters[address[0]], file.get(address)
         if value is None or not parameter.patchable or file.evaluation.state(address).state == "hidden":
             continue
-        number = file.schema.number(address, file.machine) or ""
-        name = f"{parameter.name} {file.schema.instance_label(address, file.machine)}".rstrip()
+        number = file.machine_schema.number(address) or ""
+        name = f"{parameter.name} {file.machine_schema.instance_label(address)}".rstrip()
         turns = file.evaluation.turns(address)
         stored = stored_number(parameter, value, turns)
         if stored is None:

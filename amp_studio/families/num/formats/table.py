@@ -270,7 +270,7 @@ def _spelled(file: ParameterFile, meaning: Meaning, form: Form | None) -> str:
         content = meaning.content(file, file.values[meaning.address])
         return spelled_text(str(content)) if form is None else form.spell(content)
     except InvalidValueError as error:
-        raise FormatError(f"{file.schema.label(meaning.address, file.machine)}: {error}") from None
+        raise FormatError(f"{file.machine_schema.label(meaning.address)}: {error}") from None
 
 
 FORMAT = TextFormat(

@@ -242,9 +242,9 @@ def words_of(schema: Schema, machine: str) -> Words:
     meanings: dict[Word, tuple[Meaning, ...]] = {}
     counts: dict[int, int] = {}
     forms: dict[int, Form] = {}
-    for address in schema.addresses(machine):
-        found = _NUMBER.fullmatch(schema.number(address, machine) or "")
-        if found is None or schema.is_disputed(address[0], machine):
+    for address in schema.on(machine).addresses:
+        found = _NUMBER.fullmatch(schema.on(machine).number(address) or "")
+        if found is None or schema.on(machine).is_disputed(address[0]):
             continue
         a, b = int(found[1]), int(found[2])
         meaning = Meaning.of(schema, address)

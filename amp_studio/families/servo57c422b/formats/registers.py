@@ -58,8 +58,8 @@ class Registers:
         self.schema, self.machine = schema, machine
         self.first: dict[Address, int] = {}
         self.claims: dict[int, list[Address]] = {}
-        for address in schema.addresses(machine):
-            found = re.fullmatch(r"[^0-9]*([0-9]+)", schema.number(address, machine) or "")
+        for address in schema.on(machine).addresses:
+            found = re.fullmatch(r"[^0-9]*([0-9]+)", schema.on(machine).number(address) or "")
             if found:
                 self.first[address] = int(found[1])
                 for register in self.of(address):
@@ -78,7 +78,7 @@ class Registers:
 
     def label(self, address: Address) -> str:
         """Return ``Proportional Gain (Y axis)``."""
-        instance = self.schema.instance_label(address, self.machine)
+        instance = self.schema.on(self.machine).instance_label(address)
         return f"{self.parameter(address).name} ({instance})" if instance else self.parameter(address).name
 
 
