@@ -12,7 +12,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test mutants campaign faults check format lock bench wheel clean setup setup-run
+.PHONY: help run test mutants campaign faults check format schema lock bench wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -42,6 +42,9 @@ check: setup ## format, lint, types and the import contracts
 format: setup ## put the code into the one format and mend what ruff can mend
 	@$(BIN)/ruff format
 	@$(BIN)/ruff check --fix
+
+schema: setup ## write the JSON Schemas by which an editor completes and checks fact files, rules.yaml and project.yaml
+	@$(BIN)/python scripts/write_schemas.py
 
 bench: setup ## measure, and print one table
 	@$(BIN)/python bench/run.py

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, ValidationInfo, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
+
+from amp_studio.schema.units import UNITS
 
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
 
@@ -39,13 +41,14 @@ class BoundRef(Model):
 
 Bound = float | BoundRef | None
 Range = tuple[Bound, Bound]
+Ranges = Annotated[dict[Unit, Range], Field(json_schema_extra={"propertyNames": {"enum": list(UNITS)}})]
 
 
 class RangeVariant(Model):
     """Ranges that hold instead of the plain ones while a condition is true."""
 
     when: str
-    ranges: dict[Unit, Range]
+    ranges: Ranges
 
 
 class Choice(Model):
@@ -236,7 +239,7 @@ class Parameter(Model):
     unit: Unit | None = None
     """Fixes the unit where the quantity alone leaves it open (``ms``, ``s``; ``counts``)."""
     decimals: int | None = None
-    ranges: dict[Unit, Range] | None = None
+    ranges: Ranges | None = None
     range_variants: tuple[RangeVariant, ...] = ()
     choices: Choices | None = None
     more_codes: bool = False

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from amp_studio.schema.units import UNITS
 
@@ -22,7 +22,7 @@ def _known_unit(unit: str) -> str:
     return unit
 
 
-Unit = Annotated[str, AfterValidator(_known_unit)]
+Unit = Annotated[str, AfterValidator(_known_unit), WithJsonSchema({"enum": list(UNITS)})]
 
 
 def _counted_out(instances: object) -> object:

@@ -70,7 +70,9 @@ class Rule(Model):
         """Where it stands, as a sentence says it."""
         return f"page {self.page}"
 
-    @field_validator("blames", "compares", mode="before")
+    @field_validator(
+        "blames", "compares", mode="before", json_schema_input_type=dict[str, str] | tuple[str, ...]
+    )
     @classmethod
     def _each_name(cls, names: object) -> object:
         if isinstance(names, (list, tuple)) and all(isinstance(name, str) for name in names):
