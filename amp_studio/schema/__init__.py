@@ -6,6 +6,7 @@ it; every other room asks here and knows no parameter by heart.
 
 from .address import Address, UnknownParameterError, part_of, read_address, written
 from .addressing import Meant, all_meant, axis_meant, meant, unknown
+from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
 from .conditions import IN_FORCE, Reference, StateInfo, program
 from .constraint import Limits, bounding, clip, fault, limits
@@ -26,19 +27,15 @@ from .model import (
     Table,
 )
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
+from .value import InvalidValueError, Value
 from .values import (
     MASKED,
-    InvalidValueError,
-    Value,
-    field_at,
-    field_value,
     is_mask,
     label_of,
     not_readable,
     read_number,
     read_value,
     show_value,
-    with_field,
     write_number,
     write_value,
 )

@@ -19,19 +19,32 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import SequenceMatcher, get_close_matches
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from .address import Address, UnknownParameterError, whole_of, written
+from .bit_fields import field_value
 from .catalog import Schema
-from .model import Parameter
+from .conditions import StateInfo
+from .machine_schema import MachineSchema
+from .model import Parameter, Scope
 from .quoting import quoted
-from .values import field_value, label_of
-
-if TYPE_CHECKING:
-    from .evaluation import Evaluation
+from .values import label_of
 
 _NEAREST = 3
 _LONGEST_NUMBER = 16
+
+
+class FileState(Protocol):
+    """What the meaning of a text depends on in a file: its machine type, and the values and states of its parameters."""
+
+    @property
+    def schema(self) -> Schema: ...
+    @property
+    def machine_schema(self) -> MachineSchema: ...
+    def canonical(self, address: Address) -> float | str | bool | None: ...
+    def scope(self, address: Address) -> Scope | None: ...
+    def state(self, address: Address) -> StateInfo: ...
+    def least_hidden(self, claims: list[Address]) -> list[Address]: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +73,7 @@ class Meant:
                 f"the other{'s are' if len(self.others) > 1 else ' is'} {rest}")  # fmt: skip
 
 
-def meant(evaluation: Evaluation, text: str) -> Meant:
+def meant(evaluation: FileState, text: str) -> Meant:
     """Return the one instance, or the bit of it, that a text addresses; raises UnknownParameterError with one sentence."""
     try:
         return _whole(evaluation, text)
@@ -75,13 +88,13 @@ def meant(evaluation: Evaluation, text: str) -> Meant:
         raise
 
 
-def all_meant(evaluation: Evaluation, text: str) -> list[Meant]:
+def all_meant(evaluation: FileState, text: str) -> list[Meant]:
     """Return every instance that a text addresses: all words of ``P21``; raises UnknownParameterError."""
     words = _words(evaluation, text)
     return [Meant(address) for address in words] if words else [meant(evaluation, text)]
 
 
-def _whole(evaluation: Evaluation, text: str) -> Meant:
+def _whole(evaluation: FileState, text: str) -> Meant:
     schema, text = evaluation.schema, text.strip()
     name, _, instance = text.partition("@")
     parameter = schema.parameters.get(name.casefold())
@@ -103,7 +116,7 @@ def _whole(evaluation: Evaluation, text: str) -> Meant:
     raise UnknownParameterError(*unknown(schema, text))
 
 
-def _words(evaluation: Evaluation, text: str) -> list[Address]:
+def _words(evaluation: FileState, text: str) -> list[Address]:
     """Return the words of a number that has several (P21), those that exist for this machine if any does."""
     words = evaluation.machine_schema.words(text)
     return [a for a in words if evaluation.state(a).state != "hidden"] or words
@@ -112,7 +125,7 @@ def _words(evaluation: Evaluation, text: str) -> list[Address]:
 # -- instances ---------------------------------------------------------------------------------------------------
 
 
-def _instance(evaluation: Evaluation, parameter: Parameter, instance: str, text: str) -> str:
+def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: str) -> str:
     """Return the instance that is named by itself, or by the letter of its axis; raises UnknownParameterError."""
     instances = evaluation.machine_schema.instances(parameter)
     if instance in instances:
@@ -133,7 +146,7 @@ def _instance(evaluation: Evaluation, parameter: Parameter, instance: str, text:
     raise UnknownParameterError(f"{quoted(text)}: {parameter.name} {_offered(instances)}{letters}")
 
 
-def _letters(evaluation: Evaluation, parameter: Parameter) -> str:
+def _letters(evaluation: FileState, parameter: Parameter) -> str:
     """Return the letters of the axes that can stand for the instances of a parameter."""
     if not evaluation.machine_schema.kin(evaluation.scope((parameter.id, "")), "axis"):
         return ""
@@ -141,7 +154,7 @@ def _letters(evaluation: Evaluation, parameter: Parameter) -> str:
     return f", or an axis by its letter: {', '.join(letters)}" if letters else ""
 
 
-def axis_meant(evaluation: Evaluation, instances: tuple[str, ...], text: str) -> str:
+def axis_meant(evaluation: FileState, instances: tuple[str, ...], text: str) -> str:
     """Return the axis that is named by itself or by its letter; raises UnknownParameterError."""
     found = [i for i in instances if i.casefold() == text.casefold()] or _axes_named(evaluation, text)
     if len(found) == 1:
@@ -153,13 +166,13 @@ def axis_meant(evaluation: Evaluation, instances: tuple[str, ...], text: str) ->
     raise UnknownParameterError(f"there is no axis {quoted(text)}")
 
 
-def _axes_named(evaluation: Evaluation, letter: str) -> list[str]:
+def _axes_named(evaluation: FileState, letter: str) -> list[str]:
     """Return the axes that the file gives a letter, fitted ones where there are any."""
     found = [axis for axis, name in _axis_names(evaluation) if name.casefold() == letter.casefold()]
     return [axis for axis in found if _is_fitted(evaluation, axis)] or found
 
 
-def _axis_names(evaluation: Evaluation) -> Iterator[tuple[str, str]]:
+def _axis_names(evaluation: FileState) -> Iterator[tuple[str, str]]:
     """Yield each axis with the name that the file gives it."""
     schema, family = evaluation.schema, evaluation.schema.family
     named_by = family.axes.name if family.axes else family.axis_names.param if family.axis_names else None
@@ -176,7 +189,7 @@ def _axis_names(evaluation: Evaluation) -> Iterator[tuple[str, str]]:
             yield from ((axis, c.label) for c in field.choices or () if c.raw == code)
 
 
-def _is_fitted(evaluation: Evaluation, axis: str) -> bool:
+def _is_fitted(evaluation: FileState, axis: str) -> bool:
     profile = evaluation.schema.family.axes
     if profile is None:
         return True

@@ -11,10 +11,12 @@ import math
 from dataclasses import dataclass
 
 from .address import Address
+from .bit_fields import field_value
 from .evaluation import Evaluation
 from .model import Bound, BoundRef, Parameter, Range
 from .units import angular, canonical_unit, convert, dimension, shown
-from .values import MASKED, Value, digits_of, field_value, show_value, write_number
+from .value import Value
+from .values import MASKED, digits_of, show_value, write_number
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,7 +29,7 @@ from .machine_schema import MachineSchema
 from .model import Condition, Scope
 from .quoting import quoted
 from .units import canonical, dimension
-from .values import Value
+from .value import Value
 
 
 class Evaluation:

@@ -15,7 +15,8 @@ from fractions import Fraction
 from .model import Parameter, Storage
 from .quoting import quoted
 from .units import UNITS, dimension, shown
-from .values import Value, label_of, write_number
+from .value import Value
+from .values import label_of, write_number
 
 WORD = 16
 _PLAIN = Storage()

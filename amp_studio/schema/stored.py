@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .model import Parameter
 from .units import UnitError, angular, convert
-from .values import InvalidValueError, Value, read_value, write_number
+from .value import InvalidValueError, Value
+from .values import read_value, write_number
 
 
 def stored_number(parameter: Parameter, value: Value, turns: bool) -> float | int | None:

@@ -4,32 +4,15 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
-from .model import Bit, Parameter
+from .bit_fields import no_label, word_of_labels
+from .model import Parameter
 from .quoting import quoted, short
 from .units import UNITS, UnitError, dimension, shown, unit_named
+from .value import LONGEST_NUMBER, InvalidValueError, Value, plain
 from .visible import visible
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """One value in the unit it was entered in.
-
-    ``value`` is a float or int, the key of a choice, a bool for a yes/no
-    parameter, or a text. A choice for which the control holds a code that the
-    database does not know is kept as ``raw:<code>``.
-    """
-
-    value: float | bool | str
-    unit: str = ""
-
-
-class InvalidValueError(ValueError):
-    """A value that cannot be read; the text is one clear sentence."""
-
 
 MASKED = "•••• (secret)"
 """What stands in place of a secret value wherever nobody asked for it in clear; never read as a value."""
@@ -52,8 +35,6 @@ _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
 EXACT = 2**53 - 1
 """Up to here a double holds every whole number, and none stands for its neighbour as well."""
-LONGEST_NUMBER = 400
-"""Signs of a number with its unit: the longest double written out has some 330."""
 LONGEST_TEXT = 100_000
 """Signs of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
@@ -243,8 +224,6 @@ def exact_number(text: str) -> Fraction:
 
 def _labelled(parameter: Parameter, text: str) -> int | None:
     """Return the word that the labels of its bits mean; None for what may be a number. Raises InvalidValueError."""
-    from .bit_labels import no_label, word_of_labels  # it changes fields with the functions below
-
     word = word_of_labels(parameter, text)
     if word is None and not re.match("[+-]?[0-9.,]|[0-9a-fA-F]+$", text):
         raise InvalidValueError(no_label(parameter, text))
@@ -274,11 +253,6 @@ def digits_of(form: str) -> tuple[int, int]:
     """Return the digits before and behind the point of a word format."""
     whole, _, decimals = form.partition(".")
     return int(whole), int(decimals or 0)
-
-
-def plain(text: str) -> str:
-    """Return a text as texts are compared: without regard to case and to the number of blanks."""
-    return " ".join(text.casefold().split())
 
 
 def _read_choice(parameter: Parameter, text: str) -> Value:
@@ -351,59 +325,6 @@ def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = Fal
     number = _number_text(parameter, value)
     unit = shown(value.unit)
     return f"{number}{unit}" if unit == "°" else f"{number} {unit}" if unit else number
-
-
-# -- the bits of a packed word ---------------------------------------------------
-
-
-def field_at(parameter: Parameter, bit: int) -> Bit:
-    """Return the field that begins at a bit of a word; one that the database does not name is a bit by itself.
-
-    Raises InvalidValueError for a parameter without bits, and beyond its last bit.
-    """
-    if parameter.type != "bits":
-        raise InvalidValueError(f"{parameter.name} is no word of bits")
-    width = parameter.storage.bits if parameter.storage else None
-    if width is not None and bit >= width:
-        raise InvalidValueError(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
-    return next(
-        (b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True)
-    )
-
-
-def field_value(field: Bit, word: int) -> int:
-    """Return the number that stands in a field of a word."""
-    number = (word >> field.bit) & ((1 << field.width) - 1)
-    return number - (1 << field.width) if field.signed and number >> (field.width - 1) else number
-
-
-def with_field(field: Bit, word: int, text: str) -> int:
-    """Return a word with one field changed to what a person wrote; every other bit stays. Raises InvalidValueError."""
-    said = plain(text)
-    for choice in field.choices or ():
-        names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]
-        if choice.raw is not None and said in [*names, f"raw:{choice.raw}"]:
-            number = choice.raw
-            break
-    else:
-        switch = {"yes": 1, "true": 1, "on": 1, "no": 0, "false": 0, "off": 0} if field.width == 1 else {}
-        mask = (1 << field.width) - 1
-        lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
-        try:
-            if len(said) > LONGEST_NUMBER:
-                raise ValueError
-            number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
-        except ValueError:
-            number = lowest - 1
-        if field.choices and said not in switch and not lowest <= number <= highest:
-            offered = ", ".join(choice.label for choice in field.choices)
-            raise InvalidValueError(f"{quoted(text.strip())} is not a choice of {field.label}: {offered}")
-        if not lowest <= number <= highest:
-            raise InvalidValueError(
-                f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}"
-            )
-        number &= mask
-    return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
 
 
 def label_of(parameter: Parameter, key: str) -> str:

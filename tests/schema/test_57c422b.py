@@ -6,8 +6,8 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Schema, Value, fault, field_value, load_schema
+from amp_studio.schema.bit_fields import field_at
 from amp_studio.schema.stored import stored_number
-from amp_studio.schema.values import field_at
 
 
 @pytest.fixture(scope="module")

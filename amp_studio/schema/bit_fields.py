@@ -1,4 +1,4 @@
-"""A packed word given by what its bits are called: ``Enable, Override locks``.
+"""The fields of a packed word, one by one or given by what its bits are called: ``Enable, Override locks``.
 
 A bit is set by its label, a field of several bits by ``label: choice`` or ``label: number``; whatever is not named is
 0, and ``none`` is no bit at all.
@@ -11,7 +11,7 @@ from difflib import get_close_matches
 
 from .model import Bit, Parameter
 from .quoting import quoted
-from .values import InvalidValueError, field_at, plain, with_field
+from .value import LONGEST_NUMBER, InvalidValueError, plain
 
 _LONGEST = 4096
 _MOST = 256
@@ -92,3 +92,56 @@ def _only(parameter: Parameter, entry: str, fields: list[Bit]) -> Bit:
             f"{quoted(entry)} is what the bits {bits} of {parameter.name} are called: set one bit at a time"
         )
     return fields[0]
+
+
+# -- one field ---------------------------------------------------------------------
+
+
+def field_at(parameter: Parameter, bit: int) -> Bit:
+    """Return the field that begins at a bit of a word; one that the database does not name is a bit by itself.
+
+    Raises InvalidValueError for a parameter without bits, and beyond its last bit.
+    """
+    if parameter.type != "bits":
+        raise InvalidValueError(f"{parameter.name} is no word of bits")
+    width = parameter.storage.bits if parameter.storage else None
+    if width is not None and bit >= width:
+        raise InvalidValueError(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
+    return next(
+        (b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True)
+    )
+
+
+def field_value(field: Bit, word: int) -> int:
+    """Return the number that stands in a field of a word."""
+    number = (word >> field.bit) & ((1 << field.width) - 1)
+    return number - (1 << field.width) if field.signed and number >> (field.width - 1) else number
+
+
+def with_field(field: Bit, word: int, text: str) -> int:
+    """Return a word with one field changed to what a person wrote; every other bit stays. Raises InvalidValueError."""
+    said = plain(text)
+    for choice in field.choices or ():
+        names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]
+        if choice.raw is not None and said in [*names, f"raw:{choice.raw}"]:
+            number = choice.raw
+            break
+    else:
+        switch = {"yes": 1, "true": 1, "on": 1, "no": 0, "false": 0, "off": 0} if field.width == 1 else {}
+        mask = (1 << field.width) - 1
+        lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
+        try:
+            if len(said) > LONGEST_NUMBER:
+                raise ValueError
+            number = switch[said] if said in switch else int(said.removeprefix("raw:"), 0)
+        except ValueError:
+            number = lowest - 1
+        if field.choices and said not in switch and not lowest <= number <= highest:
+            offered = ", ".join(choice.label for choice in field.choices)
+            raise InvalidValueError(f"{quoted(text.strip())} is not a choice of {field.label}: {offered}")
+        if not lowest <= number <= highest:
+            raise InvalidValueError(
+                f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}"
+            )
+        number &= mask
+    return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
