@@ -7,10 +7,10 @@ before it in the given order; a remark below an entry that goes belongs to what 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from amp_studio.schema.yaml_reader import KeyPath, YamlDocument, typed_scalar
+from amp_studio.schema.yaml_reader import KeyPath, Span, YamlDocument, typed_scalar
 
 _BREAK = re.compile("\r\n|\n|\r")
 _LONGEST_KEY = 1000
@@ -114,6 +114,26 @@ def amended(
     return editor.text()
 
 
+def with_item(document: YamlDocument, key: str, item: Mapping[str, Any]) -> str | None:
+    """Return the text of a document with one more mapping at the end of a list; None as ``amended``.
+
+    A list that is not there is made; one in brackets or without entries is written anew.
+    """
+    data = {} if document.data is None else document.data
+    editor = _Editor(document, ())
+    if not isinstance(data, dict) or any(editor.is_flow((name,)) for name in data):
+        return None
+    if key not in data:
+        editor.add_item(f"{key}:", None, item)
+        return editor.text()
+    listed = data[key] or ()
+    last = editor.spans[(key, len(listed) - 1)] if listed else None
+    if last is None or last.is_flow:
+        return amended(document, data, data | {key: [*listed, item]})
+    editor.add_item("", last, item)
+    return editor.text()
+
+
 class _Editor:
     """Collects changes of a text."""
 
@@ -157,6 +177,17 @@ class _Editor:
                 self._delete(at)
                 self._insert(behind, key, value, indent)
 
+    def add_item(self, title: str, last: Span | None, item: Mapping[str, Any]) -> None:
+        """Write a mapping as the next item of a list in lines; as the first, under its title, where there is no last."""
+        text, indent = self.document.text, ""
+        at = max((self._line_behind(span.end) for span in self.spans.values()), default=len(text))
+        if last is not None:
+            dash, at = text.rfind("-", 0, last.start), self._line_behind(last.end)
+            indent = " " * (dash - self._line_start(dash))
+        lines = [line for key, value in item.items() for line in entry_lines(key, value, indent + "  ")]
+        first = f"{indent}- {lines[0].lstrip()}"
+        self._insert_lines(at, [*filter(None, [title]), first, *lines[1:]])
+
     def _is_block(self, path: KeyPath, known: Any) -> bool:
         return isinstance(known, Mapping) and bool(known) and not self.is_flow((*path, next(iter(known))))
 
@@ -191,7 +222,10 @@ class _Editor:
         return data
 
     def _insert(self, at: int, key: str, value: Any, indent: str) -> None:
-        lines = "".join(line + self.line_end for line in entry_lines(key, value, indent))
+        self._insert_lines(at, entry_lines(key, value, indent))
+
+    def _insert_lines(self, at: int, new: Iterable[str]) -> None:
+        lines = "".join(line + self.line_end for line in new)
         is_open = (
             at and self.document.text[at - 1] not in "\r\n"
         )  # the last line of a text without a line end

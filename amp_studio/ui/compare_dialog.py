@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import Comparison, Difference
+from amp_studio.files import Comparison, Difference, ParameterFile
 from amp_studio.schema import Address, Value, show_value
 
 from .workspace import Workspace
@@ -27,7 +27,9 @@ _DIFFERENCE = Qt.ItemDataRole.UserRole
 class DifferenceList(QTreeWidget):
     """A row for each value that differs: where, how, and both sides."""
 
-    def __init__(self, workspace: Workspace, found: Comparison, other: str, tick: bool) -> None:
+    def __init__(
+        self, file: ParameterFile, found: Comparison, other: str, *, tick: bool, secrets: bool
+    ) -> None:
         super().__init__()
         self.setHeaderLabels(
             ["Parameter", "Axis", "Difference", "This file", other.replace("the control", "The control")]
@@ -36,13 +38,13 @@ class DifferenceList(QTreeWidget):
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)
         self.items: list[QTreeWidgetItem] = []
-        schema, machine = workspace.file.schema, workspace.file.machine
+        schema, machine = file.schema, file.machine
         for difference in found.differences:
             item = QTreeWidgetItem([
                 schema.on(machine).label(difference.address),
                 schema.on(machine).instance_label(difference.address),
                 "absent here" if difference.a is None else "absent there" if difference.b is None else "different",
-                *(show_value(schema.parameters[difference.address[0]], v, secrets=workspace.secrets)
+                *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
                   for v in (difference.a, difference.b)),
             ])  # fmt: skip
             item.setData(0, _DIFFERENCE, difference)
@@ -96,7 +98,7 @@ class CompareDialog(QDialog):
         self._workspace, self._values, self._other, self._show = workspace, dict(other_values), other, show
         self.text = QLabel()
         self.text.setWordWrap(True)
-        self.list = DifferenceList(workspace, Comparison((), 0), other, tick=True)
+        self.list = DifferenceList(workspace.file, Comparison((), 0), other, tick=True, secrets=False)
         self.every = QPushButton("Tick &all")
         self.take_button = QPushButton("&Take the ticked values into this file")
         close = QPushButton("&Close")
@@ -118,7 +120,9 @@ class CompareDialog(QDialog):
         """Show what differs now; an edit may have made some the same. Ticks stay."""
         found = self._workspace.differences_to(self._values)
         ticked = {d.address for d in self.list.ticked()}
-        fresh = DifferenceList(self._workspace, found, self._other, tick=True)
+        fresh = DifferenceList(
+            self._workspace.file, found, self._other, tick=True, secrets=self._workspace.secrets
+        )
         self._layout.replaceWidget(self.list, fresh)
         self.list.deleteLater()
         self.list = fresh
@@ -142,17 +146,25 @@ class CompareDialog(QDialog):
 
 
 class DownloadPreview(QDialog):
-    """Says what a download would change in the control, before it does."""
+    """Says what a download or a restore would change in the control, before it does."""
 
-    def __init__(self, workspace: Workspace, found: Comparison, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        file: ParameterFile,
+        found: Comparison,
+        parent: QWidget | None = None,
+        *,
+        secrets: bool = False,
+        title: str = "Download",
+    ) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Download")
+        self.setWindowTitle(title)
         self.resize(900, 500)
         text = QLabel(f"{counts(found, 'the control')} The control takes the file as a whole; what is absent in this file is "
                       "not sent. What it holds now is kept beside the file first.\n\nThe control must be in E-stop.")  # fmt: skip
         text.setWordWrap(True)
-        self.list = DifferenceList(workspace, found, "the control", tick=False)
-        self.send, cancel = QPushButton("&Download"), QPushButton("Cancel")
+        self.list = DifferenceList(file, found, "the control", tick=False, secrets=secrets)
+        self.send, cancel = QPushButton(f"&{title}"), QPushButton("Cancel")
         self.send.setDefault(True)
         self.send.clicked.connect(self.accept)
         cancel.clicked.connect(self.reject)

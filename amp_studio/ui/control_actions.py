@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ from amp_studio.schema import Address, InvalidValueError, write_value
 
 from .emulated_control import EmulatedControl
 from .questions import ask, tell
+from .restore import restore
 from .task import Progress, ProgressDialog
 
 if TYPE_CHECKING:
@@ -48,7 +50,8 @@ class ControlActions:
         download = act("&Download to Control…", self.download, "F5", "file", icons.SP_ArrowDown, "Download")
         verify = act("&Verify With Control…", self.verify, "F6", "file", icons.SP_DialogApplyButton, "Verify")
         upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
-        menu.addActions([download, verify, upload])
+        put_back = act("&Restore Kept Copy…", partial(restore, self), None, "")
+        menu.addActions([download, verify, upload, put_back])
         menu.addSeparator()
         self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
         self.estop_action = act("Emulated Control in &E-Stop", self._estop, None, "")
@@ -93,7 +96,7 @@ class ControlActions:
 
     # -- exchange --------------------------------------------------------------
 
-    def _address(self, title: str) -> str | None:
+    def ask_address(self, title: str) -> str | None:
         """Ask for the control's address; the emulated control's, the project's and the last one are offered."""
         project, settings = self.window.projects.project, self.window.settings
         known = (
@@ -119,7 +122,7 @@ class ControlActions:
         workspace = self._workspace()
         if not self._is_ready(workspace):
             return
-        address = self._address("Download")
+        address = self.ask_address("Download")
         if address is None:
             return
         file, path = workspace.file.copy(), workspace.path
@@ -132,12 +135,16 @@ class ControlActions:
 
             return download_file(file, address, path.parent, path.stem, progress, cancel, expected=approved)
 
+        if self.exchange("Download", work).verified:
+            self.remember(workspace, file)
+
+    def exchange(self, title: str, work: Callable[[Progress, threading.Event], Outcome]) -> Outcome:
+        """Run what replaces the control's file, tell how it ended and return that."""
         hint = "Waiting for the control …"
-        outcome: Outcome = ProgressDialog("Download", work, self.window, hint, STAGES).run()
-        if outcome.verified:
-            self._remember(workspace, file)
+        outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()
         icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
-        tell(self.window, "Download", outcome.text, icon)
+        tell(self.window, title, outcome.text, icon)
+        return outcome
 
     def _is_ready(self, workspace: Workspace) -> bool:
         """Ask about unsaved changes and errors; tells whether the file may go to a control."""
@@ -164,7 +171,7 @@ class ControlActions:
 
         from .compare_dialog import DownloadPreview
 
-        image = self._fetch(address, "Download", workspace)
+        image = self.fetch(address, "Download", workspace.file.schema.family.family)
         approved = sha256(image)
         if not image:
             return approved
@@ -176,30 +183,33 @@ class ControlActions:
             question = f"{error}.\n\nWhat the control holds is kept as it is. Download all the same?"
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
             return approved if answer == "&Download" else None
-        self._remember(workspace, held)
+        self.remember(workspace, held)
         found = workspace.differences_to(held.values)
-        if not found.differences or DownloadPreview(workspace, found, self.window).exec():
+        if (
+            not found.differences
+            or DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets).exec()
+        ):
             return approved
         return None
 
-    def _remember(self, workspace: Workspace, held: ParameterFile) -> None:
+    def remember(self, workspace: Workspace, held: ParameterFile) -> None:
         if held.schema is workspace.file.schema:
             workspace.remember_control(held.values, f"{datetime.now(UTC).astimezone():%H:%M}")
 
     def verify(self) -> None:
         """Compare the file with what the control holds."""
         workspace = self._workspace()
-        address = self._address("Verify")
+        address = self.ask_address("Verify")
         if address is None:
             return
         from amp_studio.transfer.client.verification import verify_images
         from amp_studio.transfer.image import decode_image, encode_image
 
-        image = self._fetch(address, "Verify", workspace)
+        image = self.fetch(address, "Verify", workspace.file.schema.family.family)
         found = verify_images(encode_image(workspace.file), image)
         if not found.unreadable:
             held = decode_image(image)
-            self._remember(workspace, held)
+            self.remember(workspace, held)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
             tell(self.window, "Verify", found.summary(), icon)
@@ -208,9 +218,8 @@ class ControlActions:
 
         CompareDialog(workspace, held.values, "the control", self.window.go_to, self.window).show()
 
-    def _fetch(self, address: str, title: str, workspace: Workspace | None = None) -> bytes:
-        """Return what the control holds, byte for byte; with a workspace the control must be of its family."""
-        family = workspace.file.schema.family.family if workspace else ""
+    def fetch(self, address: str, title: str, family: str = "") -> bytes:
+        """Return what the control holds, byte for byte; with a family the control must be of it."""
 
         def work(progress: Progress, cancel: threading.Event) -> bytes:
             from amp_studio.transfer.client.parameters import fetch_image
@@ -226,7 +235,7 @@ class ControlActions:
 
         if not self.window.may_leave():
             return
-        address = self._address("Upload")
+        address = self.ask_address("Upload")
         if address is None:
             return
         file = self._uploaded(address)
@@ -240,7 +249,7 @@ class ControlActions:
         """Return the control's file; raises ValueError where it has none that can be read."""
         from amp_studio.transfer.image import ImageError, decode_image
 
-        image = self._fetch(address, "Upload")
+        image = self.fetch(address, "Upload")
         if not image:
             raise ValueError("The control holds nothing: there is nothing to upload.")
         try:

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QStyle
 
-from amp_studio.files import RangeError, axis_type, describe, fitted_axes
+from amp_studio.files import RangeError, axis_type, describe, fitted_axes, real_path
 from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import RULES_FILE, Finding, calculators, repair_all_safe, suppress
@@ -209,10 +209,18 @@ class EditActions:
         workspace = self._workspace()
         dialog = SuppressDialog(finding, user(), self.window)
         if dialog.exec():
-            path = workspace.path.parent / RULES_FILE
-            suppress(path, finding.rule, dialog.params(), reason=dialog.reason.text(), by=dialog.name.text())
+            path = real_path(workspace.path).with_name(RULES_FILE)  # where rules are looked for
+            notes: list[str] = []
+            suppress(
+                path,
+                finding.rule,
+                dialog.params(),
+                reason=dialog.reason.text(),
+                by=dialog.name.text(),
+                tell=notes.append,
+            )
             workspace.read_own_rules()
-            self.window.say(f"Kept in {path}")
+            self.window.say("; ".join([f"Kept in {path}", *notes]))
 
     def repair(self, finding: Finding) -> None:
         """Apply the repair of a finding as one step; only one that is offered now has been tried."""

@@ -296,6 +296,7 @@ class FileActions:
         secrets = dialog.secrets.isChecked()
         check_output(path, workspace.path)
         file = workspace.file.copy()
+        notes: list[str] = []
 
         def work(_: Progress, __: threading.Event) -> None:
             from amp_studio.report import write_report
@@ -308,10 +309,11 @@ class FileActions:
                 source=workspace.path,
                 own=workspace.validator.own,
                 secrets=secrets,
+                tell=notes.append,
             )
 
         ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()
-        self.window.say(f"{path} written")
+        self.window.say("; ".join([f"{path} written", *notes]))
         if show:
             QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
 

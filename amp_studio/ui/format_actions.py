@@ -138,7 +138,10 @@ class FormatActions:
         check_output(path, workspace.path)
         file, key = workspace.file.copy(), found.key if found else None
         secrets = workspace.secrets
-        in_background(self.window, "Exporting", lambda: export_file(file, path, key, secrets=secrets))
+        notes: list[str] = []
+        in_background(
+            self.window, "Exporting", lambda: export_file(file, path, key, notes.append, secrets=secrets)
+        )
         left_out = 0 if secrets else len(secret_values(file))
         told = f"; {left_out} secret values left out (Options, Show Secrets writes them)" if left_out else ""
-        self.window.say(f"{path} written{told}")
+        self.window.say("; ".join([f"{path} written{told}", *notes]))

@@ -236,12 +236,14 @@ class StepView(QWidget):
         if not text:
             return
         path = Path(text)
+        path = path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
+        notes: list[str] = []
         try:
-            write_trace(
-                self.trace, path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
-            )
+            write_trace(self.trace, path, notes.append)
         except (OSError, ValueError) as error:
             self._fail(error)
+        else:
+            self.told.setText(html.escape("; ".join([f"{path} written", *notes])))
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Let a run that is on its way end by itself, unheard."""

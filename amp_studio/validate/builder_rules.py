@@ -7,16 +7,18 @@ and keeps nothing else from being checked.
 
 from __future__ import annotations
 
+import codecs
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache, lru_cache, partial
-from io import StringIO
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
 from amp_studio.files import is_there, real_path, write_atomic
-from amp_studio.files.atomic import digest_of
+from amp_studio.files.atomic import SaveError, Tell, digest_of
+from amp_studio.files.yaml_text import with_item
 from amp_studio.schema import (
     Address,
     BuilderRule,
@@ -33,8 +35,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.model_errors import Slip
 from amp_studio.schema.nearest import did_you_mean
-from amp_studio.schema.regular_file import read_file
-from amp_studio.schema.yaml_reader import KeyPath
+from amp_studio.schema.yaml_reader import KeyPath, YamlError, read_yaml
 
 from .expression_tree import shown
 from .expressions import RuleError
@@ -44,6 +45,7 @@ from .rule_entry import entry_model
 from .rule_review import MOST_STEPS, review
 
 RULES_FILE = "rules.yaml"
+_SUPPRESSIONS = "suppressions"
 OWN_FAULT = "rules.unusable"
 """The rule that findings about the rules themselves belong to."""
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown")
@@ -108,7 +110,7 @@ class _RuleFileReader:
         self._faults: list[DatabaseError] = []
 
     def read(self) -> BuilderRules:
-        entries, self._faults = read_entries(self._path, ("rules", "suppressions"))
+        entries, self._faults = read_entries(self._path, ("rules", _SUPPRESSIONS))
         for kind, most in (("rules", MOST_RULES), ("suppressions", MOST_SUPPRESSIONS)):
             of_kind = [entry for entry in entries if entry.kind == kind]
             for entry in of_kind[most : most + 1]:
@@ -254,31 +256,40 @@ def _told(path: Path, fault: DatabaseError) -> str:
     return f"{path.name}{f', line {fault.line}' if fault.line else ''}: {fault.what.rstrip('.')}"
 
 
-def suppress(path: Path, rule: str, params: Iterable[str], *, reason: str, by: str) -> None:
-    """Add a suppression to a file of rules, which is made where there is none; the rest of it stays as it is.
+def suppress(
+    path: Path, rule: str, params: Iterable[str], *, reason: str, by: str, tell: Tell = lambda _said: None
+) -> None:
+    """Add a suppression to a file of rules, which is made where there is none; no other byte of it changes.
 
-    Raises ValueError where reason or name is missing or the file cannot be read, SaveError where it cannot be written.
+    ``tell`` is called with what the save could not keep. Raises ValueError where reason or name is missing or the file
+    cannot be read, SaveError where it cannot be written.
     """
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
-
-    yaml = YAML(typ="rt")
-    yaml.preserve_quotes = True
     try:
         entry = Suppression(rule=rule, params=tuple(params), reason=reason.strip(), by=by.strip())
-        data = yaml.load(read_file(path).decode("utf-8")) if is_there(path) else None
     except ValidationError:
         raise ValueError("A suppression needs a reason and a name.") from None
-    except YAMLError as error:
-        raise ValueError(f"{path.name} cannot be read: {str(error).splitlines()[0]}") from None
-    if data is None:
-        data = {}
-    if not isinstance(data, dict) or not isinstance(data.setdefault("suppressions", []), list):
-        raise ValueError(f"{path.name} holds no list of suppressions.")
-    data["suppressions"].append(entry.model_dump(mode="json", exclude_defaults=True))
-    stream = StringIO()
-    yaml.dump(data, stream)
-    write_atomic(path, stream.getvalue().encode())
+    item = entry.model_dump(mode="json", exclude_defaults=True)
+    write_atomic(path, lambda previous: _with_suppression(path, previous or b"", item), tell=tell)
+
+
+def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> bytes:
+    """Return the content of a file of rules with one more suppression, read back; raises ValueError, SaveError."""
+    try:
+        document = read_yaml(previous.decode("utf-8"), spans=True)
+        data = {} if document.data is None else document.data
+        if not isinstance(data, dict) or not isinstance(data.get(_SUPPRESSIONS) or [], list):
+            raise ValueError(f"{path.name} holds no list of suppressions.")
+        wanted = data | {_SUPPRESSIONS: [*(data.get(_SUPPRESSIONS) or []), item]}
+        text = with_item(document, _SUPPRESSIONS, item)
+    except (UnicodeDecodeError, YamlError) as error:
+        raise ValueError(f"{path.name} cannot be read: {error}") from None
+    try:
+        if text is None or read_yaml(text).data != wanted:
+            raise SaveError(f"{path} was not written: the suppression would be read back otherwise")
+    except YamlError as error:
+        raise SaveError(f"{path} was not written: {error}") from None
+    mark = codecs.BOM_UTF8 if previous.startswith(codecs.BOM_UTF8) else b""
+    return mark + text.encode("utf-8")
 
 
 @dataclass(frozen=True, slots=True)

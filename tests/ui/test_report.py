@@ -65,3 +65,19 @@ def test_browsing_gives_the_ending_that_was_chosen(window: MainWindow, tmp_path:
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "named"), "HTML (*.html)"))
     dialog._browse()
     assert dialog.path.text() == str(tmp_path / "named.html")
+
+
+@pytest.mark.parametrize("verb", ["Report", "Export"])
+def test_what_a_written_file_could_not_keep_is_said(
+    window: MainWindow, tmp_path: Path, accept, person: Person, verb: str
+) -> None:
+    path = tmp_path / "out.csv"
+    path.write_bytes(b"old")
+    (tmp_path / "other name").hardlink_to(path)
+    if verb == "Report":
+        accept(ReportDialog, lambda d: d.path.setText(str(path)))
+    else:
+        person.chooses(path)
+    action(window, verb).trigger()
+    assert "1 other name of this file (a hard link) still has" in window.statusBar().currentMessage()
+    assert (tmp_path / "other name").read_bytes() == b"old"

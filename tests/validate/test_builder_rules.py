@@ -9,8 +9,10 @@ from textwrap import dedent
 import pytest
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.atomic import SaveError
 from amp_studio.report import finding_text, why_text
 from amp_studio.schema import Value, load_schema
+from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.validate import (
     Finding,
     Setting,
@@ -271,6 +273,44 @@ def test_a_suppression_is_added_and_the_rest_of_the_file_stays(path: Path) -> No
     assert text.startswith("# ours\n")
     assert 'message: "Rapid {rapid} is more than' in text
     assert "reason: the screws were changed\n" in text
+
+
+HELD = "{rule: a.b, reason: why, by: me}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "# nothing yet",
+        "suppressions:\n",
+        "suppressions: []  # none\n",
+        f"suppressions: [{HELD}]\n",
+        f"suppressions:  # looked at\n- {HELD} # by us\n# the end\n",
+        f"suppressions:\n    - {HELD}\nrules: []  # later\n",
+        "suppressions:\r\n  -\r\n    rule: a.b\r\n    reason: |\r\n      why - not\r\n    by: me\r\nrules:\r\n",
+        "\ufeffrules: []\n",
+        "rules: []\n...\n# behind\n",
+        "---\nrules: []",
+    ],
+)
+def test_a_suppression_changes_no_other_line(path: Path, text: str) -> None:
+    path.write_bytes(text.encode())
+    before = read_yaml(text).data or {}
+    suppress(path, "builder.rapid", ["1203"], reason="# no: remark", by="J. Doe")
+    after = path.read_bytes().decode()
+    new = {"rule": "builder.rapid", "params": ["1203"], "reason": "# no: remark", "by": "J. Doe"}
+    assert read_yaml(after).data == before | {"suppressions": [*(before.get("suppressions") or []), new]}
+    lines = after.splitlines(keepends=True)
+    assert [line for line in text.splitlines() if line not in after and "suppressions: [" not in line] == []
+    assert len({line.endswith("\r\n") for line in lines}) == 1
+
+
+def test_a_suppression_that_would_be_read_back_otherwise_is_not_written(path: Path) -> None:
+    path.write_bytes(b"{rules: []}\n")
+    with pytest.raises(SaveError, match="was not written"):
+        suppress(path, "builder.rapid", [], reason="why", by="J. Doe")
+    assert path.read_bytes() == b"{rules: []}\n"
 
 
 @pytest.mark.parametrize(("reason", "by"), [("", "J. Doe"), ("why", "  ")])
