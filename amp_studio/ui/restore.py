@@ -15,7 +15,7 @@ from .questions import ask
 from .task import Progress, in_background
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.parameters import Copy, Outcome
+    from amp_studio.transfer.client.parameters import Copy, Outcome
 
     from .control_actions import ControlActions
 
@@ -27,7 +27,7 @@ def restore(control: ControlActions) -> None:
 
     What the control holds is kept beside the copy first. Raises as the restore itself.
     """
-    from amp_studio.transfer.parameters import open_copy, restore_copy, sha256
+    from amp_studio.transfer.client.parameters import open_copy, restore_copy, sha256
 
     window = control.window
     folder = window.workspace.path.parent if window.workspace else Path()
@@ -67,7 +67,7 @@ def _check(copy: Copy, path: Path) -> None:
 
 def _is_wanted(control: ControlActions, copy: Copy, path: Path, held: bytes) -> bool:
     """Show what would change, or say why it cannot be shown; tells whether the copy is to go back."""
-    from amp_studio.transfer.image import ImageFault, decode_image
+    from amp_studio.transfer.image import ImageError, decode_image
 
     from .compare_dialog import DownloadPreview
 
@@ -75,7 +75,7 @@ def _is_wanted(control: ControlActions, copy: Copy, path: Path, held: bytes) -> 
     now = None
     try:
         now = decode_image(held) if held else None
-    except ImageFault as error:
+    except ImageError as error:
         doubts.append(f"What the control holds cannot be shown: {error}.")
     if copy.file is None:
         doubts.append(f"{path.name} goes back byte for byte, but cannot be shown: {copy.fault}.")
