@@ -160,6 +160,12 @@ def parser() -> argparse.ArgumentParser:
         metavar="JSON",
         help='what goes wrong, to practise with: {"drop_after_bytes": 9000}',
     )
+    sub = verb("ports", "identify", "the serial ports of this computer")
+    json_option(sub)
+    sub = verb("identify", "identify", "what answers at an address, and what it holds")
+    sub.add_argument("address", metavar="ADDRESS")
+    sub.add_argument("--family", help="the family it must be of")
+    json_option(sub)
     sub = verb("download", "control", "send a file to a control, read it back and compare")
     sub.add_argument("path", type=Path)
     to_control(sub, "beside the file")

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -69,4 +70,4 @@ def registration_of(family: str) -> Registration:
 def load_part(place: str) -> Any:
     """Return what stands at ``module:NAME``; raises ImportError, AttributeError for a place that is none."""
     module, _, name = place.partition(":")
-    return getattr(import_module(module), name)
+    return attrgetter(name)(import_module(module))

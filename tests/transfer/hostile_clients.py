@@ -17,6 +17,7 @@ from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.emulator import Emulator
 from amp_studio.transfer.emulated.record import Identity
 from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.frame import encode_frame
 from amp_studio.transfer.house.message import (
     Abort,
@@ -271,7 +272,7 @@ def clients_beside_hostile_ones(seed: int, folder: Path) -> list[str]:
                 patience=30,
             )
             try:
-                outcome = download(session, NEW, lambda image: "kept.amp", signature=SIGNATURE)
+                outcome = download(HouseDriver(session), NEW, lambda image: "kept.amp", signature=SIGNATURE)
             except TransferError:
                 session.close()
                 for _ in range(20):

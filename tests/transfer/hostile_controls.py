@@ -17,6 +17,7 @@ from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.record import Identity
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import CancelledError, TransferError
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.frame import FrameDecoder, encode_frame
 from amp_studio.transfer.house.message import (
     LAYOUTS,
@@ -199,7 +200,7 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
         return "kept.amp"
 
     try:
-        held: str = download(session, NEW, keep, signature=SIGNATURE, progress=progress).held
+        held: str = download(HouseDriver(session), NEW, keep, signature=SIGNATURE, progress=progress).held
         text = ""
     except CancelledError:
         held, text = "old", "nobody has cancelled"

@@ -1,4 +1,4 @@
-"""The verbs between a file and a control: download, upload, verify, restore.
+"""The verbs between a file and a control, over any driver: download, upload, restore.
 
 Words as the manuals use them: a download goes from here to the control, an
 upload from the control to here. A restore is the download of what a control
@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from amp_studio.transfer.driver import ControlDriver, ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
     HELD_TEXT,
     CancelledError,
@@ -25,8 +26,6 @@ from amp_studio.transfer.errors import (
     TransferError,
     unforeseen,
 )
-from amp_studio.transfer.house.message import Committed, Flags, Welcome
-from amp_studio.transfer.house.session import Session
 from amp_studio.transfer.progress import Progress, quiet
 
 RESTART_WAIT = 60.0  # seconds a control may take to come back
@@ -56,34 +55,21 @@ class Outcome:
     text: str
 
 
-@dataclass(frozen=True)
-class Verification:
-    """Whether a control holds an image.
-
-    ``first_difference`` is the offset in bytes of the first that differs; ``held`` is what was read.
-    """
-
-    same: bool
-    first_difference: int | None
-    held: bytes
-
-
-def upload(session: Session, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
+def upload(driver: ControlDriver, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
     """Return the image the control holds; raises TransferError."""
     with _only_looking():
-        session.hello(cancel, progress)
-        return session.fetch(progress, cancel)
+        driver.identify(progress, cancel)
+        return driver.fetch(progress, cancel)
 
 
-def verify(
-    session: Session, image: bytes, progress: Progress = quiet, cancel: threading.Event | None = None
-) -> Verification:
-    """Read everything the control holds and compare it with an image byte for byte; raises TransferError."""
+def look_at(
+    driver: ControlDriver, progress: Progress = quiet, cancel: threading.Event | None = None
+) -> tuple[ControlIdentity, bytes, str]:
+    """Return who the control is, what it holds, and the SHA-256 of that in hexadecimal; raises TransferError."""
     with _only_looking():
-        session.hello(cancel, progress)
-        held = session.fetch(progress, cancel, "verify")
-    at = first_difference(image, held)
-    return Verification(at is None, at, held)
+        control = driver.identify(progress, cancel)
+        content = driver.fetch(progress, cancel)
+    return control, content, hashlib.sha256(content).hexdigest()
 
 
 @contextlib.contextmanager
@@ -97,7 +83,7 @@ def _only_looking() -> Iterator[None]:
 
 
 def download(
-    session: Session,
+    driver: ControlDriver,
     image: bytes,
     keep: Keep,
     *,
@@ -114,23 +100,25 @@ def download(
     anything is replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to
     ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
     schema's under which the image was made. ``expected`` is the SHA-256 of the image that may be replaced; None
-    for whatever is there. ``is_return`` says that the control has held this image before: then it decides by
-    itself whether it takes it. Raises TransferError, whose ``held`` and ``kept`` say what the control holds and
+    for whatever is there. ``is_return`` says that the control has held this image before: one that remembers
+    what it held decides by itself whether it takes it. Raises TransferError, whose ``held`` and ``kept`` say what the control holds and
     where its old image is.
     """
     digest = hashlib.sha256(image)
-    welcome = session.hello(cancel, progress)
-    if not is_return:
-        _check_signature(welcome, signature)
-    _check_expected(expected, welcome.sha256)
-    _check_stop(welcome, digest.digest())
-    old = session.fetch(progress, cancel, "keep")
+    if not driver.abilities.can_send:
+        raise TransferError("nothing can be downloaded over this protocol")
+    control = driver.identify(progress, cancel)
+    if not (is_return and driver.abilities.remembers):
+        _check_signature(control, signature)
+    _check_expected(expected, control.sha256)
+    _check_stop(control, digest.digest())
+    old = driver.fetch(progress, cancel, "keep")
     _check_expected(expected, hashlib.sha256(old).digest())
     if old == image:
-        return _nothing_to_do(welcome, digest.hexdigest())
+        return _nothing_to_do(control, digest.hexdigest())
     kept = _keep(keep, old) if old else None
     try:
-        sent = session.send(
+        receipt = driver.send(
             image,
             signature=signature,
             expected=hashlib.sha256(old).digest(),
@@ -141,7 +129,7 @@ def download(
         error.kept = kept
         raise
     try:
-        return _prove(session, image, sent.committed, kept, progress, cancel, restart_wait)
+        return _prove(driver, image, receipt, kept, progress, cancel, restart_wait)
     except TransferError as error:
         error.held, error.kept = "new", kept
         raise
@@ -167,30 +155,30 @@ def short(digest: bytes) -> str:
     return digest.hex()[:12]
 
 
-def _check_signature(welcome: Welcome, signature: str) -> None:
-    if welcome.signature != signature:
+def _check_signature(control: ControlIdentity, signature: str) -> None:
+    if control.signature != signature:
         raise SignatureMismatchError(
-            f"the control '{welcome.name}' (revision {welcome.revision}) numbers its parameters "
+            f"the control '{control.name}' (revision {control.revision}) numbers its parameters "
             "by another schema"
         )
 
 
-def _check_expected(expected: bytes | None, found: bytes) -> None:
-    if expected is not None and expected != found:
+def _check_expected(expected: bytes | None, found: bytes | None) -> None:
+    if expected is not None and found is not None and expected != found:
         raise ImageChangedError(
             f"the control holds something else than what was approved to be replaced "
             f"(sha256 {short(found)}…, approved {short(expected)}…)"
         )
 
 
-def _check_stop(welcome: Welcome, digest: bytes) -> None:
+def _check_stop(control: ControlIdentity, digest: bytes) -> None:
     """Ask for E-stop before anything is moved; an image that is there already needs none."""
-    if welcome.sha256 != digest and not welcome.flags & Flags.ESTOP:
+    if control.sha256 != digest and control.in_estop is False:
         raise NotInEmergencyStopError("please place the control in E-stop to download")
 
 
-def _nothing_to_do(welcome: Welcome, digest: str) -> Outcome:
-    waiting = bool(welcome.flags & Flags.RESTART_NEEDED)
+def _nothing_to_do(control: ControlIdentity, digest: str) -> Outcome:
+    waiting = control.restart_needed
     text = "The control holds exactly this image already; nothing was written."
     if waiting:
         text += " Restart the control to make it current."
@@ -208,9 +196,9 @@ def _keep(keep: Keep, old: bytes) -> str:
 
 
 def _prove(
-    session: Session,
+    driver: ControlDriver,
     image: bytes,
-    committed: Committed,
+    receipt: Receipt,
     kept: str | None,
     progress: Progress,
     cancel: threading.Event | None,
@@ -220,13 +208,13 @@ def _prove(
     digest = hashlib.sha256(image).hexdigest()
     before = f" What it held before is kept in {kept}." if kept else " It held nothing before."
     restart: Literal["done", "needed"] = "needed"
-    if committed.restarting:
-        if session.wait_restarted(committed.incarnation, restart_wait, progress, cancel) is None:
+    if receipt.restarting:
+        if not driver.wait_restarted(receipt, restart_wait, progress, cancel):
             text = "Download complete, but the control has not come back from its restart "
             text += f"within {restart_wait:g} s."
             return Outcome("new", False, True, kept, "missed", digest, text + before)
         restart = "done"
-    held = session.fetch(progress, cancel, "verify")
+    held = driver.fetch(progress, cancel, "verify")
     at = first_difference(image, held)
     if at is not None:
         text = f"The control took the image, but what it holds differs from byte {at} on; "

@@ -5,12 +5,14 @@ from __future__ import annotations
 import hashlib
 import re
 import threading
+from contextlib import closing
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
-from amp_studio.transfer.house.session import Progress, Session, quiet
 from amp_studio.transfer.image import decode_image, encode_image
+from amp_studio.transfer.progress import Progress, quiet
 
+from .drivers import open_driver
 from .exchange import Keep, Outcome, download, upload
 from .kept import BEFORE, Copy, keep_image, open_copy
 
@@ -39,8 +41,8 @@ def download_file(
     """
     image, approved = encode_image(file), read_digest(expected)
     decode_image(image)  # what cannot be read again is not sent
-    with Session.at(address, family=file.schema.family.family) as session:
-        return download(session, image, _keep_in(folder, stem), signature=file.schema.signature, expected=approved,
+    with closing(open_driver(address, file.schema.family.family)) as driver:
+        return download(driver, image, _keep_in(folder, stem), signature=file.schema.signature, expected=approved,
                         progress=progress, cancel=cancel)  # fmt: skip
 
 
@@ -54,8 +56,8 @@ def restore_copy(
     """
     family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
     approved = read_digest(expected)
-    with Session.at(address, family=family) as session:
-        return download(session, copy.image, _keep_in(folder, stem), signature=copy.signature, expected=approved,
+    with closing(open_driver(address, family)) as driver:
+        return download(driver, copy.image, _keep_in(folder, stem), signature=copy.signature, expected=approved,
                         is_return=copy.is_kept, progress=progress, cancel=cancel)  # fmt: skip
 
 
@@ -83,8 +85,8 @@ def fetch_image(
     address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
 ) -> bytes:
     """Return what the control at ``address`` holds, byte for byte; raises TransferError."""
-    with Session.at(address, family=family) as session:
-        return upload(session, progress, cancel)
+    with closing(open_driver(address, family)) as driver:
+        return upload(driver, progress, cancel)
 
 
 def fetch_file(

@@ -15,23 +15,29 @@ Kind = Literal["tcp", "serial", "pty"]
 
 @dataclass(frozen=True)
 class Endpoint:
-    """One end of a line. ``host`` and ``port`` belong to tcp, ``device`` and ``baud`` (bit/s) to serial."""
+    """One end of a line. ``host`` and ``port`` belong to tcp, ``device`` and ``baud`` (bit/s) to serial.
+
+    ``protocol`` is how it is spoken to; "" for the usual way of the control's family.
+    """
 
     kind: Kind
     host: str = ""
     port: int = 0
     device: str = ""
     baud: int = DEFAULT_BAUD
+    protocol: str = ""
 
     def __str__(self) -> str:
+        options = [f"baud={self.baud}"] if self.baud != DEFAULT_BAUD else []
+        options += [f"protocol={self.protocol}"] if self.protocol else []
+        return f"{self._place}?{'&'.join(options)}" if options else self._place
+
+    @property
+    def _place(self) -> str:
         if self.kind == "tcp":
-            return (
-                f"tcp://[{self.host}]:{self.port}" if ":" in self.host else f"tcp://{self.host}:{self.port}"
-            )
-        if self.kind == "serial":
-            rate = "" if self.baud == DEFAULT_BAUD else f"?baud={self.baud}"
-            return f"serial:{self.device}{rate}"
-        return "pty:"
+            host = f"[{self.host}]" if ":" in self.host else self.host
+            return f"tcp://{host}:{self.port}"
+        return f"serial:{self.device}" if self.kind == "serial" else "pty:"
 
 
 def parse_endpoint(text: str) -> Endpoint:
@@ -56,7 +62,8 @@ def is_endpoint(text: str) -> bool:
 
 
 def _tcp(text: str) -> Endpoint:
-    found = re.fullmatch(r"tcp://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?", text, re.ASCII)
+    place, _, query = text.partition("?")
+    found = re.fullmatch(r"tcp://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?", place, re.ASCII)
     if found is None:
         raise ValueError(
             f"'{text}' is no TCP address: write tcp://host:port, for example tcp://192.168.0.5:7090"
@@ -64,20 +71,31 @@ def _tcp(text: str) -> Endpoint:
     port = int(found[3])
     if port > 65_535:
         raise ValueError(f"'{text}' names port {port}, and ports end at 65535")
-    return Endpoint("tcp", host=found[1] or found[2], port=port)
+    options = _options(text, query, "a TCP connection", ("protocol",))
+    return Endpoint("tcp", host=found[1] or found[2], port=port, protocol=options.get("protocol", ""))
 
 
 def _serial(text: str, rest: str) -> Endpoint:
     device, _, query = rest.partition("?")
     if not device:
         raise ValueError(f"'{text}' names no port: write serial:/dev/ttyUSB0 or serial:COM3")
-    baud = DEFAULT_BAUD
+    options = _options(text, query, "a serial line", ("baud", "protocol"))
+    rate = options.get("baud", str(DEFAULT_BAUD))
+    if not re.fullmatch(r"[1-9]\d{1,6}", rate, re.ASCII):
+        raise ValueError(
+            f"'{text}' has the rate '{rate}': write a number of bits a second, such as baud=9600"
+        )
+    return Endpoint("serial", device=device, baud=int(rate), protocol=options.get("protocol", ""))
+
+
+def _options(text: str, query: str, what: str, known: tuple[str, ...]) -> dict[str, str]:
+    options: dict[str, str] = {}
     for key, value in parse_qsl(query, keep_blank_values=True):
-        if key != "baud":
-            raise ValueError(f"'{text}' sets '{key}', and a serial line has only 'baud'")
-        if not re.fullmatch(r"[1-9]\d{1,6}", value, re.ASCII):
-            raise ValueError(
-                f"'{text}' has the rate '{value}': write a number of bits a second, such as baud=9600"
-            )
-        baud = int(value)
-    return Endpoint("serial", device=device, baud=baud)
+        if key not in known:
+            raise ValueError(f"'{text}' sets '{key}', and {what} has only {' and '.join(map(repr, known))}")
+        if key in options:
+            raise ValueError(f"'{text}' sets '{key}' twice")
+        options[key] = value
+    if "protocol" in options and not re.fullmatch(r"[a-z][a-z0-9-]{0,30}", options["protocol"], re.ASCII):
+        raise ValueError(f"'{text}' names no protocol: write ?protocol=house, for example")
+    return options

@@ -1,4 +1,4 @@
-"""Download, upload, verify: what a person is told, and that nothing is replaced before it is kept."""
+"""Download, upload: what a person is told, and that nothing is replaced before it is kept."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download, first_difference, upload, verify
+from amp_studio.transfer.client.exchange import download, first_difference, upload
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -23,6 +23,7 @@ from amp_studio.transfer.errors import (
     TransferError,
 )
 from amp_studio.transfer.house import download_transfer
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Flags
 
 OLD = b"1 old\n" * 20
@@ -59,7 +60,11 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
     made, session, shelf = bench()
     told: list[str] = []
     outcome = download(
-        session, NEW, shelf, signature="s1", progress=lambda stage, done, total: told.append(stage)
+        HouseDriver(session),
+        NEW,
+        shelf,
+        signature="s1",
+        progress=lambda stage, done, total: told.append(stage),
     )
     assert (outcome.held, outcome.verified, outcome.written, outcome.restart) == ("new", True, True, "done")
     assert outcome.sha256 == hashlib.sha256(NEW).hexdigest()
@@ -75,18 +80,18 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
 
 def test_without_autostart_a_person_must_restart_the_control(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(autostart=False)
-    outcome = download(session, NEW, shelf, signature="s1")
+    outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
     assert (outcome.held, outcome.verified, outcome.restart) == ("new", True, "needed")
     assert "Restart the control to make it current" in outcome.text
     assert made.control.flags & Flags.RESTART_NEEDED
-    again = download(session, NEW, shelf, signature="s1")
+    again = download(HouseDriver(session), NEW, shelf, signature="s1")
     assert (again.written, again.restart) == (False, "needed")
     assert "Restart the control" in again.text
 
 
 def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(estop=False)
-    outcome = download(session, OLD, shelf, signature="s1")
+    outcome = download(HouseDriver(session), OLD, shelf, signature="s1")
     assert (outcome.held, outcome.verified, outcome.written, outcome.kept) == ("new", True, False, None)
     assert outcome.text == "The control holds exactly this image already; nothing was written."
     assert shelf.kept == []
@@ -95,7 +100,7 @@ def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]
 
 def test_a_control_without_an_image_has_nothing_to_keep(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(initial=b"")
-    outcome = download(session, NEW, shelf, signature="s1")
+    outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
     assert (outcome.held, outcome.kept, shelf.kept) == ("new", None, [])
     assert outcome.text.endswith("It held nothing before.")
     assert made.control.image == NEW
@@ -106,14 +111,14 @@ def test_out_of_estop_nothing_is_even_fetched(bench: Callable[..., Any]) -> None
     with pytest.raises(
         NotInEmergencyStopError, match="place the control in E-stop to download; nothing was replaced"
     ):
-        download(session, NEW, shelf, signature="s1")
+        download(HouseDriver(session), NEW, shelf, signature="s1")
     assert shelf.kept == []
 
 
 def test_another_schema_is_refused_before_anything_moves(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench()
     with pytest.raises(SignatureMismatchError, match=r"CNC_1.*another schema"):
-        download(session, NEW, shelf, signature="s2")
+        download(HouseDriver(session), NEW, shelf, signature="s2")
     assert shelf.kept == []
 
 
@@ -124,7 +129,7 @@ def test_what_cannot_be_kept_is_not_replaced(bench: Callable[..., Any]) -> None:
         raise OSError(28, "No space left on device")
 
     with pytest.raises(KeepFailedError, match=r"could not be kept.*No space left.*nothing was replaced"):
-        download(session, NEW, full, signature="s1")
+        download(HouseDriver(session), NEW, full, signature="s1")
     assert made.control.image == OLD
 
 
@@ -136,7 +141,7 @@ def test_a_change_at_the_control_after_it_was_kept_is_not_overwritten(bench: Cal
         return shelf.kept.append(image) or "kept.amp"
 
     with pytest.raises(ImageChangedError) as caught:
-        download(session, NEW, keep_and_patch, signature="s1")
+        download(HouseDriver(session), NEW, keep_and_patch, signature="s1")
     assert (caught.value.held, caught.value.kept) == ("old", "kept.amp")
     assert made.control.image == OLD + b"11 = 5\n"
 
@@ -148,11 +153,11 @@ def sha(image: bytes) -> bytes:
 def test_only_the_image_that_was_approved_is_replaced(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench()
     with pytest.raises(ImageChangedError, match="approved to be replaced") as caught:
-        download(session, NEW, shelf, signature="s1", expected=sha(b"seen"))
+        download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(b"seen"))
     assert f"(sha256 {sha(OLD).hex()[:12]}…, approved {sha(b'seen').hex()[:12]}…)" in str(caught.value)
     assert str(caught.value).endswith("nothing was replaced in the control")
     assert (made.control.image, shelf.kept) == (OLD, [])
-    assert download(session, NEW, shelf, signature="s1", expected=sha(OLD)).verified
+    assert download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(OLD)).verified
 
 
 def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callable[..., Any]) -> None:
@@ -167,34 +172,33 @@ def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callabl
 
     session.hello = greet_and_patch
     with pytest.raises(ImageChangedError, match="approved to be replaced"):
-        download(session, NEW, shelf, signature="s1", expected=sha(OLD))
+        download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(OLD))
     assert (made.control.image, shelf.kept) == (OLD + b"11 = 5\n", [])
 
 
 def test_what_is_there_already_must_still_be_what_was_approved(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench(initial=NEW)
     with pytest.raises(ImageChangedError):
-        download(session, NEW, shelf, signature="s1", expected=sha(OLD))
-    assert not download(session, NEW, shelf, signature="s1", expected=sha(NEW)).written
+        download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(OLD))
+    assert not download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(NEW)).written
 
 
 def test_what_a_control_has_held_goes_back_under_no_signature(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench()
-    download(session, NEW, shelf, signature="s1")
-    outcome = download(session, OLD, shelf, signature="", is_return=True)
+    download(HouseDriver(session), NEW, shelf, signature="s1")
+    outcome = download(HouseDriver(session), OLD, shelf, signature="", is_return=True)
     assert (outcome.held, outcome.verified, made.control.image) == ("new", True, OLD)
     with pytest.raises(SignatureMismatchError, match="has not held this image; nothing was replaced"):
-        download(session, b"other", shelf, signature="", is_return=True)
+        download(HouseDriver(session), b"other", shelf, signature="", is_return=True)
 
 
 def test_an_error_while_only_looking_does_not_say_what_was_replaced(bench: Callable[..., Any]) -> None:
     """A download before may have replaced something."""
-    for look in (upload, lambda session: verify(session, OLD)):
-        _, session, _ = bench(lines=0)
-        with pytest.raises(NoConnectionError) as caught:
-            look(session)
-        assert caught.value.held == ""
-        assert "replaced" not in str(caught.value)
+    _, session, _ = bench(lines=0)
+    with pytest.raises(NoConnectionError) as caught:
+        upload(HouseDriver(session))
+    assert caught.value.held == ""
+    assert "replaced" not in str(caught.value)
 
 
 def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[..., Any]) -> None:
@@ -206,7 +210,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
             session._line._talk.link.close()
 
     with pytest.raises(ConnectionCutError) as caught:
-        download(session, NEW, shelf, signature="s1", progress=pull_the_cable)
+        download(HouseDriver(session), NEW, shelf, signature="s1", progress=pull_the_cable)
     assert caught.value.held == "unknown"
     assert "not known: verify before you go on" in str(caught.value)
     assert "kept in machine.before.amp" in str(caught.value)
@@ -214,7 +218,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
 
 def test_a_control_that_does_not_come_back_is_told(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench(lines=1)
-    outcome = download(session, NEW, shelf, signature="s1", restart_wait=5)
+    outcome = download(HouseDriver(session), NEW, shelf, signature="s1", restart_wait=5)
     assert (outcome.held, outcome.verified, outcome.restart) == ("new", False, "missed")
     assert "has not come back from its restart within 5 s" in outcome.text
     assert "kept in machine.before.amp" in outcome.text
@@ -233,7 +237,7 @@ def test_a_cancel_while_the_control_restarts_says_that_the_new_image_is_there(
     with pytest.raises(
         CancelledError, match=r"the control holds the new image.*kept in machine\.before\.amp"
     ) as caught:
-        download(session, NEW, shelf, signature="s1", cancel=cancel, progress=while_restarting)
+        download(HouseDriver(session), NEW, shelf, signature="s1", cancel=cancel, progress=while_restarting)
     assert caught.value.held == "new"
     assert made.control.image == NEW
 
@@ -245,7 +249,7 @@ def test_a_control_that_holds_something_else_after_the_commit_is_found_out(bench
         if stage == "restart" and (done, total) == (1, 1):
             made.control._take(NEW[:50] + b"?" + NEW[51:])
 
-    outcome = download(session, NEW, shelf, signature="s1", progress=rot)
+    outcome = download(HouseDriver(session), NEW, shelf, signature="s1", progress=rot)
     assert (outcome.held, outcome.verified) == ("unknown", False)
     assert "differs from byte 50 on" in outcome.text
     assert "kept in machine.before.amp" in outcome.text
@@ -257,7 +261,7 @@ def test_a_download_is_all_or_nothing_wherever_the_line_is_cut(bench: Callable[.
     while was_cut:
         made, session, shelf = bench(Faults(drop_after_bytes=cut_at))
         try:
-            outcome = download(session, NEW, shelf, signature="s1")
+            outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
         except (NoConnectionError, ControlSilentError):
             first_hello_failed.append(cut_at)
             assert made.control.image == OLD
@@ -274,15 +278,7 @@ def test_a_download_is_all_or_nothing_wherever_the_line_is_cut(bench: Callable[.
 
 def test_an_upload_is_the_exact_image(bench: Callable[..., Any]) -> None:
     _, session, _ = bench(estop=False)
-    assert upload(session) == OLD
-
-
-def test_a_verification_names_the_first_byte_that_differs(bench: Callable[..., Any]) -> None:
-    _, session, _ = bench()
-    assert verify(session, OLD).same
-    found = verify(session, OLD[:33] + b"X" + OLD[34:])
-    assert (found.same, found.first_difference, found.held) == (False, 33, OLD)
-    assert verify(session, OLD + b"more").first_difference == len(OLD)
+    assert upload(HouseDriver(session)) == OLD
 
 
 @pytest.mark.parametrize(
@@ -306,7 +302,7 @@ def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
     monkeypatch.setattr(download_transfer, part, breaks)
     _, session, shelf = bench()
     with pytest.raises(TransferError) as caught:
-        download(session, NEW, shelf, signature="s1")
+        download(HouseDriver(session), NEW, shelf, signature="s1")
     assert caught.value.held == held
     assert (str(error) or "MemoryError") in str(caught.value)
 
@@ -321,5 +317,5 @@ def test_whatever_ends_the_reading_back_is_told_with_what_the_control_holds(
     _, session, shelf = bench()
     monkeypatch.setattr(session, "wait_restarted", breaks)
     with pytest.raises(TransferError, match=r"kept in machine\.before\.amp") as caught:
-        download(session, NEW, shelf, signature="s1")
+        download(HouseDriver(session), NEW, shelf, signature="s1")
     assert caught.value.held == "new"

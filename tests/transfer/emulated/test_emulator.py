@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download, upload, verify
+from amp_studio.transfer.client.exchange import download, upload
 from amp_studio.transfer.emulated.emulator import Emulator, serve
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -24,6 +24,7 @@ from amp_studio.transfer.errors import (
     NoConnectionError,
     NotInEmergencyStopError,
 )
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Flags
 from amp_studio.transfer.house.retry_timer import RetryPolicy
 from amp_studio.transfer.house.session import Session
@@ -71,10 +72,10 @@ def keep(image: bytes) -> str:
 def test_the_whole_exchange_over_a_real_line(emulate: Callable[..., Any], tmp_path: Path, kind: str) -> None:
     emulated = emulate(tmp_path, kind, initial=OLD.decode())
     with session_at(emulated.address, family="9pc") as session:
-        assert upload(session) == OLD
-        outcome = download(session, NEW, keep, signature="s1")
+        assert upload(HouseDriver(session)) == OLD
+        outcome = download(HouseDriver(session), NEW, keep, signature="s1")
         assert (outcome.held, outcome.verified, outcome.restart) == ("new", True, "done")
-        assert verify(session, NEW).same
+        assert upload(HouseDriver(session)) == NEW
     assert emulated.hear() == "restarted 2"
     assert emulated.command("quit") == "bye"
     assert emulated.process.wait(5) == 0
@@ -98,7 +99,7 @@ def test_a_bad_line_is_lived_through(
 ) -> None:
     emulated = emulate(tmp_path, kind, faults=faults)
     with session_at(emulated.address) as session:
-        outcome = download(session, NEW, keep, signature="s1")
+        outcome = download(HouseDriver(session), NEW, keep, signature="s1")
     assert (outcome.held, outcome.verified) == ("new", True)
     assert (tmp_path / "active.img").read_bytes() == NEW
 
@@ -151,7 +152,7 @@ def test_a_control_killed_at_any_step_of_the_commit_holds_old_or_new(
             return connect(parse_endpoint(emulated[-1].address))
 
         with Session(open_link, policy=QUICK) as session:
-            outcome = download(session, NEW, keep, signature="s1")
+            outcome = download(HouseDriver(session), NEW, keep, signature="s1")
         died = len(emulated) > 1
         assert (outcome.held, outcome.verified) == ("new", True), f"step {step}"
         assert (folder / "previous.img").read_bytes() == OLD, f"step {step}"
@@ -173,7 +174,7 @@ def test_a_control_that_stays_dead_after_the_commit_was_asked_for_is_unknown(
 ) -> None:
     emulated = emulate(tmp_path, faults={"die_at_commit_step": 5})
     with session_at(emulated.address, patience=0.5) as session, pytest.raises(ConnectionCutError) as caught:
-        download(session, NEW, keep, signature="s1")
+        download(HouseDriver(session), NEW, keep, signature="s1")
     assert (caught.value.held, caught.value.kept) == ("unknown", "kept.amp")
 
 
@@ -181,10 +182,10 @@ def test_estop_is_what_the_operator_says(emulate: Callable[..., Any], tmp_path: 
     emulated = emulate(tmp_path, estop=False)
     with session_at(emulated.address) as session:
         with pytest.raises(NotInEmergencyStopError):
-            download(session, NEW, keep, signature="s1")
+            download(HouseDriver(session), NEW, keep, signature="s1")
         assert emulated.command("estop on") == "estop on"
         assert emulated.command("autostart off") == "autostart off"
-        outcome = download(session, NEW, keep, signature="s1")
+        outcome = download(HouseDriver(session), NEW, keep, signature="s1")
         assert (outcome.verified, outcome.restart) == (True, "needed")
         assert emulated.command("restart") == "restarting"
         assert emulated.hear() == "restarted 2"
@@ -219,7 +220,7 @@ def test_a_full_control_says_so(emulate: Callable[..., Any], tmp_path: Path) -> 
         session_at(emulated.address) as session,
         pytest.raises(ControlFullError, match="nothing was replaced"),
     ):
-        download(session, NEW, keep, signature="s1")
+        download(HouseDriver(session), NEW, keep, signature="s1")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -308,7 +309,7 @@ def test_a_new_client_on_a_serial_line_begins_anew(emulate: Callable[..., Any], 
     link.write(b"half a frame \x07\x99" * 20)
     link.close()
     with session_at(emulated.address) as session:
-        assert download(session, NEW, keep, signature="s1").verified
+        assert download(HouseDriver(session), NEW, keep, signature="s1").verified
 
 
 def test_the_port_is_there_again_at_once_after_a_kill(emulate: Callable[..., Any], tmp_path: Path) -> None:

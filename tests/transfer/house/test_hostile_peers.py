@@ -20,6 +20,7 @@ from amp_studio.transfer.errors import (
     ProtocolMismatchError,
     TransferError,
 )
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.frame import encode_frame
 from amp_studio.transfer.house.message import (
     Ack,
@@ -376,7 +377,7 @@ def test_a_download_goes_through_where_nobody_is_hostile(tmp_path: Path) -> None
     """What the seeded tests rest on."""
     room = Room(tmp_path, [])
     session = Session(room.open_link, clock=room.clock, sleep=hostile_clients._turns(room))
-    outcome = download(session, NEW, lambda image: "kept.amp", signature="s1")
+    outcome = download(HouseDriver(session), NEW, lambda image: "kept.amp", signature="s1")
     assert (outcome.held, outcome.verified) == ("new", True)
     assert room.control.image == NEW
     room.close()

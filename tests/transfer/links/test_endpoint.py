@@ -18,6 +18,11 @@ from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
         ("serial:COM3", Endpoint("serial", device="COM3")),
         ("com12", Endpoint("serial", device="COM12")),
         (" pty: ", Endpoint("pty")),
+        ("tcp://cnc:7090?protocol=house", Endpoint("tcp", host="cnc", port=7090, protocol="house")),
+        (
+            "/dev/ttyS0?protocol=house&baud=9600",
+            Endpoint("serial", device="/dev/ttyS0", baud=9600, protocol="house"),
+        ),
     ],
 )
 def test_the_forms_of_an_address(text: str, expected: Endpoint) -> None:
@@ -39,7 +44,11 @@ def test_the_forms_of_an_address(text: str, expected: Endpoint) -> None:
         ("serial:?baud=9600", "names no port"),
         ("serial:/dev/ttyS0?baud=fast", "rate 'fast'"),
         ("serial:/dev/ttyS0?baud=0", "rate '0'"),
-        ("serial:/dev/ttyS0?parity=even", "only 'baud'"),
+        ("serial:/dev/ttyS0?parity=even", "only 'baud' and 'protocol'"),
+        ("serial:/dev/ttyS0?baud=9600&baud=300", "sets 'baud' twice"),
+        ("tcp://host:70?speed=9600", "only 'protocol'"),
+        ("tcp://host:70?protocol=", "names no protocol"),
+        ("tcp://host:70?protocol=../x", "names no protocol"),
         ("pty:/dev/pts/3", "no address"),
         ("udp://host:1", "no address"),
     ],

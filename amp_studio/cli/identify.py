@@ -1,0 +1,64 @@
+"""Verbs that only look: which serial ports there are, and what answers at an address."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import closing
+from dataclasses import asdict
+
+from amp_studio.files import fitted_axes
+from amp_studio.transfer.client.drivers import open_driver
+from amp_studio.transfer.client.exchange import look_at
+from amp_studio.transfer.image import ImageError, decode_image
+from amp_studio.transfer.links.serial_ports import serial_ports
+
+from .console import family, print_json, progress
+
+
+def ports_verb(options: argparse.Namespace) -> int:
+    """List the serial ports."""
+    found = serial_ports()
+    if options.json:
+        print_json({"ports": [asdict(port) for port in found]})
+        return 0
+    for port in found:
+        told = ", ".join(
+            part for part in (port.name, port.manufacturer, port.usb_id, port.serial_number) if part
+        )
+        print(f"{port.device:20} {told}".rstrip())
+    if not found:
+        print("There are no serial ports.")
+    return 0
+
+
+def identify_verb(options: argparse.Namespace) -> int:
+    """Say who answers at an address, and what it holds."""
+    if options.family:
+        family(options.family)
+    with closing(open_driver(options.address, options.family or "")) as driver:
+        abilities = driver.abilities
+        control, content, digest = look_at(driver, progress())
+    unreadable, axes, values = "", list(control.axes), None
+    try:
+        file = decode_image(content)
+        axes, values = axes or list(fitted_axes(file)), len(file.values)
+    except ImageError as error:
+        unreadable = str(error) if content else "it holds nothing"
+    if options.json:
+        print_json({
+            "address": options.address, "protocol": control.protocol, "abilities": asdict(abilities),
+            "family": control.family, "name": control.name, "revision": control.revision, "axes": axes,
+            "signature": control.signature, "size": len(content), "sha256": digest, "values": values,
+            "unreadable": unreadable or None, "in_estop": control.in_estop, "restart_needed": control.restart_needed,
+        })  # fmt: skip
+        return 0
+    print(
+        f"{control.name or 'A control'} of the family {control.family}, revision {control.revision or 'unknown'}"
+    )
+    print(f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download"))
+    print(f"axes {', '.join(axes)}" if axes else "axes unknown")
+    print(f"{len(content)} bytes, " + (f"not readable: {unreadable}" if unreadable else f"{values} values"))
+    print(f"sha256 {digest}")
+    if control.restart_needed:
+        print("What it holds is current after a restart.")
+    return 0

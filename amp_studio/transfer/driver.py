@@ -1,0 +1,104 @@
+"""What every way of speaking to a control can be asked for: who is there, what does it hold, take this instead.
+
+A driver moves whole contents as bytes; ``image`` says what they mean. It opens its own link, bounds its peer and its
+waiting, and ends every exchange with a TransferError that says what the control holds, or with success.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from .links.endpoint import Endpoint
+from .progress import Progress, quiet
+
+
+@dataclass(frozen=True)
+class Abilities:
+    """What a way of speaking to a control can do.
+
+    ``can_send``   it takes a download, all or nothing
+    ``remembers``  it knows by itself what the control has held before, and takes that back whatever it is
+    """
+
+    can_send: bool = True
+    remembers: bool = False
+
+
+@dataclass(frozen=True)
+class ControlIdentity:
+    """What answers.
+
+    ``signature``       of the schema it numbers its parameters by, in hexadecimal; "" where it does not say
+    ``axes``            their names, where it says so before it is read
+    ``size``, ``sha256``  of what it holds: bytes and digest; None where that is known only once it is fetched
+    ``in_estop``        None where there is no such state, or it cannot be asked
+    ``restart_needed``  what it holds is not current before a restart
+    """
+
+    family: str
+    protocol: str
+    name: str = ""
+    revision: str = ""
+    signature: str = ""
+    axes: tuple[str, ...] = ()
+    size: int | None = None
+    sha256: bytes | None = None
+    in_estop: bool | None = None
+    restart_needed: bool = False
+
+
+@dataclass(frozen=True)
+class Receipt:
+    """What a control answered when it took a download: whether it restarts now, and the number of the start that ends."""
+
+    restarting: bool = False
+    incarnation: int = 0
+
+
+class ControlDriver(Protocol):
+    """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one thread.
+
+    ``progress`` is told of steps and silences; ``cancel`` may be set from another thread and breaks off what waits.
+    """
+
+    @property
+    def abilities(self) -> Abilities:
+        """What can be asked for; known before anything is connected."""
+
+    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+        """Return who answers; connects where there is no connection yet."""
+
+    def fetch(
+        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+    ) -> bytes:
+        """Return what the control holds, whole and undamaged."""
+
+    def send(
+        self,
+        image: bytes,
+        *,
+        signature: str,
+        expected: bytes,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Receipt:
+        """Have the control replace the content whose SHA-256 is ``expected``; ``held`` of an error says what it holds."""
+
+    def wait_restarted(
+        self,
+        receipt: Receipt,
+        seconds: float,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> bool:
+        """Wait up to so many seconds for the restart after ``send``; tells whether the control has come back."""
+
+    def close(self) -> None:
+        """Hang up. Closing twice is no fault."""
+
+
+DriverFactory = Callable[[Endpoint, str], ControlDriver]
+"""Make the driver of an endpoint; the text is the family the control must be of, "" for any. Connects to nothing yet."""

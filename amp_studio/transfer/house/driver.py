@@ -1,0 +1,76 @@
+"""The house protocol as one of the ways to speak to a control."""
+
+from __future__ import annotations
+
+import threading
+
+from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.progress import Progress, quiet
+
+from .message import Flags
+from .session import Session
+
+
+class HouseDriver:
+    """Speaks to a control in the sessions of the house protocol (docs/protocols/exchange.md)."""
+
+    abilities = Abilities(can_send=True, remembers=True)
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+
+    @classmethod
+    def at(cls, endpoint: Endpoint, family: str = "") -> HouseDriver:
+        """Return the driver of an endpoint; ``family`` is the one the control must be of, "" for any."""
+        return cls(Session.at(endpoint, family=family))
+
+    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+        """Return what the control says of itself."""
+        welcome = self.session.hello(cancel, progress)
+        return ControlIdentity(
+            family=welcome.family,
+            protocol="house",
+            name=welcome.name,
+            revision=welcome.revision,
+            signature=welcome.signature,
+            size=welcome.size,
+            sha256=welcome.sha256,
+            in_estop=bool(welcome.flags & Flags.ESTOP),
+            restart_needed=bool(welcome.flags & Flags.RESTART_NEEDED),
+        )
+
+    def fetch(
+        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+    ) -> bytes:
+        """Return the control's active image."""
+        return self.session.fetch(progress, cancel, stage)
+
+    def send(
+        self,
+        image: bytes,
+        *,
+        signature: str,
+        expected: bytes,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Receipt:
+        """Stage and commit an image."""
+        answer = self.session.send(
+            image, signature=signature, expected=expected, progress=progress, cancel=cancel
+        ).committed
+        return Receipt(answer.restarting, answer.incarnation)
+
+    def wait_restarted(
+        self,
+        receipt: Receipt,
+        seconds: float,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> bool:
+        """Call the control until it answers with another incarnation."""
+        return self.session.wait_restarted(receipt.incarnation, seconds, progress, cancel) is not None
+
+    def close(self) -> None:
+        """Hang up."""
+        self.session.close()
