@@ -33,7 +33,7 @@ from amp_studio.schema import (
     write_value,
 )
 from amp_studio.schema import shown as unit_shown
-from amp_studio.schema.stored import stored_number
+from amp_studio.schema.storage import stored_number
 
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
@@ -127,7 +127,7 @@ def _row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]
         plain = write_value(parameter, value)
     raw = None
     if value is not None and not masked:
-        raw = stored_number(parameter, value, file.evaluation.turns(address))
+        raw = stored_number(parameter, value, turns=file.evaluation.turns(address))
     return {
         "param": file.machine_schema.short(address), "id": address[0], "instance": address[1],
         "value": plain, "unit": value.unit if value else file.evaluation.unit(address, file.header.units), "raw": raw,

@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.schema import Address, write_number
-from amp_studio.schema.register_words import WordError, words_of
-from amp_studio.schema.stored import stored_number
+from amp_studio.schema.storage import StorageError, stored_number, words_of
 
 from .parameter_file import ParameterFile
 
@@ -21,7 +20,7 @@ def held_text(file: ParameterFile, address: Address) -> str:
     parameter, value = file.schema.parameters[address[0]], file.get(address)
     if value is None or parameter.secret:
         return ""
-    stored = stored_number(parameter, value, file.evaluation.turns(address))
+    stored = stored_number(parameter, value, turns=file.evaluation.turns(address))
     if stored is None:
         return ""
     storage = parameter.storage
@@ -35,7 +34,7 @@ def held_text(file: ParameterFile, address: Address) -> str:
         return "" if same else told
     try:
         words = words_of(parameter, value, storage.unit or value.unit)
-    except WordError:
+    except StorageError:
         return told
     number = file.machine_schema.number(address) or ""
     names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]

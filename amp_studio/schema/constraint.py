@@ -14,7 +14,8 @@ from .address import Address
 from .bit_fields import field_value
 from .evaluation import Evaluation
 from .model import Bound, BoundRef, Parameter, Range
-from .units import angular, canonical_unit, convert, dimension, shown
+from .storage import exact, stored_range, stored_unit
+from .units import UNITS, angular, canonical_unit, convert, dimension, shown
 from .value import Value
 from .values import MASKED, digits_of, show_value, write_number
 
@@ -60,31 +61,31 @@ def limits(evaluation: Evaluation, address: Address, unit: str) -> Limits | None
     """
     parameter = evaluation.schema.parameters[address[0]]
     ranges = ranges_of(evaluation, address)
-    held = _held(parameter, unit)
+    storable = _storable(parameter, unit)
     printed, borrowed = _printed(ranges, unit)
     if printed is None:
-        return Limits(*held, unit) if held else None
+        return Limits(*storable, unit) if storable else None
     reference = ranges[printed]
     low, low_from = _bound(evaluation, address, reference[0], printed, unit)
     high, high_from = _bound(evaluation, address, reference[1], printed, unit)
-    if held and (low is None or low < held[0]):
-        low, low_from = held[0], None
-    if held and (high is None or high > held[1]):
-        high, high_from = held[1], None
+    if storable and (low is None or low < storable[0]):
+        low, low_from = storable[0], None
+    if storable and (high is None or high > storable[1]):
+        high, high_from = storable[1], None
     return Limits(low, high, unit, low_from, high_from, borrowed)
 
 
-def _held(parameter: Parameter, unit: str) -> tuple[float, float] | None:
+def _storable(parameter: Parameter, unit: str) -> tuple[float, float] | None:
     """Return the smallest and the largest number that the control's words can hold, in ``unit``."""
     storage = parameter.storage
     if storage is None or storage.bits is None or parameter.type not in ("integer", "real"):
         return None
-    stored = unit if storage.unit is None else storage.unit
+    stored = stored_unit(parameter, unit)
     if dimension(stored) != dimension(unit):
         return None
-    numbers = 1 << storage.bits
-    low, high = (-numbers / 2, numbers / 2 - 1) if storage.signed else (0.0, numbers - 1.0)
-    return convert(low / storage.scale, stored, unit), convert(high / storage.scale, stored, unit)
+    factor = UNITS[stored][1] / UNITS[unit][1] / exact(storage.scale)
+    low, high = stored_range(parameter)
+    return float(low * factor), float(high * factor)
 
 
 def _printed(ranges: dict[str, Range], unit: str) -> tuple[str | None, bool]:

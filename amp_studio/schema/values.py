@@ -8,7 +8,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from .bit_fields import no_label, word_of_labels
-from .model import Parameter
+from .model import Choice, Parameter
 from .quoting import quoted, short
 from .units import UNITS, UnitError, dimension, shown, unit_named
 from .value import LONGEST_NUMBER, InvalidValueError, Value, plain
@@ -265,7 +265,7 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
         for choice in choices:
             said = getattr(choice, field)
             if said is not None and plain(said) == plain(text):
-                return Value(choice.key == "yes" if yes_no else choice.key)
+                return choice_value(parameter, choice)
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))
     offered = ", ".join(f"{c.label} ({c.code})" if c.code else c.label for c in choices)
@@ -278,8 +278,18 @@ def _read_raw(parameter: Parameter, text: str) -> Value:
         raise InvalidValueError(f"{quoted(text)} is not 'raw:' and a whole number")
     for choice in parameter.choices or ():
         if choice.raw == raw:
-            return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
+            return choice_value(parameter, choice)
     return Value(f"raw:{raw}")
+
+
+def choice_value(parameter: Parameter, choice: Choice) -> Value:
+    """Return the value that a choice is: its key, or for a yes/no parameter a bool."""
+    return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
+
+
+def choice_key(value: Value) -> str:
+    """Return the key of the choice that a value is, or ``raw:<code>``."""
+    return ("yes" if value.value else "no") if isinstance(value.value, bool) else str(value.value)
 
 
 def write_number(number: float) -> str:

@@ -32,8 +32,8 @@ from amp_studio.schema import (
     write_number,
     written,
 )
-from amp_studio.schema.stored import value_of_stored
-from amp_studio.schema.values import read_number
+from amp_studio.schema.storage import value_of_stored
+from amp_studio.schema.values import choice_key, choice_value, read_number
 
 MAGIC = "AMP-IMAGE 1"
 _HEAD = ("family", "signature", "machine", "application", "revision")
@@ -198,13 +198,12 @@ def _code(choice: Choice) -> str:
 
 
 def _field(parameter: Parameter, value: Value) -> str:
-    found = value.value
     if parameter.choices:
-        key = ("yes" if found else "no") if isinstance(found, bool) else str(found)
+        key = choice_key(value)
         return next((_code(c) for c in parameter.choices if c.key == key), key)
-    if isinstance(found, str):
-        return "text:" + _escaped(found)
-    return f"{write_number(found)} {value.unit}".rstrip()
+    if isinstance(value.value, str):
+        return "text:" + _escaped(value.value)
+    return f"{write_number(value.value)} {value.unit}".rstrip()
 
 
 def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Value:
@@ -228,7 +227,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
 def _choice(parameter: Parameter, field: str) -> Value:
     for choice in parameter.choices or ():
         if field == _code(choice):
-            return Value(choice.key == "yes" if parameter.type == "boolean" else choice.key)
+            return choice_value(parameter, choice)
     if not field.startswith("raw:"):
         raise InvalidValueError(f"'{field}' is not a choice of {parameter.name}")
     return read_value(parameter, field, "")
@@ -246,7 +245,7 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
         value, rest = read_number(text)
         if rest.strip():
             raise PatchError("patch values are plain numbers")
-        file.values[address] = value_of_stored(parameter, value, file.evaluation.turns(address))
+        file.values[address] = value_of_stored(parameter, value, turns=file.evaluation.turns(address))
     except InvalidValueError as error:
         raise PatchError(str(error)) from None
     file.evaluation.forget()

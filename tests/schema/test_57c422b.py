@@ -7,7 +7,7 @@ import pytest
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Schema, Value, fault, field_value, load_schema
 from amp_studio.schema.bit_fields import field_at
-from amp_studio.schema.stored import stored_number
+from amp_studio.schema.storage import stored_number
 
 
 @pytest.fixture(scope="module")

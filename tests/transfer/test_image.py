@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
-from amp_studio.schema.stored import stored_number
+from amp_studio.schema.storage import stored_number
 from amp_studio.transfer.image import (
     ImageError,
     PatchError,
@@ -129,4 +129,4 @@ def test_what_the_control_stores_for_a_value(number: str, text: str, stored: flo
     address = file.find(number)
     parameter = file.schema.parameters[address[0]]
 
-    assert stored_number(parameter, file.read(address, text), False) == stored
+    assert stored_number(parameter, file.read(address, text), turns=False) == stored

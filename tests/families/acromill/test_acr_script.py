@@ -273,7 +273,7 @@ def test_a_setting_that_lacks_one_of_its_values_is_told() -> None:
 def test_a_value_in_a_unit_of_something_else_is_told() -> None:
     for value, name in ((Value(1.0, "ms"), "ms"), (Value(1.0), "a bare number")):
         with pytest.raises(
-            FormatError, match=rf"^servo\.p_gain@X: P Gain is kept in V/count, not in {name}$"
+            FormatError, match=rf"^servo\.p_gain@X: P Gain is stored in V/count, not in {name}$"
         ):
             FORMAT.write(mill(servo_p_gain_X=value))
 
@@ -504,13 +504,13 @@ def test_codes_scales_and_decimals_are_those_of_the_schema(small: Schema) -> Non
     back = taken(FORMAT, small, "SENSE 1\nset time1 : 24.7 7")
     assert said_of(back) == {"a.sense": Value("up"), "a.time@X2": Value(12.35, "ms"), "a.sense2@X2": Value(7)}
     assert said_of(taken(FORMAT, small, "SENSE -3")) == {"a.sense": Value("raw:-3")}
-    assert told(FORMAT, small, "SENSE .5") == "line 1, column 7: Sense takes whole numbers, not .5"
+    assert told(FORMAT, small, "SENSE .5") == "line 1, column 7: Sense takes whole numbers, not 0.5"
 
 
 def test_what_has_no_figure_is_told(small: Schema) -> None:
     file = ParameterFile(small)
     for name, value, said in (
-        ("a.note", Value("hello"), "a.note: Note is a text, which is no figure"),
+        ("a.note", Value("hello"), "a.note: Note is a text, which the control does not store"),
         ("a.sense", Value("down"), "a.sense: no code is printed for 'Down' of Sense"),
     ):
         file.set((name, ""), value)

@@ -130,7 +130,7 @@ def test_a_value_in_another_unit_is_written_as_the_nearest_word(num: Schema) -> 
     [
         ("p.w21", "3", Value(100_000_000), "P21N3 Word P21Nx: 100000000 is outside 0 to 99999999"),
         ("p.w5_0", "", Value(256), "P5N0 Word P5N0: 256 is outside 0 to 255"),
-        ("p.w16", "3", Value(1.0, "ms"), "P16N6 .* cannot be given in"),
+        ("p.w16", "3", Value(1.0, "ms"), "P16N6 .* is stored in °, not in ms"),
         ("p.w113_0", "", Value(float("inf")), "P113N0 .*: inf is no number"),
         ("p.w18", "0", Value(float("nan")), "P18N0 .*: nan is no number"),
         ("p.w96_0", "", Value("é"), "P96N0 .* not ASCII"),

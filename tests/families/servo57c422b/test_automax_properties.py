@@ -10,7 +10,7 @@ from amp_studio.families.servo57c422b.formats.registers import Registers, is_wri
 from amp_studio.files import ParameterFile
 from amp_studio.formats import FormatError, file_of
 from amp_studio.schema import Address, Schema, Value
-from amp_studio.schema.register_words import is_signed, number_of, value_of_number
+from amp_studio.schema.storage import is_signed, register_number, value_of_register
 
 FORMS = st.sampled_from([TABLE, TASK])
 
@@ -44,7 +44,7 @@ def as_held(file: ParameterFile) -> dict[Address, Value]:
     for address, value in file.values.items():
         if is_writable(file, address):
             parameter, unit = registers.parameter(address), registers.unit(address)
-            found[address] = value_of_number(parameter, number_of(parameter, value, unit), unit)
+            found[address] = value_of_register(parameter, register_number(parameter, value, unit), unit)
     return found
 
 

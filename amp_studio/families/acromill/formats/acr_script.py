@@ -17,8 +17,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats.bare_figures import default_system, read_figure, system_of, write_figure
 from amp_studio.formats.passthrough_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
-from amp_studio.schema import Address, Schema, Value, load_schema, written
-from amp_studio.schema.register_words import WordError
+from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, written
 
 from .acr_command import Argument, Command, Setting, commands_of
 
@@ -152,7 +151,7 @@ def _values(schema: Schema, argument: Argument, line: int, system: str) -> dict[
     for address, (text, column) in zip(argument.setting.addresses, argument.figures, strict=True):
         try:
             values[address] = read_figure(schema, schema.parameters[address[0]], text, system)
-        except WordError as error:
+        except InvalidValueError as error:
             raise FormatError(str(error), line, column) from None
     return values
 
@@ -218,7 +217,7 @@ def _row(file: ParameterFile, setting: Setting, system: str) -> str:
         parameter, value = file.schema.parameters[address[0]], file.values[address]
         try:
             figures.append(write_figure(file.schema, parameter, value, system))
-        except WordError as error:
+        except InvalidValueError as error:
             raise FormatError(f"{written(address)}: {error}") from None
     return setting.write(figures)
 

@@ -24,7 +24,7 @@ from amp_studio.schema import (
     write_number,
 )
 from amp_studio.schema.quoting import quoted
-from amp_studio.schema.stored import stored_number, value_of_stored
+from amp_studio.schema.storage import stored_number, value_of_stored
 from amp_studio.schema.values import checked, read_number
 
 _HEAD = "# Patch sheet"
@@ -47,7 +47,7 @@ def _write(file: ParameterFile) -> str:
         number = file.machine_schema.number(address) or ""
         name = f"{parameter.name} {file.machine_schema.instance_label(address)}".rstrip()
         turns = file.evaluation.turns(address)
-        stored = stored_number(parameter, value, turns)
+        stored = stored_number(parameter, value, turns=turns)
         if stored is None:
             lines.append(f"# {number}\t{show_value(parameter, value)}: no code is printed\t\t{name}")
             continue
@@ -94,7 +94,7 @@ def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line
         number, rest = read_number(cells[0])
         if rest.strip():
             raise InvalidValueError(f"{quoted(cells[0])} is no plain number")
-        value = checked(parameter, value_of_stored(parameter, number, file.evaluation.turns(address)))
+        value = checked(parameter, value_of_stored(parameter, number, turns=file.evaluation.turns(address)))
     except InvalidValueError as error:
         raise FormatError(str(error), line, column) from None
     if parameter.choices or len(cells) < 2 or not cells[1].strip():

@@ -19,16 +19,13 @@ from amp_studio.schema import (
     InvalidValueError,
     Parameter,
     Schema,
-    UnitError,
     Value,
     angular,
-    convert,
     dimension,
-    show_value,
     write_number,
 )
 from amp_studio.schema.model import Storage
-from amp_studio.schema.stored import stored_number, value_of_stored
+from amp_studio.schema.storage import code_of, from_stored, to_figure
 from amp_studio.schema.values import checked
 
 Word = tuple[int, int]
@@ -147,7 +144,6 @@ class Meaning:
     parameter: Parameter
     unit: str | None
     """In which the control keeps it; None where other words decide: millimetres are degrees on an axis that turns."""
-    scale: float
 
     @classmethod
     def of(cls, schema: Schema, address: Address) -> Meaning:
@@ -156,7 +152,7 @@ class Meaning:
         storage = parameter.storage or Storage()
         straight = storage.unit if storage.unit is not None else schema.unit(parameter, "metric", turns=False)
         fixed = straight == angular(straight) or (storage.unit is None and parameter.unit is not None)
-        return cls(address, parameter, straight if fixed else None, storage.scale)
+        return cls(address, parameter, straight if fixed else None)
 
     def unit_in(self, file: ParameterFile) -> str:
         """Return the unit in which the control keeps the value, in the configuration of a file."""
@@ -174,36 +170,19 @@ class Meaning:
             if parameter.type != "text":
                 raise InvalidValueError(f"{parameter.name} is no text")
             return checked(parameter, Value(content))
-        if parameter.choices:
-            return checked(
-                parameter, value_of_stored(parameter, content, file.evaluation.turns(self.address))
-            )
-        number = content if self.scale == 1.0 else content / self.scale
-        if parameter.type == "real":
-            number = float(number)
-        elif number == int(number):
-            number = int(number)
-        return checked(parameter, Value(number, self.unit_in(file)))
+        return checked(parameter, from_stored(parameter, content, self.unit_in(file)))
 
     def content(self, file: ParameterFile, value: Value) -> Content:
         """Return what the word of a value holds, before it is made a whole number; raises InvalidValueError."""
         found = value.value
         if self.parameter.choices:
-            raw = stored_number(self.parameter, value, turns=False)
-            if raw is None:
-                raise InvalidValueError(f"no code is printed for {show_value(self.parameter, value)}")
-            return raw
+            return code_of(self.parameter, value)
         if isinstance(found, str):
             return found
         unit, said = self.unit_in(file), value.unit
         if dimension(said) != dimension(unit):
             said, unit = angular(said), angular(unit)  # the axis turns since, or no longer: the figure stays
-        if said == unit and self.scale == 1.0:
-            return found
-        try:
-            return convert(float(found), said, unit) * self.scale
-        except UnitError as error:
-            raise InvalidValueError(str(error)) from None
+        return to_figure(self.parameter, Value(found, said), unit)
 
 
 def meant_by(file: ParameterFile, meanings: tuple[Meaning, ...]) -> Meaning:

@@ -13,11 +13,12 @@ from collections import Counter
 from amp_studio.files import ParameterFile
 from amp_studio.formats.passthrough_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
-from amp_studio.schema import Address, Schema, show_value
-from amp_studio.schema.register_words import WordError, is_low_first, read_word, write_hexadecimal
+from amp_studio.schema import Address, InvalidValueError, Schema, show_value
+from amp_studio.schema.storage import is_low_first
 
 from .basic_text import Line, Statement, read_lines
 from .registers import Held, Meaning, Registers, Written, held_by, registers_of
+from .word_text import read_word, write_hexadecimal
 
 _SIGNS = "cp437"
 """What DOS files are written in; every byte of theirs is a sign of it."""
@@ -88,7 +89,7 @@ def _read_table(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
             raise FormatError("a line is the number of a register and its value", n)
         try:
             number, is_pattern = read_word(row[4])
-        except WordError as error:
+        except InvalidValueError as error:
             raise FormatError(str(error), n, row.start(4) + 1) from None
         meaning.take(Written(int(row[2]), number, is_pattern, 1, n, row.start(2) + 1, row.start(4) + 1))
     meaning.settle()
@@ -100,7 +101,7 @@ def _kept_word(key: str, text: str) -> str:
     """Return a word that was kept without knowing its register; raises FormatError where a person made it none."""
     try:
         read_word(text)
-    except WordError as error:
+    except InvalidValueError as error:
         raise FormatError(f"{key}: {error}") from None
     return text
 
@@ -268,7 +269,7 @@ def _setting(statement: Statement, variables: Variables) -> Written:
     column = statement.column + found.start(2)
     try:
         number, is_pattern = read_word(found[2])
-    except WordError as error:
+    except InvalidValueError as error:
         raise FormatError(f"{found[1]}: {error}", statement.line, column) from None
     return Written(register, number, is_pattern, _words(found[1]), statement.line, statement.column, column)
 

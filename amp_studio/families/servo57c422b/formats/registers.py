@@ -14,13 +14,13 @@ from functools import lru_cache
 from amp_studio.files import Header, ParameterFile
 from amp_studio.formats.text_format import FormatError
 from amp_studio.schema import Address, Parameter, Schema, Value, written
-from amp_studio.schema.register_words import (
+from amp_studio.schema.storage import (
     WORD,
-    WordError,
+    StorageError,
     is_low_first,
-    number_of,
-    value_of,
-    value_of_number,
+    register_number,
+    value_of_register,
+    value_of_words,
     words_of,
     words_taken,
 )
@@ -109,8 +109,8 @@ def held_by(file: ParameterFile, registers: Registers) -> list[Held]:
                 said = f"{written(other)} and {written(address)} are both set, and both stand in it"
                 raise FormatError(f"register {register} holds one of two values: {said}")
         try:
-            number, words = number_of(parameter, value, unit), words_of(parameter, value, unit)
-        except WordError as error:
+            number, words = register_number(parameter, value, unit), words_of(parameter, value, unit)
+        except StorageError as error:
             raise FormatError(f"register {registers.first[address]}, {written(address)}: {error}") from None
         found.append(Held(address, registers.first[address], number, words))
     return sorted(found, key=lambda held: held.register)
@@ -209,9 +209,9 @@ class Meaning:
         is_whole = source.words == len(cells) and all(cell.source is source for cell in cells)
         try:
             if is_whole and not source.is_pattern and not is_low_first(parameter):
-                return value_of_number(parameter, source.number, unit)
-            return value_of(parameter, tuple(cell.word for cell in cells), unit)
-        except WordError as error:
+                return value_of_register(parameter, source.number, unit)
+            return value_of_words(parameter, tuple(cell.word for cell in cells), unit)
+        except StorageError as error:
             raise FormatError(str(error), source.line, source.value_column) from None
 
     def _leave(self, register: int, said: str) -> None:

@@ -8,17 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from amp_studio.schema import Parameter, Schema, Value, load_schema, read_value
-from amp_studio.schema.register_words import (
-    WordError,
+from amp_studio.families.servo57c422b.formats.word_text import read_word, write_hexadecimal
+from amp_studio.schema import InvalidValueError, Parameter, Schema, Value, load_schema, read_value
+from amp_studio.schema.storage import (
+    StorageError,
     exact,
     is_signed,
-    number_of,
-    read_word,
-    value_of,
-    value_of_number,
+    register_number,
+    value_of_register,
+    value_of_words,
     words_of,
-    write_hexadecimal,
 )
 
 MODULE = load_schema("57c422b")
@@ -40,9 +39,11 @@ def test_every_word_a_register_can_hold_comes_back_as_it_was(
     data: st.DataObject, parameter: Parameter
 ) -> None:
     number = data.draw(st.integers(*span(parameter)))
-    value = value_of_number(parameter, number, unit_of(parameter))
-    assert number_of(parameter, value, unit_of(parameter)) == number
-    assert value_of(parameter, words_of(parameter, value, unit_of(parameter)), unit_of(parameter)) == value
+    value = value_of_register(parameter, number, unit_of(parameter))
+    assert register_number(parameter, value, unit_of(parameter)) == number
+    assert (
+        value_of_words(parameter, words_of(parameter, value, unit_of(parameter)), unit_of(parameter)) == value
+    )
 
 
 @given(data=st.data(), parameter=st.sampled_from([p for p in NUMBERS if p.type == "real"]))
@@ -51,9 +52,9 @@ def test_a_value_comes_back_within_half_a_count_of_its_register(
 ) -> None:
     low, high = (n / parameter.storage.scale for n in span(parameter))
     value = Value(data.draw(st.floats(low, high)), parameter.storage.unit or "")
-    number = number_of(parameter, value, unit_of(parameter))
+    number = register_number(parameter, value, unit_of(parameter))
     assert abs(exact(value.value) * exact(parameter.storage.scale) - number) <= Fraction(1, 2)
-    back = value_of_number(parameter, number, unit_of(parameter))
+    back = value_of_register(parameter, number, unit_of(parameter))
     assert back.value == float(number / exact(parameter.storage.scale)), "the double nearest to what is held"
 
 
@@ -86,7 +87,7 @@ def test_engineering_units_become_the_words_of_the_manual(
 ) -> None:
     parameter = MODULE.parameter(name)
     value = read_value(parameter, text, unit_of(parameter))
-    assert number_of(parameter, value, unit_of(parameter)) == number
+    assert register_number(parameter, value, unit_of(parameter)) == number
     assert words_of(parameter, value, unit_of(parameter)) == words
 
 
@@ -99,30 +100,30 @@ def test_engineering_units_become_the_words_of_the_manual(
         ("r.setup", Value(65536), "65536 does not fit the 16 bits of Setup, 0 to 65535"),
         ("r.slow", Value(32768000.0, "counts/s"), "2147483648 does not fit the 32 bits of Slow"),
         ("r.fast", Value(65536000.0, "counts/s"), "4294967296 does not fit the 32 bits of Fast"),
-        ("r.volts", Value(1.0, "ms"), "Volts is held in V, which ms cannot be given in"),
+        ("r.volts", Value(1.0, "ms"), "Volts is stored in V, not in ms"),
         ("r.version", Value("1.0"), "Version is a text"),
         ("r.sense", Value("odd"), "no code is printed for 'Odd' of Sense"),
     ],
 )
 def test_what_a_register_cannot_hold_is_told(module: Schema, name: str, value: Value, said: str) -> None:
     parameter = module.parameter(name)
-    with pytest.raises(WordError, match=said):
-        number_of(parameter, value, module.units_of(parameter)[0])
+    with pytest.raises(StorageError, match=said):
+        register_number(parameter, value, module.units_of(parameter)[0])
 
 
 def test_choices_are_their_codes(module: Schema) -> None:
     sense, marker = module.parameter("r.sense"), module.parameter("r.marker")
     assert [words_of(sense, Value(key), "") for key in ("up", "down", "raw:7")] == [(1,), (0xFFFF,), (7,)]
-    assert [value_of(sense, (word,), "") for word in (1, 0xFFFF, 7)] == [
+    assert [value_of_words(sense, (word,), "") for word in (1, 0xFFFF, 7)] == [
         Value("up"),
         Value("down"),
         Value("raw:7"),
     ]
-    assert [value_of(marker, (word,), "") for word in (1, 0)] == [Value(True), Value(False)]
+    assert [value_of_words(marker, (word,), "") for word in (1, 0)] == [Value(True), Value(False)]
     assert words_of(marker, Value(False), "") == (0,)
 
 
 @pytest.mark.parametrize("text", ["", "FFH", "0x14", "1.5", "1e3", "-0FH", "12 34", "65536.*256.", "PGAIN%"])
 def test_what_is_no_whole_number_is_told(text: str) -> None:
-    with pytest.raises(WordError, match="is no whole number"):
+    with pytest.raises(InvalidValueError, match="is no whole number"):
         read_word(text)

@@ -1,0 +1,218 @@
+"""What a control stores for a value, and the value that a stored number means: the one codec between the two.
+
+A choice is stored as its code; a number as the value in the unit of its storage times its scale. Both ways are exact
+until the one rounding at the end: to a double, to the printed decimals, or to the whole number of a register (a half to
+the even one). How a control spells the number (hexadecimal words, bare figures) is a matter of its format.
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from fractions import Fraction
+from functools import lru_cache
+
+from .model import Parameter, Storage
+from .quoting import short
+from .units import UNITS, angular, dimension, shown
+from .value import InvalidValueError, Value
+from .values import choice_key, choice_value, label_of, write_number
+
+WORD = 16
+"""Bits of a register."""
+_PLAIN = Storage()
+
+
+class StorageError(InvalidValueError):
+    """A value that the control cannot store, or a stored number that means none; one clear sentence."""
+
+
+def exact(number: float) -> Fraction:
+    """Return the number that a person reads, not the double that stands for it: 65.536 is 65536 thousandths."""
+    return Fraction(Decimal(repr(number)))
+
+
+# -- numbers ---------------------------------------------------------------------
+
+
+def stored_unit(parameter: Parameter, otherwise: str = "", *, turns: bool = False) -> str:
+    """Return the unit of what the control stores: its storage's, else ``otherwise``; degrees where the axis turns."""
+    storage = parameter.storage
+    unit = otherwise if storage is None or storage.unit is None else storage.unit
+    return angular(unit) if turns else unit
+
+
+def to_stored(parameter: Parameter, value: Value, unit: str) -> Fraction:
+    """Return what is stored for a value where numbers are kept in ``unit``, before it is rounded; raises StorageError."""
+    if parameter.choices:
+        return Fraction(code_of(parameter, value))
+    if isinstance(value.value, str):
+        raise StorageError(f"{parameter.name} is a text, which the control does not store as a number")
+    if dimension(value.unit) != dimension(unit):
+        raise StorageError(f"{parameter.name} is stored in {_named(unit)}, not in {_named(value.unit)}")
+    return exact(value.value) * _factor(value.unit, unit, _storage(parameter).scale)
+
+
+def to_figure(parameter: Parameter, value: Value, unit: str) -> float:
+    """Return the double nearest to ``to_stored``; raises StorageError."""
+    if value.unit == unit and _storage(parameter).scale == 1.0 and not isinstance(value.value, (str, bool)):
+        return value.value
+    return _double(to_stored(parameter, value, unit))
+
+
+@lru_cache(maxsize=1000)
+def _factor(unit: str, stored: str, scale: float) -> Fraction:
+    return UNITS[unit][1] / UNITS[stored][1] * exact(scale)
+
+
+def from_stored(parameter: Parameter, number: Fraction | float, unit: str) -> Value:
+    """Return the value that a stored number means where numbers are kept in ``unit``; raises StorageError.
+
+    A code that is none of the parameter's is kept as it is.
+    """
+    if parameter.type in ("text", "format"):
+        raise StorageError(f"{parameter.name} is a text, which the control does not store as a number")
+    if parameter.type == "real" and isinstance(number, float) and _storage(parameter).scale == 1.0:
+        return Value(number, unit)
+    found = number if isinstance(number, Fraction) else exact(number)
+    if not parameter.choices:
+        found /= exact(_storage(parameter).scale)
+    if parameter.type == "real":
+        double = _double(found)
+        if math.isinf(double) or (double == 0 and found != 0):
+            raise StorageError(f"{parameter.name} cannot have a number of that size")
+        return Value(double, unit)
+    if found.denominator != 1:
+        raise StorageError(f"{parameter.name} takes whole numbers, not {short(write_number(_double(found)))}")
+    return choice_of(parameter, int(found)) if parameter.choices else Value(int(found), unit)
+
+
+def stored_number(parameter: Parameter, value: Value, *, turns: bool) -> float | int | None:
+    """Return what the control shows of a value (its patch value); None where the manual prints no form."""
+    if not parameter.choices and (parameter.storage is None or isinstance(value.value, str)):
+        return None
+    try:
+        number = to_stored(parameter, value, stored_unit(parameter, turns=turns))
+    except StorageError:
+        return None
+    return int(number) if parameter.choices else shown_number(parameter, number)
+
+
+def value_of_stored(parameter: Parameter, number: float, *, turns: bool) -> Value:
+    """Return the value that a number keyed in at the control means; ``stored_number`` the other way round.
+
+    Raises StorageError for a fraction where the control stores whole numbers.
+    """
+    return from_stored(parameter, number, stored_unit(parameter, turns=turns))
+
+
+def shown_number(parameter: Parameter, number: Fraction) -> float:
+    """Return a stored number as the control shows it: the nearest double, with the decimals that it has."""
+    decimals = _storage(parameter).decimals
+    return _double(number) if decimals is None else round(_double(number), decimals)
+
+
+def _double(number: Fraction) -> float:
+    """Return the double nearest to a number; infinite where no double is that large."""
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf
+
+
+# -- choices ---------------------------------------------------------------------
+
+
+def code_of(parameter: Parameter, value: Value) -> int:
+    """Return the code that the control keeps for a choice; raises StorageError where none is printed."""
+    key = choice_key(value)
+    if key.startswith("raw:"):
+        return int(key[4:])
+    for choice in parameter.choices or ():
+        if choice.key == key and choice.raw is not None:
+            return choice.raw
+    raise StorageError(f"no code is printed for '{label_of(parameter, key)}' of {parameter.name}")
+
+
+def choice_of(parameter: Parameter, number: int) -> Value:
+    """Return the choice of a code; one that is none of the parameter's is kept as it is."""
+    for choice in parameter.choices or ():
+        if choice.raw == number:
+            return choice_value(parameter, choice)
+    return Value(f"raw:{number}")
+
+
+# -- what fits -------------------------------------------------------------------
+
+
+def stored_range(parameter: Parameter) -> tuple[int, int]:
+    """Return the smallest and the largest number that the bits, or else the registers, of a parameter can hold."""
+    storage = _storage(parameter)
+    numbers = 1 << (storage.bits or WORD * storage.words)
+    return (-numbers // 2, numbers // 2 - 1) if is_signed(parameter) else (0, numbers - 1)
+
+
+def is_signed(parameter: Parameter) -> bool:
+    """Tell whether a number is stored with its sign; a word of bits has none."""
+    return parameter.type != "bits" and _storage(parameter).signed
+
+
+def fitting(parameter: Parameter, number: int) -> int:
+    """Return a number that the bits of a parameter can hold; raises StorageError for any other."""
+    low, high = stored_range(parameter)
+    if not low <= number <= high:
+        bits = (high - low).bit_length()
+        raise StorageError(f"{number} does not fit the {bits} bits of {parameter.name}, {low} to {high}")
+    return number
+
+
+# -- registers -------------------------------------------------------------------
+
+
+def words_taken(parameter: Parameter) -> int:
+    """Return how many registers a value takes."""
+    return _storage(parameter).words
+
+
+def is_low_first(parameter: Parameter) -> bool:
+    """Tell whether the first of several registers is the lowest part of the number."""
+    storage = _storage(parameter)
+    return storage.words > 1 and storage.word_order == "low-first"
+
+
+def register_number(parameter: Parameter, value: Value, unit: str) -> int:
+    """Return the whole number that registers hold for a value; ``unit`` is that of a storage which names none.
+
+    Raises StorageError. The value that comes back differs by at most half a count, and is stored as the same number.
+    """
+    return fitting(parameter, round(to_stored(parameter, value, stored_unit(parameter, unit))))
+
+
+def value_of_register(parameter: Parameter, number: int, unit: str) -> Value:
+    """Return the value that a whole number in the registers means; raises StorageError."""
+    return from_stored(parameter, fitting(parameter, number), stored_unit(parameter, unit))
+
+
+def words_of(parameter: Parameter, value: Value, unit: str) -> tuple[int, ...]:
+    """Return the words of a value, 0 to 65535 each, in the order of their registers; raises StorageError."""
+    number = register_number(parameter, value, unit)
+    words = [number >> WORD * n & 0xFFFF for n in range(words_taken(parameter))]
+    return tuple(words if is_low_first(parameter) else reversed(words))
+
+
+def value_of_words(parameter: Parameter, words: tuple[int, ...], unit: str) -> Value:
+    """Return the value that words mean, given in the order of their registers; raises StorageError."""
+    pattern = 0
+    for word in reversed(words) if is_low_first(parameter) else words:
+        pattern = pattern << WORD | word
+    width = WORD * words_taken(parameter)
+    is_negative = is_signed(parameter) and pattern >> (width - 1)
+    return value_of_register(parameter, pattern - (1 << width) if is_negative else pattern, unit)
+
+
+def _storage(parameter: Parameter) -> Storage:
+    return parameter.storage or _PLAIN
+
+
+def _named(unit: str) -> str:
+    return shown(unit) or "a bare number"
