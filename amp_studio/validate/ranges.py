@@ -114,7 +114,7 @@ class ValueChecks:
     def _nearest(self, address: Address, value: Value) -> Value | None:
         """Return the nearest allowed value; None where a bound that another parameter sets may be what is wrong.
 
-        Of a positive and a negative limit that are reversed, neither belongs at the edge of the other: that leaves an
+        0 is never the nearest to another number: a speed or a limit of 0 means something else. Of a positive and a negative limit that are reversed, neither belongs at the edge of the other: that leaves an
         axis without travel. Nor does a bound that leaves a single value say which value is meant.
         """
         allowed = limits(self._file.evaluation, address, value.unit)
@@ -125,9 +125,10 @@ class ValueChecks:
                 allowed.low == allowed.high or _bounds(self._file.schema.parameters[other[0]], address[0])
             ):
                 return None
-        return _rounded_inwards(
+        nearest = _rounded_inwards(
             self._facts[address[0]].parameter, clip(self._file.evaluation, address, value), allowed
         )
+        return nearest if nearest.value != 0 or value.value == 0 else None
 
     def _turns(self, address: Address) -> bool:
         return self._angular is not None and self._file.evaluation.holds(self._angular, address[1], "axis")

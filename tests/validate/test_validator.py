@@ -53,6 +53,11 @@ def test_a_value_out_of_range_is_an_error_with_its_range_page_and_repair(mill) -
     )
 
 
+def test_a_negative_speed_is_not_mended_by_an_axis_that_stands_still(mill) -> None:
+    mill.set(("home.g28_speed", "1"), Value(-5000.0, "mm/min"))
+    assert the(mill, "schema.range").repairs == ()
+
+
 def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(400.0, "in/min"))
     assert found(mill, "schema.range") == []
