@@ -13,10 +13,9 @@ from amp_studio.files import Document, ParameterFile, describe
 from amp_studio.report import finding_text
 from amp_studio.schema import (
     MASKED,
-    Address,
     Parameter,
-    UnknownParameterError,
     Value,
+    addresses_meant,
     show_value,
     write_value,
 )
@@ -61,7 +60,7 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
     rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
     if options.rule is not None and options.rule not in rules:
         raise UsageError(f"Unknown rule '{options.rule}'.{_nearest(options.rule, rules)}")
-    named = None if options.param is None else _addresses(validator.file, options.param)
+    named = None if options.param is None else addresses_meant(validator.file.evaluation, options.param)
 
     def wanted(finding: Finding) -> bool:
         return (
@@ -71,17 +70,6 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
         )
 
     return wanted
-
-
-def _addresses(file: ParameterFile, text: str) -> Collection[Address]:
-    """Return the values that a number or an id means; an id without instance means all. Raises UsageError."""
-    parameter = file.schema.parameters.get(text.strip())
-    if parameter is not None:
-        return {(parameter.id, instance) for instance in file.machine_schema.instances(parameter)}
-    try:
-        return {file.find(text)}
-    except UnknownParameterError as error:
-        raise UsageError(f"{error}.{_nearest(text, file.schema.parameters)}") from None
 
 
 def _nearest(text: str, names: Collection[str]) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
 
 from amp_studio.schema import (
+    Address,
     Evaluation,
     Parameter,
     Schema,
@@ -41,12 +42,23 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
         wanted = [found.id]
     else:
         wanted = [
-            a[0] for m in machines for a in schema.on(m).addressed_by(param) or schema.on(m).words(param)
+            a[0]
+            for m in machines
+            for a in schema.on(m).addressed_by(param)
+            or schema.on(m).words(param)
+            or _word_of_bit(schema, param, m)
         ]
         if not wanted:
             raise UnknownParameterError(*unknown(schema, param.strip()))
     pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
     return ("\n" + "=" * _WIDTH + "\n").join(pages)
+
+
+def _word_of_bit(schema: Schema, param: str, machine: str) -> list[Address]:
+    """Return the packed words that a bit of a number (P3N0.5) is of."""
+    word, _, bit = param.strip().rpartition(".")
+    found = schema.on(machine).addressed_by(word) if bit.isdecimal() else []
+    return [a for a in found if schema.parameters[a[0]].type == "bits"]
 
 
 def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: Sequence[str]) -> None:

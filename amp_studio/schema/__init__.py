@@ -5,7 +5,7 @@ it; every other room asks here and knows no parameter by heart.
 """
 
 from .address import Address, UnknownParameterError, part_of, read_address, written
-from .addressing import Meant, all_meant, axis_meant, meant, unknown
+from .addressing import Meant, addresses_meant, all_meant, axis_meant, meant, unknown
 from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
 from .conditions import IN_FORCE, Reference, StateInfo, program
@@ -69,6 +69,7 @@ __all__ = [
     "UnknownFamilyError",
     "UnknownParameterError",
     "Value",
+    "addresses_meant",
     "all_meant",
     "angular",
     "axis_meant",

@@ -94,6 +94,17 @@ def all_meant(evaluation: FileState, text: str) -> list[Meant]:
     return [Meant(address) for address in words] if words else [meant(evaluation, text)]
 
 
+def addresses_meant(evaluation: FileState, text: str) -> list[Address]:
+    """Return the values that a text means where several are welcome: an id alone means all its instances, a bit its word.
+
+    Raises UnknownParameterError.
+    """
+    parameter = evaluation.schema.parameters.get(text.strip().casefold())
+    if parameter is not None:
+        return [(parameter.id, instance) for instance in evaluation.machine_schema.instances(parameter)]
+    return [found.address for found in all_meant(evaluation, text)]
+
+
 def _whole(evaluation: FileState, text: str) -> Meant:
     schema, text = evaluation.schema, text.strip()
     name, _, instance = text.partition("@")

@@ -28,6 +28,7 @@ from amp_studio.schema import (
     Rule,
     Schema,
     Suppression,
+    addresses_meant,
     family_ids,
     load_schema,
     read_address,
@@ -306,7 +307,7 @@ def sort_out(
     """Return the findings that stay, those that are suppressed, and the suppressions that meet nothing any more."""
     by_rule: dict[str, list[tuple[Suppression, list[set[Address]]]]] = {}
     for s in suppressions:
-        meant = [set(_addresses(evaluation, text)) for text in s.params]
+        meant = [_meant(evaluation, text) for text in s.params]
         by_rule.setdefault(s.rule, []).append((s, meant))
     stay: list[Finding] = []
     left: list[Suppressed] = []
@@ -327,13 +328,9 @@ def sort_out(
     return tuple(stay), tuple(left), tuple(s for s in suppressions if id(s) not in used)
 
 
-def _addresses(evaluation: Evaluation, text: str) -> Iterator[tuple[str, str]]:
-    """Yield what a suppression means by a number or an id; an id alone means all its instances."""
-    parameter = evaluation.schema.parameters.get(text)
-    if parameter is not None:
-        yield from ((parameter.id, i) for i in evaluation.machine_schema.instances(parameter))
-        return
+def _meant(evaluation: Evaluation, text: str) -> set[Address]:
+    """Return what a suppression means by a number or an id; nothing where this machine does not have it."""
     try:
-        yield evaluation.find(text)
+        return set(addresses_meant(evaluation, text))
     except LookupError:
-        return
+        return set()

@@ -158,3 +158,22 @@ def test_a_sound_file_has_nothing_to_fix(mill: Path, amp, tmp_path: Path) -> Non
 def test_a_missing_file_is_refused(tmp_path: Path, amp) -> None:
     assert amp("fix", tmp_path / "none.amp").code == 2
     assert amp("fix", tmp_path / "none.amp", "--dry-run").code == 2
+
+
+@pytest.mark.parametrize(
+    "named", ["P21", "P21N2", "21n2", "servo.loop_gain", "servo.loop_gain@2", "SERVO.LOOP_GAIN@Z"]
+)
+def test_a_parameter_is_named_as_everywhere_else(named: str, tmp_path: Path, checkout: Path, amp) -> None:
+    path = tmp_path / "mill.amp"
+    path.write_bytes((checkout / "examples/num-1060-mill/MILL_1060.amp").read_bytes())
+    assert amp("set", path, "P21N2=0").code == 0
+    changes = amp("fix", path, "--param", named, "--dry-run", "--json").json["changes"]
+    assert [(c["param"], c["old"]) for c in changes] == [("P21N2", "0")]
+
+
+def test_the_fix_of_a_word_is_found_by_one_of_its_bits(tmp_path: Path, checkout: Path, amp) -> None:
+    path = tmp_path / "mill.amp"
+    path.write_bytes((checkout / "examples/num-1060-mill/MILL_1060.amp").read_bytes())
+    assert amp("set", path, "P6N0=0xFF").code == 0
+    changes = amp("fix", path, "--param", "P6N0.0", "--dry-run", "--json").json["changes"]
+    assert [c["param"] for c in changes] == ["P6N0"]

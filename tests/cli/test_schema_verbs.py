@@ -344,6 +344,9 @@ def test_a_number_of_several_words_shows_them_all(amp, tmp_path) -> None:
     rows = amp("get", path, "P21", "--json").json["values"]
     assert [row["param"] for row in rows] == [f"P21N{n}" for n in range(32)]
     assert amp("show", "num", "P21").out == amp("show", "num", "P21N0").out
+    assert amp("show", "num", "P3N0.5").out == amp("show", "num", "P3N0").out, (
+        "a bit is on the page of its word"
+    )
     assert amp("set", path, "P3N0=Axis 1, Axis 5").out.endswith("-> 0x00000022\n")
     refused = amp("set", path, "P3N0=Axis 1, Axs 5")
     assert (refused.code, "Did you mean: Axis 5" in refused.err) == (2, True)
