@@ -23,6 +23,7 @@ from .file_error import FileError, read_yaml_file
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
 from .model_errors import Slip, slips
 from .quoting import quoted, short
+from .registration import added_facts
 from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
@@ -66,7 +67,8 @@ def database_folder() -> Path:
 
 def family_ids() -> tuple[str, ...]:
     """Return the families that have a folder of facts, in alphabetical order."""
-    return tuple(sorted(p.parent.name for p in database_folder().glob("*/family.yaml")))
+    own = (path.parent.name for path in database_folder().glob("*/family.yaml"))
+    return tuple(sorted({*own, *added_facts()}))
 
 
 @cache
@@ -78,7 +80,7 @@ def load_compiled(family_id: str) -> Compiled:
     """
     if family_id not in family_ids():
         raise UnknownFamilyError(family_id)
-    folder = database_folder() / family_id
+    folder = added_facts().get(family_id, database_folder() / family_id)
     cached = (
         Path(platformdirs.user_cache_dir("amp-studio"))
         / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"

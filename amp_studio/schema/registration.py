@@ -66,6 +66,11 @@ def registration_of(family: str) -> Registration:
     return found
 
 
+def added_facts() -> dict[str, Path]:
+    """Return family -> folder of facts, of those that have theirs elsewhere than in ``parameter_db``."""
+    return {family: record.facts for family, record in _added.items() if record.facts is not None}
+
+
 @cache
 def load_part(place: str) -> Any:
     """Return what stands at ``module:NAME``; raises ImportError, AttributeError for a place that is none."""

@@ -1,0 +1,145 @@
+"""Everything a sixth family has to write: facts beside this module, formulas, a text format, a driver, a law, one record."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from pathlib import Path
+from typing import ClassVar
+
+from amp_studio.files import ParameterFile
+from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.schema import InvalidValueError, Schema, load_schema, read_value, write_value
+from amp_studio.schema.registration import Registration
+from amp_studio.sim.law import Law
+from amp_studio.sim.reading import MotorGains, Readings
+from amp_studio.sim.servo import AxisServo
+from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.errors import NoConnectionError, WrongFamilyError
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.progress import Progress, quiet
+
+FAMILY = "steps"
+
+
+# -- formulas: what one BLU is, another parameter says --------------------------------------------
+
+
+def limit_mm(limit: float, increment: str) -> float:
+    """Return the length in mm of so many BLU under an increment system (page 1-1)."""
+    return limit * {"is-b": 0.001, "is-c": 0.0001}[increment]
+
+
+FORMULAS = {"limit_mm": limit_mm}
+
+
+# -- a text format of its own: ``N10=50000 BLU`` ---------------------------------------------------
+
+
+def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
+    found, file = TextRead(), ParameterFile(schema)
+    for n, line in enumerate(text.splitlines()[1:], 1):
+        number, _, said = line.removeprefix("N").partition("=")
+        address = file.find(number)
+        parameter = schema.parameters[address[0]]
+        try:
+            found.values[address] = read_value(parameter, said, schema.units_of(parameter)[0])
+        except InvalidValueError as error:
+            raise FormatError(str(error), n + 1) from None
+    return found
+
+
+def _write(file: ParameterFile) -> str:
+    lines = [
+        f"N{file.schema.on(file.machine).short(a)}={write_value(file.schema.parameters[a[0]], file.values[a])}"
+        for a in file.addresses()
+        if a in file.values
+    ]
+    return "\n".join(["(STEPS)", *lines]) + "\n"
+
+
+FORMAT = TextFormat("stp", "stepper list", ".stp", lambda text: text.startswith("(STEPS)"), _read, _write)
+
+
+# -- a protocol of its own -------------------------------------------------------------------------
+
+
+class Driver:
+    """Speaks to a stepper control; those of the tests are ``BENCH``, by the host that an endpoint names."""
+
+    abilities = Abilities(can_send=True)
+    BENCH: ClassVar[dict[str, bytes]] = {}
+
+    def __init__(self, endpoint: Endpoint, family: str) -> None:
+        self._host, self._family = endpoint.host, family
+
+    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+        if self._host not in self.BENCH:
+            raise NoConnectionError("no connection to the control")
+        if self._family not in {"", FAMILY}:
+            raise WrongFamilyError(f"the control is of the family {FAMILY}, not {self._family}")
+        digest = hashlib.sha256(self.BENCH[self._host]).digest()
+        return ControlIdentity(
+            FAMILY, "dnc", "STEPPER", "7", load_schema(FAMILY).signature, axes=("X", "Y"), sha256=digest
+        )
+
+    def fetch(
+        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+    ) -> bytes:
+        return self.BENCH[self._host]
+
+    def send(
+        self,
+        image: bytes,
+        *,
+        signature: str,
+        expected: bytes,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Receipt:
+        self.BENCH[self._host] = image
+        return Receipt()
+
+    def wait_restarted(
+        self,
+        receipt: Receipt,
+        seconds: float,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> bool:
+        return True
+
+    def close(self) -> None:
+        pass
+
+
+# -- the law of its axes ---------------------------------------------------------------------------
+
+
+def _axis(read: Readings, _gains: MotorGains | None) -> AxisServo:
+    return AxisServo(
+        position_gain=1.0,
+        velocity_rate=200.0,
+        acceleration_at_rated=5000.0,
+        feedback_counts=8000.0,
+        travel=10.0,
+        linear_acceleration=500.0,
+        rapid_feedrate=read.number("model.rapid"),
+        cutting_feedrate=1000.0,
+        inposition_band=0.02,
+        axis=read.axis,
+        model="stepper axis",
+    )
+
+
+LAW = Law(_axis, {"model.rapid": "rapid feedrate (mm/min)"})
+
+HERE = "tests.families.steps.stepper"
+REGISTRATION = Registration(
+    family=FAMILY,
+    formulas=f"{HERE}:FORMULAS",
+    formats=(f"{HERE}:FORMAT",),
+    drivers={"dnc": f"{HERE}:Driver"},
+    law=f"{HERE}:LAW",
+    facts=Path(__file__).parent / "facts",
+)
