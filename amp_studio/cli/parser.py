@@ -49,7 +49,7 @@ def parser() -> argparse.ArgumentParser:
         sub.add_argument("--expect", metavar="SHA256",
                          help="only where the control holds the image with this digest, as verify and upload print it")  # fmt: skip
         sub.add_argument(
-            "--keep", type=Path, metavar="DIR", help=f"where to keep what the control held ({kept})"
+            "--keep", type=_path, metavar="DIR", help=f"where to keep what the control held ({kept})"
         )
 
     sub = verb("families", "facts", "list the control families")
@@ -74,28 +74,28 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("arguments", nargs="*", metavar="NAME=VALUE")
     sub = verb("new", "files", "a new parameter file with the family's defaults", writes="path")
     sub.add_argument("family")
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     sub.add_argument("--machine")
     sub.add_argument("--axes", help="axis names in order, with commas")
     sub = verb(
         "set", "files", "change values, all or none; the previous file becomes the backup", writes="path"
     )
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     sub.add_argument("assignments", nargs="+", metavar="PARAM=VALUE")
     sub.add_argument("--force", action="store_true", help="take values out of range, and mark them")
     sub = verb("get", "files", "values with unit, default, and whether changed")
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     sub.add_argument("params", nargs="*", metavar="PARAM")
     sub.add_argument("--all", action="store_true", help="also what is hidden or not set")
     json_option(sub)
     secrets_option(sub)
     sub = verb("validate", "checks", "range, choice, state and cross-parameter findings")
-    sub.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="files, or folders of files")
+    sub.add_argument("paths", nargs="+", type=_path, metavar="PATH", help="files, or folders of files")
     sub.add_argument(
         "--jobs", type=_count, metavar="N", help="processes that share many files (one for each processor)"
     )
     sub.add_argument(
-        "--rules", type=Path, help="a builder's own rules instead of the rules.yaml beside the file"
+        "--rules", type=_path, help="a builder's own rules instead of the rules.yaml beside the file"
     )
     sub.add_argument(
         "--why", action="store_true", help="explain each finding: its rule, the values, the page"
@@ -107,7 +107,7 @@ def parser() -> argparse.ArgumentParser:
         "make suggested fixes, all or none, and say what changed and what is left",
         writes="path",
     )
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     sub.add_argument("--rule", metavar="ID", help="only fixes of this rule")
     sub.add_argument("--param", help="only fixes that set this parameter")
     sub.add_argument("--safe", action="store_true", help="only fixes that cannot change motion")
@@ -120,18 +120,18 @@ def parser() -> argparse.ArgumentParser:
     secrets_option(sub)
     sub = verb("merge", "files", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
-        sub.add_argument(name, type=Path)
-    sub.add_argument("-o", "--output", type=Path, required=True)
+        sub.add_argument(name, type=_path)
+    sub.add_argument("-o", "--output", type=_path, required=True)
     secrets_option(sub)
     sub = verb("report", "checks", "documentation as .pdf, .html, .csv or .txt", writes="output")
-    sub.add_argument("path", type=Path)
-    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("path", type=_path)
+    sub.add_argument("-o", "--output", type=_path, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
     sub.add_argument("--changed-only", action="store_true")
     secrets_option(sub)
     sub = verb("import", "formats", "a new parameter file from a control's own text format", writes="output")
-    sub.add_argument("text", type=Path, metavar="FILE")
-    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("text", type=_path, metavar="FILE")
+    sub.add_argument("-o", "--output", type=_path, required=True)
     sub.add_argument("--family", help="where the text does not tell it")
     sub.add_argument("--format", help="where the text does not tell it")
     sub.add_argument(
@@ -141,14 +141,14 @@ def parser() -> argparse.ArgumentParser:
     sub = verb(
         "export", "formats", "a parameter file in a text format; the ending tells which", writes="output"
     )
-    sub.add_argument("path", type=Path)
-    sub.add_argument("-o", "--output", type=Path, required=True)
+    sub.add_argument("path", type=_path)
+    sub.add_argument("-o", "--output", type=_path, required=True)
     sub.add_argument("--format", help="where the ending does not tell it")
     secrets_option(sub)
     sub = verb("emulate", "control", "an emulated control that takes downloads and gives uploads")
     sub.add_argument("family")
     sub.add_argument("--listen", required=True, metavar="ADDRESS")
-    sub.add_argument("--state", type=Path, metavar="DIR", help="where the control keeps its memory")
+    sub.add_argument("--state", type=_path, metavar="DIR", help="where the control keeps its memory")
     sub.add_argument("--machine", help="machine type of the file it is born with")
     sub.add_argument("--no-estop", action="store_true", help="start out of E-stop")
     sub.add_argument(
@@ -167,7 +167,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--family", help="the family it must be of")
     json_option(sub)
     sub = verb("download", "control", "send a file to a control, read it back and compare")
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     to_control(sub, "beside the file")
     sub.add_argument(
         "--accept-errors",
@@ -179,7 +179,7 @@ def parser() -> argparse.ArgumentParser:
     )
     sub.add_argument(
         "copy",
-        type=Path,
+        type=_path,
         metavar="COPY",
         help="NAME.before-STAMP.img, which is compared with the digest beside it, or the .amp of that name",
     )
@@ -191,22 +191,22 @@ def parser() -> argparse.ArgumentParser:
         writes="output",
     )
     sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
-    sub.add_argument("-o", "--output", type=Path, required=True,
+    sub.add_argument("-o", "--output", type=_path, required=True,
                      help="a parameter file; or NAME.img for the image byte for byte, whatever it is")  # fmt: skip
     on_fault(sub)
     sub = verb(
         "verify", "control", "compare values and every byte with what a control holds; print its digest"
     )
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
     json_option(sub)
     secrets_option(sub)
     sub = verb("simulate", "motion", "check settings in motion", writes="output")
-    sub.add_argument("path", type=Path)
+    sub.add_argument("path", type=_path)
     sub.add_argument("scenario")
     sub.add_argument("--axis")
     sub.add_argument("--set", action="append", default=[], metavar="PARAM=VALUE", dest="assignments")
-    sub.add_argument("-o", "--output", type=Path)
+    sub.add_argument("-o", "--output", type=_path)
     json_option(sub)
     sub = verb(
         "demo",
@@ -217,6 +217,13 @@ def parser() -> argparse.ArgumentParser:
         "--terminal", action="store_true", help="stay in the terminal even where there is a display"
     )
     return top
+
+
+def _path(text: str) -> Path:
+    """Return a path; an empty text, as of a variable that is not set, is not the folder one stands in."""
+    if not text:
+        raise argparse.ArgumentTypeError("an empty text is no path")
+    return Path(text)
 
 
 def _count(text: str) -> int:

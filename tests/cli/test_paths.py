@@ -219,3 +219,9 @@ def test_a_path_that_nobody_can_look_at_and_an_empty_folder_end_no_other_check(
     files = json.loads(capsys.readouterr().out)["files"]
     assert (code, len(files)) == (2, 3)
     assert {one["file"] for one in files if "error" in one} == {"x" * 5000, str(tmp_path / "empty")}
+
+
+@pytest.mark.parametrize("verb", ["validate", "get", "set", "export"])
+def test_an_empty_path_is_not_the_folder_one_stands_in(amp, verb: str) -> None:
+    more = {"set": ["1300=1 mm"], "export": ["-o", "out.csv"]}.get(verb, [])
+    assert "an empty text is no path" in amp(verb, "", *more).err

@@ -120,7 +120,7 @@ def open_copy(path: Path) -> Copy:
     if path.suffix != IMAGE:
         raise CopyError(f"{path} is no copy of what a control held: those end in {IMAGE} or {ENDING}")
     image = _content(path)
-    is_checked = digest_path(path).exists()
+    is_checked = os.path.lexists(digest_path(path))  # one that cannot be read is not none
     if is_checked:
         _check(path, image)
     signed = _SIGNED.match(image)

@@ -57,11 +57,11 @@ class Memory:
                 write_all(handle, content)
                 self.on_step(f"sync {temporary.name}")
                 os.fsync(handle)
+            self.move(temporary.name, name)
         except OSError:
             with contextlib.suppress(OSError):
                 temporary.unlink()
             raise
-        self.move(temporary.name, name)
 
     def append(self, name: str, content: bytes) -> None:
         """Add to the end of a file, or leave it as it was."""

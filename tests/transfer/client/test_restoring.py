@@ -374,3 +374,12 @@ def test_an_upload_writes_no_file_of_what_cannot_be_read(
 def test_what_is_no_serial_port_is_told(port: str, mill: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["verify", str(mill), "--with", port]) == 2
     assert "this is no serial port" in capsys.readouterr().err
+
+
+def test_a_digest_that_cannot_be_read_is_not_taken_for_none(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "a.img").write_bytes(b"what a control held")
+    (tmp_path / "a.img.sha256").symlink_to("nowhere")
+    assert run(["restore", str(tmp_path / "a.img"), "--to", "tcp://127.0.0.1:1"]) == 2
+    assert "a.img.sha256" in capsys.readouterr().err
