@@ -56,7 +56,7 @@ def _file_in(folder: Path) -> Path:
 def _in_terminal() -> int:
     """Do the main job step by step and say what happens; 0 when nothing differs at the end."""
     from amp_studio.files import Document, compare, open_file
-    from amp_studio.report import write_report
+    from amp_studio.report import counted, write_report
     from amp_studio.transfer.client.parameters import download_file, fetch_file
     from amp_studio.validate import Validator
 
@@ -70,7 +70,7 @@ def _in_terminal() -> int:
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
     _tell(
         2,
-        f"validated: {counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice",
+        f"validated: {', '.join(counted(count, severity) for severity, count in counts.items())}",
     )
     report = folder / f"{path.stem}.pdf"
     write_report(file, report, sort="group", changed_only=False, source=path)

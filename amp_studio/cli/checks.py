@@ -14,7 +14,16 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import ENDING, ParameterFileError, open_file, real_path
-from amp_studio.report import finding_json, finding_text, suppressed_text, why_parts, why_text, write_report
+from amp_studio.report import (
+    alike,
+    counted,
+    finding_json,
+    same_finding_text,
+    suppressed_text,
+    why_parts,
+    why_text,
+    write_report,
+)
 from amp_studio.schema.regular_file import read_file
 from amp_studio.validate import RULES_FILE, Finding, Validator, explain, read_builder_rules, rules_beside
 
@@ -182,13 +191,13 @@ def _json(validator: Validator, finding: Finding, why: bool) -> dict[str, Any]:
 def _lines(
     validator: Validator, findings: Sequence[Finding], counts: dict[str, int], path: Path, *, why: bool
 ) -> Iterator[str]:
-    for finding in findings:
-        yield finding_text(validator.file, finding)
+    for same in alike(findings):
+        yield same_finding_text(validator.file, same)
         if why:
-            yield why_text(validator.file, finding, explain(validator, finding))
+            yield from (why_text(validator.file, finding, explain(validator, finding)) for finding in same)
     for left in validator.suppressed:
         yield suppressed_text(validator.file, left)
-    told = f"{counts['error']} errors, {counts['warning']} warnings, {counts['advice']} pieces of advice"
+    told = ", ".join(counted(count, severity) for severity, count in counts.items())
     yield f"{path}: {told}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else "")
 
 

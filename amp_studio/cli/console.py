@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from amp_studio.schema import Schema, UnknownFamilyError, load_schema
+from amp_studio.schema.quoting import quoted
 
 from .errors import UsageError
 from .screen import tell, tell_over
@@ -78,11 +79,14 @@ WAITING = {"restart": "waiting for the control to restart"}
 
 
 def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:
-    """Part ``PARAM=VALUE`` texts; raises UsageError."""
-    pairs = []
+    """Part ``PARAM=VALUE`` texts; raises UsageError that names all that are none."""
+    pairs, slips = [], []
     for text in texts:
         param, sign, value = text.partition("=")
-        if not sign or not param.strip():
-            raise UsageError(f"'{text}' is not PARAM=VALUE")
-        pairs.append((param.strip(), value.strip()))
+        if sign and param.strip():
+            pairs.append((param.strip(), value.strip()))
+        else:
+            slips.append(f"{quoted(text)} is not PARAM=VALUE")
+    if slips:
+        raise UsageError("; ".join(slips))
     return pairs

@@ -10,6 +10,7 @@ from pathlib import Path
 from amp_studio.files import ParameterFile, RangeError, open_file
 from amp_studio.files.lock import now
 from amp_studio.files.out_of_range import out_of_range
+from amp_studio.report.model import counted
 from amp_studio.schema import Address, InvalidValueError
 from amp_studio.transfer.client.exchange import Outcome
 from amp_studio.transfer.client.kept import IMAGE, digest_path, open_copy, save_image
@@ -76,14 +77,14 @@ def restore_verb(options: argparse.Namespace) -> int:
 
 def _note_errors(file: ParameterFile, path: Path) -> str:
     """List the errors of a file, by the rules beside it too; returns how many there are, "" for none."""
-    from amp_studio.report import finding_text
+    from amp_studio.report import alike, same_finding_text
     from amp_studio.validate import Validator, rules_beside
 
     findings = Validator(file, rules_beside(path, file.schema)).run()
     errors = [finding for finding in findings if finding.severity == "error"]
-    for finding in errors:
-        note(finding_text(file, finding))
-    return "" if not errors else "1 error" if len(errors) == 1 else f"{len(errors)} errors"
+    for same in alike(errors):
+        note(same_finding_text(file, same))
+    return counted(len(errors), "error") if errors else ""
 
 
 def _told(outcome: Outcome) -> int:
@@ -116,7 +117,7 @@ def upload_verb(options: argparse.Namespace) -> int:
         for address, said in out_of_range(file):
             walk(file, address, said, options.on_fault, "an upload")
         write_new(file, output)
-        print(f"{output}: {len(file.values)} values")
+        print(f"{output}: {counted(len(file.values), 'value')}")
     print(f"sha256 {sha256(image)}")
     return 0
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
-from amp_studio.report import cells_of, definition, one_line, page_of, table_lines
+from amp_studio.report import cells_of, counted, definition, one_line, page_of, table_lines
 from amp_studio.schema import family_ids
+from amp_studio.schema.nearest import unknown_name
 from amp_studio.validate import calculate, calculators, shown_result
 
 from .console import assignments, family, print_json
@@ -14,7 +16,7 @@ from .errors import UsageError
 
 def families_verb(options: argparse.Namespace) -> int:
     """List the control families."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for family_id in family_ids():
         schema = family(family_id)
         values = max(len(schema.on(m.key).addresses) for m in schema.family.machines)
@@ -30,17 +32,21 @@ def families_verb(options: argparse.Namespace) -> int:
         print_json({"families": rows})
     else:
         for row in rows:
-            print(f"{row['id']:10} {row['name']:40} {row['parameters']:5} parameters, {row['values']} values")
+            print(
+                f"{row['id']:10} {row['name']:40} {counted(row['parameters'], 'parameter')}, {counted(row['values'], 'value')}"
+            )
     return 0
 
 
 def schema_verb(options: argparse.Namespace) -> int:
     """Print every parameter definition of a family."""
     schema = family(options.family)
-    groups = [g for g in schema.groups if options.group in (None, g.key, g.name, g.section)]
+    wanted = options.group and options.group.casefold()
+    groups = [
+        g for g in schema.groups if not wanted or wanted in map(str.casefold, (g.key, g.name, g.section))
+    ]
     if not groups:
-        names = ", ".join(dict.fromkeys(g.name for g in schema.groups))
-        raise UsageError(f"{schema.family.name} has no group '{options.group}': {names}")
+        raise UsageError(unknown_name("group", options.group, [g.name for g in schema.groups]))
     parameters = [p for g in groups for p in g.parameters]
     if options.json:
         print_json({"family": options.family, "signature": schema.signature,
@@ -62,7 +68,7 @@ def tables_verb(options: argparse.Namespace) -> int:
     """List the printed tables of a family, or print one."""
     known = family(options.family).tables
     if options.table is not None and options.table not in known:
-        raise UsageError(f"there is no table '{options.table}'; without one they are all listed")
+        raise UsageError(f"{unknown_name('table', options.table, known)}; without a name all are listed")
     chosen = list(known.values()) if options.table is None else [known[options.table]]
     if options.json:
         print_json({"tables": [{"id": t.id, "title": t.title, "source": t.page, "params": t.params,
@@ -87,7 +93,7 @@ def calculate_verb(options: argparse.Namespace) -> int:
             print(f"{calculator.name}: {calculator.told.splitlines()[0]}")
         return 0
     if options.formula not in known:
-        raise UsageError(f"there is no formula '{options.formula}'; without one they are all listed")
+        raise UsageError(f"{unknown_name('formula', options.formula, known)}; without a name all are listed")
     calculator = known[options.formula]
     if not options.arguments:
         print(calculator.told)

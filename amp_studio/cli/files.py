@@ -19,12 +19,15 @@ from amp_studio.files import (
     open_file,
 )
 from amp_studio.files.lock import now
+from amp_studio.report.model import counted
 from amp_studio.schema import (
     MASKED,
     Address,
     Meant,
+    UnknownParameterError,
     Value,
     all_meant,
+    fault,
     field_at,
     field_value,
     meant,
@@ -39,6 +42,9 @@ from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
 from .output import check_new, note_all, write_new
 
+STATES = {"ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
+"""What a person reads for the state of an inactive parameter."""
+
 
 def new_verb(options: argparse.Namespace) -> int:
     """Make a parameter file with the family's defaults."""
@@ -46,7 +52,7 @@ def new_verb(options: argparse.Namespace) -> int:
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
     file = new_file(options.family, options.machine, axes, options.path.stem)
     write_new(file, options.path)
-    print(f"{options.path}: {schema.family.name}, {file.machine}, {len(file.values)} values")
+    print(f"{options.path}: {schema.family.name}, {file.machine}, {counted(len(file.values), 'value')}")
     return 0
 
 
@@ -66,14 +72,14 @@ def set_verb(options: argparse.Namespace) -> int:
             note(said)
         note_all(document.notes)
         if not changes:
-            note("nothing changed: every value was so already")
+            note("no change")
         for change in changes:
             parameter = file.schema.parameters[change.address[0]]
             name = file.machine_schema.named(change.address)
             print(f"{name}: {show_value(parameter, change.old)} -> {show_value(parameter, change.new)}")
             state = file.evaluation.state(change.address)
             if state.state != "in-force":
-                note(f"{name} is {state.state}: {state.why}")
+                note(f"{name} is inactive ({STATES[state.state]}): {state.why}")
     return 0
 
 
@@ -82,20 +88,32 @@ def wanted(
 ) -> dict[Address, Value | None]:
     """Read assignments in order, each in the light of those before it; the file itself is not changed.
 
-    ``tell`` is called with which parameter a number means that is printed for several.
+    Raises UsageError that names everything that cannot be set. ``tell`` is called with which parameter a number means that is printed for several.
     """
     trial = file.copy()
     found: dict[Address, Value | None] = {}
+    slips: list[str] = []
     for param, text in assignments(texts):
-        found_here = meant(trial.evaluation, param)
-        address, bit = found_here.address, found_here.bit
+        try:
+            found_here = meant(trial.evaluation, param)
+            address, bit = found_here.address, found_here.bit
+            if bit is not None:
+                found[address] = _with_bit(trial, address, bit, text)
+            else:
+                found[address] = trial.read(address, text) if text else None
+        except UnknownParameterError as error:
+            slips.append(str(error))
+            continue
+        except ValueError as error:
+            slips.append(f"{param}: {error}")
+            continue
         if said := found_here.said(trial.schema):
             tell(said)
-        if bit is not None:
-            found[address] = _with_bit(trial, address, bit, text)
-        else:
-            found[address] = trial.read(address, text) if text else None
         trial.set(address, found[address])
+    if slips:
+        faults = ((a, fault(trial.evaluation, a, v)) for a, v in found.items() if v is not None)
+        slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
+        raise UsageError("; ".join(slips))
     return found
 
 
@@ -157,7 +175,7 @@ def get_verb(options: argparse.Namespace) -> int:
         rows.append(_row(file, address, options.secrets))
         if not options.json:
             mark = "" if rows[-1]["default"] else " *"
-            state = "" if rows[-1]["state"] == "in-force" else f"  ({rows[-1]['state']})"
+            state = "" if rows[-1]["state"] == "in-force" else f"  (inactive: {STATES[rows[-1]['state']]})"
             parameter = file.schema.parameters[address[0]]
             shown = show_value(parameter, file.get(address), secrets=options.secrets)
             if file.get(address) is None and rows[-1]["unit"]:
@@ -203,8 +221,8 @@ def print_comparison(file: ParameterFile, found: Comparison, secrets: bool) -> N
     """Print each difference and how many there are; ``file`` is one of the two sides."""
     for difference in found.differences:
         print_difference(file, difference, secrets)
-    print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} are absent in A, "
-          f"{found.absent_in_b} absent in B")  # fmt: skip
+    print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} not set in A, "
+          f"{found.absent_in_b} not set in B")  # fmt: skip
 
 
 def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:
@@ -236,10 +254,10 @@ def merge_verb(options: argparse.Namespace) -> int:
     for c in conflicts:
         p = base.schema.parameters.get(c.address[0])
         if p is None:  # an entry that the schema does not know
-            print(f"conflict at {'@'.join(filter(None, c.address))}: ours stands")
+            print(f"conflict at {'@'.join(filter(None, c.address))}: ours is kept")
             continue
         was, mine, wanted = (show_value(p, v, secrets=options.secrets) for v in (c.base, c.ours, c.theirs))
         print(f"conflict at {base.schema.on(ours.machine).named(c.address)}: base {was}, "
-              f"ours {mine}, theirs {wanted}; ours stands")  # fmt: skip
-    print(f"{options.output}: {len(conflicts)} conflicts")
+              f"ours {mine}, theirs {wanted}; ours is kept")  # fmt: skip
+    print(f"{options.output}: {counted(len(conflicts), 'conflict')}")
     return 1 if conflicts else 0

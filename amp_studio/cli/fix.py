@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
-from difflib import get_close_matches
 from typing import Any
 
 from amp_studio.files import Document, ParameterFile, describe
-from amp_studio.report import finding_text
+from amp_studio.report import alike, counted, same_finding_text
 from amp_studio.schema import (
     MASKED,
     Parameter,
@@ -19,6 +18,7 @@ from amp_studio.schema import (
     show_value,
     write_value,
 )
+from amp_studio.schema.nearest import unknown_name
 from amp_studio.validate import SEVERITIES, Finding, Fixed, Validator, apply_fixes, rules_beside
 
 from .console import note, print_json
@@ -59,7 +59,7 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
     """Return what tells whether the fix of a finding is asked for; raises UsageError for an unknown rule or parameter."""
     rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
     if options.rule is not None and options.rule not in rules:
-        raise UsageError(f"Unknown rule '{options.rule}'.{_nearest(options.rule, rules)}")
+        raise UsageError(unknown_name("rule", options.rule, sorted(rules)))
     named = None if options.param is None else addresses_meant(validator.file.evaluation, options.param)
 
     def wanted(finding: Finding) -> bool:
@@ -70,12 +70,6 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
         )
 
     return wanted
-
-
-def _nearest(text: str, names: Collection[str]) -> str:
-    """Return a sentence that names what may be meant; nothing where no name is like it."""
-    near = get_close_matches(text.strip().partition("@")[0], names, 3, 0.5)
-    return f" Nearest: {', '.join(near)}." if near else ""
 
 
 def _nothing(options: argparse.Namespace, validator: Validator) -> str:
@@ -93,16 +87,11 @@ def _lines(
         parameter, change = file.schema.parameters[fixed.change.address[0]], fixed.change
         yield (f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "
                f"{show_value(parameter, change.new)} ({fixed.rule})")  # fmt: skip
-    yield from (finding_text(file, finding) for finding in findings if finding.severity == "error")
-    names = {"error": "error", "warning": "warning", "advice": "recommendation"}
-    counts = [(sum(f.severity == severity for f in findings), names[severity]) for severity in SEVERITIES]
-    left = ", ".join(_counted(count, name) for count, name in counts)
-    changed = _counted(len({fixed.change.address for fixed in done}), "value")
+    errors = [finding for finding in findings if finding.severity == "error"]
+    yield from (same_finding_text(file, same) for same in alike(errors))
+    left = ", ".join(counted(sum(f.severity == s for f in findings), s) for s in SEVERITIES)
+    changed = counted(len({fixed.change.address for fixed in done}), "value")
     yield f"{options.path}: {changed} {'would be ' if options.dry_run else ''}changed; left: {left}"
-
-
-def _counted(count: int, name: str) -> str:
-    return f"{count} {name}{'' if count == 1 else 's'}"
 
 
 def _json(file: ParameterFile, fixed: Fixed) -> dict[str, Any]:

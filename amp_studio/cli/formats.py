@@ -7,6 +7,7 @@ import argparse
 from amp_studio.files import open_file, secret_values
 from amp_studio.files.out_of_range import out_of_range
 from amp_studio.formats import FamilyNotGivenError, export_file, import_file
+from amp_studio.report.model import counted
 from amp_studio.schema import UnknownFamilyError, written
 
 from .console import note
@@ -37,7 +38,7 @@ def import_verb(options: argparse.Namespace) -> int:
     for key in file.unknown:
         note(f"kept without knowing it: {key}")
     write_new(file, options.output)
-    print(f"{options.output}: {len(file.values)} values")
+    print(f"{options.output}: {counted(len(file.values), 'value')}")
     return 0
 
 
@@ -56,5 +57,5 @@ def export_verb(options: argparse.Namespace) -> int:
         note(
             f"{len(left_out)} secret values are left out, {written(left_out[0])} among them (--secrets writes them)"
         )
-    print(f"{options.output}: {chosen.title}, {len(file.values) - len(left_out)} values")
+    print(f"{options.output}: {chosen.title}, {counted(len(file.values) - len(left_out), 'value')}")
     return 0

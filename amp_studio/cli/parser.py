@@ -3,32 +3,110 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from amp_studio import __version__
 
 from .errors import UsageError
 
+_USUAL = {
+    "path": "parameter file (.amp)",
+    "family": "control family",
+    "param": "number or id of a parameter",
+    "params": "numbers or ids of parameters",
+    "assignments": "parameter and its new value",
+    "machine": "machine type: mill, lathe, …",
+    "group": "only the parameters of this group",
+    "table": "the table to print",
+    "formula": "the formula to work out",
+    "arguments": "what the formula is worked out of",
+    "text": "a control's own text file",
+    "address": "where the control is reached",
+    "a": "file, or address of a control",
+    "b": "file, or address of a control",
+    "base": "what both sides began with",
+    "ours": "our side, which wins conflicts",
+    "theirs": "the other side",
+    "scenario": "what is simulated",
+    "axis": "axis by its letter or number (default: the first)",
+    "output": "file to write",
+    "sort": "order of the values (default: group)",
+    "changed-only": "only values that differ from the default",
+    "listen": "where the control is reached",
+    "to": "where the control is reached",
+    "source": "where the control is reached",
+    "control": "where the control is reached",
+    "shell": "bash, zsh or fish",
+}
+"""Name of an argument -> its help where a verb says nothing else of it."""
+
 
 class _Parser(argparse.ArgumentParser):
-    """An argument parser that says what is wrong in one line."""
+    """An argument parser that says what is wrong in one line, and whose help ends with examples."""
+
+    def __init__(self, *, verb: str = "", **how: Any) -> None:
+        self.verb = verb
+        super().__init__(**how)
+
+    def add_argument(self, *names: Any, **how: Any) -> argparse.Action:
+        """Add an argument, with the usual help where none is given."""
+        usual = _USUAL.get(how.get("dest") or names[-1].lstrip("-"))
+        return super().add_argument(*names, **({"help": usual} if usual else {}) | how)
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message} (see '{self.prog} --help')")
+
+    def format_help(self) -> str:
+        """Return the help of argparse with what stands below it."""
+        from .manual import sections
+
+        below = (
+            f"{title}:\n" + "\n".join(f"  {line}" for line in lines) for title, lines in sections(self.verb)
+        )
+        return "\n\n".join([super().format_help().rstrip(), *below]) + "\n"
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse; an option that there is not is told before what is missing because of it."""
+        for text in () if args is None else args:
+            if text == "--" or not (self.verb or text.startswith("-")):
+                break  # what follows are no options, or those of the verb
+            name = text.partition("=")[0]
+            known = list(self._option_string_actions)
+            if name.startswith("--") and not any(option.startswith(name) for option in known):
+                self.error(_unknown("option", name, known))
+        return super().parse_known_args(args, namespace)
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is not None and value not in action.choices:
+            self.error(_unknown(_named(action), str(value), action.choices))
+
+
+def _named(action: argparse.Action) -> str:
+    """Return what a person calls an argument."""
+    return (action.option_strings or [str(action.metavar or action.dest).lower()])[-1].lstrip("-")
+
+
+def _unknown(what: str, name: str, known: Iterable[str]) -> str:
+    from amp_studio.schema.nearest import unknown_name  # the rooms are loaded when they are needed
+
+    return unknown_name(what, name, known)
 
 
 def parser() -> argparse.ArgumentParser:
     """Return the parser of every verb; ``module`` and ``verb`` say who acts."""
     top = _Parser(
-        prog="amp-studio", description="Edit, check, print and exchange the parameters of a machine control."
+        prog="amp-studio",
+        description="Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program.",
     )
     top.add_argument("--version", action="version", version=f"amp-studio {__version__}")
     verbs = top.add_subparsers(metavar="VERB", required=True, parser_class=_Parser)
 
     def verb(name: str, module: str, told: str, writes: str = "") -> argparse.ArgumentParser:
         """Add a verb; ``writes`` names the option whose file it may replace."""
-        sub = verbs.add_parser(name, help=told, description=told)
+        said = f"{told[0].upper()}{told[1:]}."
+        sub: argparse.ArgumentParser = verbs.add_parser(name, help=told, description=said, verb=name)
         sub.set_defaults(verb=f"{name}_verb", module=module, writes=writes.split())
         return sub
 
@@ -216,6 +294,9 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--terminal", action="store_true", help="stay in the terminal even where there is a display"
     )
+    sub = verb("completion", "completion", "print the completion script of a shell")
+    sub.add_argument("shell", choices=("bash", "zsh", "fish"))
+    verb("man", "manual", "print the man page")
     return top
 
 
@@ -224,6 +305,12 @@ def _path(text: str) -> Path:
     if not text:
         raise argparse.ArgumentTypeError("an empty text is no path")
     return Path(text)
+
+
+def verbs_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    """Return the parser of each verb."""
+    (verbs,) = (action.choices for action in top._actions if isinstance(action.choices, dict))
+    return dict(verbs)
 
 
 def _count(text: str) -> int:

@@ -54,6 +54,8 @@ def run_verb(arguments: Sequence[str]) -> int:
         from amp_studio.ui import main as desktop
 
         return desktop([])
+    if arguments[0] == "__complete":  # a shell asks while somebody types
+        return _complete(arguments[1:])
     replaced: list[Target] = []
     try:
         return _run(arguments, replaced)
@@ -63,6 +65,20 @@ def run_verb(arguments: Sequence[str]) -> int:
         ):  # an emulated control that has not begun yet: there is no other way to end it
             return _leave()
         return _refuse("stopped", replaced)
+
+
+def _complete(words: Sequence[str]) -> int:
+    """Answer a shell; whatever goes wrong is no answer."""
+    from .completion import answer
+    from .screen import end_results
+
+    try:
+        answer(words, os.environ.get("AMP_STUDIO_BREAKS", ""))
+    except Exception:
+        return FAULT
+    finally:
+        end_results()
+    return 0
 
 
 def _run(arguments: Sequence[str], replaced: list[Target]) -> int:

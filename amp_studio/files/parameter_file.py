@@ -17,6 +17,7 @@ from amp_studio.schema import (
     same_value,
     written,
 )
+from amp_studio.schema.nearest import unknown_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,7 +230,7 @@ def new_file(
     schema = load_schema(family)
     known = [m.key for m in schema.family.machines]
     if machine is not None and machine not in known:
-        raise ValueError(f"{schema.family.name} has no machine type '{machine}': {', '.join(known)}")
+        raise ValueError(unknown_name("machine type", machine, known))
     applications = schema.family.applications
     file = ParameterFile(
         schema,

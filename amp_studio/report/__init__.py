@@ -6,8 +6,9 @@ the documenter's three orders; ``build_report`` gives the same as plain data.
 
 from .build import build_report
 from .describe import definition, finding_json, finding_text, suppressed_text
+from .findings import alike, same_finding_text
 from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
-from .model import SORTS, Report, Sort
+from .model import SORTS, Report, Sort, counted
 from .printed_table import cells_of, table_lines, tables_of
 from .why import why_parts, why_text
 from .write import FORMATS, write_report
@@ -17,8 +18,10 @@ __all__ = [
     "SORTS",
     "Report",
     "Sort",
+    "alike",
     "build_report",
     "cells_of",
+    "counted",
     "definition",
     "facts",
     "finding_json",
@@ -28,6 +31,7 @@ __all__ = [
     "one_line",
     "page_of",
     "range_text",
+    "same_finding_text",
     "suppressed_text",
     "table_lines",
     "tables_of",

@@ -19,6 +19,7 @@ from amp_studio.schema.model import BoundRef, Choice, StateRule
 from amp_studio.validate import Finding, Setting, Suppressed
 
 from .manual_page import entry_units, erratum_text, sharing_numbers
+from .model import SEVERITY_WORDS
 
 
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
@@ -152,8 +153,9 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding in a line or two for the terminal."""
     names = ", ".join(_named(file, a) for a in finding.addresses[:8])
     page = f" ({finding.cited})" if finding.page else ""
-    lines = [f"{finding.severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
-    for what, settings in (("the control uses", finding.effective), ("repair", finding.repairs)):
+    severity = SEVERITY_WORDS.get(finding.severity, finding.severity)
+    lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
+    for what, settings in (("the control uses", finding.effective), ("suggested fix", finding.repairs)):
         if settings:
             told = ", ".join(
                 f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"

@@ -10,8 +10,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import Finding, Setting, Suppressed
 
-from .model import Note
-from .rows import axis_label, scope_of
+from .describe import finding_text
+from .model import SEVERITY_WORDS, Note
+from .rows import axis_label, axis_name, scope_of
 
 _NAMED = 6
 """Values a finding names one by one; a message about more names the first of them itself."""
@@ -19,10 +20,38 @@ _NAMED = 6
 
 def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
     """Return the findings in their order; ``printed`` are the anchors of the values a report prints."""
-    alike: dict[tuple[str, str, str], list[Finding]] = {}
+    return tuple(_note(file, same, printed) for same in alike(findings))
+
+
+def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
+    """Return findings in their order, those together that say the same of several axes."""
+    found: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in findings:
-        alike.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
-    return tuple(_note(file, same, printed) for same in alike.values())
+        found.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
+    return list(found.values())
+
+
+def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
+    """Return what several findings say alike, in a line or more for the terminal: ``axes X, Y: …``."""
+    if len(same) == 1:
+        return finding_text(file, same[0])
+    note = _note(file, same, set())
+    axes = [axis_name(file, axis) or axis for axis in _axes(file, same)]
+    place = f"{'axes' if len(axes) > 1 else 'axis'} {', '.join(axes)}: " if axes else ""
+    every = (a for f in same for a in (f.addresses if len(f.addresses) <= _NAMED else f.causes[:_NAMED]))
+    names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))
+    first = f"{place}{names}{': ' if names else ''}{note.message}"
+    cited = f" ({same[0].cited})" if same[0].page else ""
+    lines = [f"{SEVERITY_WORDS.get(note.severity, note.severity):8} {first}{cited}"]
+    if note.repair:
+        lines.append(f"         suggested fix: {note.repair}")
+    return "\n".join(lines)
+
+
+def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
+    """Return the axes that findings are about, in their order."""
+    axes = {a[1] for finding in findings for a in finding.addresses if scope_of(file, a) == "axis"}
+    return sorted(axes, key=lambda axis: (len(axis), axis))
 
 
 def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: set[str]) -> tuple[Note, ...]:

@@ -240,10 +240,13 @@ class Report:
         return {name: notes for name, notes in found.items() if notes}
 
 
+SEVERITY_WORDS = {"advice": "recommendation"}
+"""What a person reads for a severity whose key is another word."""
+
+
 def counted(number: int, noun: str) -> str:
-    """Return ``1 error``, ``2 errors``, ``3 pieces of advice``."""
-    if noun == "advice":
-        return f"{number} {'piece' if number == 1 else 'pieces'} of advice"
+    """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``noun`` may be a severity."""
+    noun = SEVERITY_WORDS.get(noun, noun)
     if noun == "suppressed":
         return f"{number} suppressed {'finding' if number == 1 else 'findings'}"
     return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -22,7 +22,8 @@ from .consistency import faults_between
 from .file_error import FileError, read_yaml_file
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
 from .model_errors import Slip, slips
-from .quoting import quoted, short
+from .nearest import unknown_name
+from .quoting import short
 from .registration import added_facts
 from .yaml_reader import KeyPath, YamlDocument
 
@@ -41,7 +42,7 @@ class UnknownFamilyError(KeyError):
     """A family that there is not; the text is one clear sentence."""
 
     def __init__(self, said: str) -> None:
-        super().__init__(f"Unknown family {quoted(said)}. Known: {', '.join(family_ids())}")
+        super().__init__(unknown_name("family", said, family_ids()))
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -1,4 +1,4 @@
-"""The nearest known word, for messages about an unknown one."""
+"""The nearest known names, for messages about an unknown one."""
 
 from __future__ import annotations
 
@@ -6,8 +6,14 @@ from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from functools import lru_cache
 
+from .quoting import quoted
+
 _LONGEST = 100
 """Characters of a word that a person mistyped; a longer one is no slip of the hand."""
+_SHOWN = 3
+"""Names that come near."""
+_FEW = 12
+"""Names of which all are told."""
 _SHORT = 12
 """Characters of a word in which two wrong ones count for much."""
 
@@ -16,6 +22,19 @@ def did_you_mean(word: str, known: Iterable[str], *, found: Callable[[str], str]
     """Return ``, did you mean 'x'?`` or nothing; ``found`` turns the nearest word into the one to show."""
     near = _nearest(word, tuple(known)) if len(word) <= _LONGEST else ""
     return f", did you mean '{found(near)}'?" if near else ""
+
+
+def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
+    """Return what is said of a name that does not exist: the names that come near, and all of them where they are few."""
+    names = list(dict.fromkeys(known))
+    by_small = {known_name.casefold(): known_name for known_name in reversed(names)}
+    near = get_close_matches(name.strip().casefold()[:_LONGEST], by_small, _SHOWN, 0.6)
+    parts = [f"Unknown {what} {quoted(name)}"]
+    if len(names) <= _FEW:
+        parts.append(f"Known: {', '.join(names)}" if names else "There are none")
+    if near:
+        parts.append(f"Did you mean: {', '.join(by_small[word] for word in near)}")
+    return ". ".join(parts)
 
 
 @lru_cache(maxsize=1024)  # it takes milliseconds, and a file may have the same slip in every line

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.schema.nearest import unknown_name
 
 from .law import law_of
 from .reading import Value
@@ -25,7 +26,7 @@ def simulate(
     Raises SimulationError naming the parameter that is missing or impossible.
     """
     if scenario not in SCENARIOS:
-        raise SimulationError(f"'{scenario}' is no scenario: {', '.join(SCENARIOS)}")
+        raise SimulationError(unknown_name("scenario", scenario, SCENARIOS))
     fitted = fitted_axes(file)
     if not fitted:
         raise SimulationError("no axis is fitted")

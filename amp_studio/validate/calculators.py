@@ -12,6 +12,7 @@ from typing import Any, get_type_hints
 from pydantic import TypeAdapter, ValidationError
 
 from amp_studio.schema import InvalidValueError, read_number, write_number
+from amp_studio.schema.nearest import unknown_name
 
 from .formulas import formulas
 
@@ -71,10 +72,10 @@ def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
     """
     calculator = calculators(family).get(name)
     if calculator is None:
-        raise ValueError(f"there is no formula '{name}'")
-    unknown = set(texts) - {argument.name for argument in calculator.arguments}
-    if unknown:
-        raise ValueError(f"{name} has no '{min(unknown)}'")
+        raise ValueError(unknown_name("formula", name, calculators(family)))
+    arguments = [argument.name for argument in calculator.arguments]
+    if unknown := [text for text in texts if text not in arguments]:
+        raise ValueError(". ".join(unknown_name(f"argument of {name}", text, arguments) for text in unknown))
     values = {}
     for argument in calculator.arguments:
         text = texts.get(argument.name, "").strip()

@@ -249,7 +249,7 @@ def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path,
     assert lines[0].startswith("1300 Home Calibration ")
     assert lines[0].endswith("0 mm  |  1.5 mm")
     assert "3 differ, " in total
-    assert "1 are absent in A, 1 absent in B" in total
+    assert "1 not set in A, 1 not set in B" in total
 
 
 def test_diff_writes_nothing(amp, mill: Path, twin: Path, folder) -> None:
@@ -286,8 +286,8 @@ def test_conflicts_are_listed_and_end_with_1(amp, three, tmp_path: Path) -> None
     amp("set", three[2], "1300=7")
     out = tmp_path / "merged.amp"
     said = amp("merge", *three, "-o", out)
-    expected = "conflict at 1300 Home Calibration: base 0 mm, ours 1 mm, theirs 7 mm; ours stands"
-    assert (1, [expected, f"{out}: 1 conflicts"]) == (said.code, said.out.splitlines())
+    expected = "conflict at 1300 Home Calibration: base 0 mm, ours 1 mm, theirs 7 mm; ours is kept"
+    assert (1, [expected, f"{out}: 1 conflict"]) == (said.code, said.out.splitlines())
     assert Value(1.0, "mm") == open_file(out).file.get(("home.calibration", "1"))
 
 
@@ -295,7 +295,7 @@ def test_a_conflict_over_an_entry_nobody_understands_is_listed_too(amp, three, t
     for path, number in zip(three, "123", strict=True):
         path.write_text(path.read_text().replace("\n...", f"\n  future.thing@1: '{number}'\n..."))
     said = amp("merge", *three, "-o", tmp_path / "merged.amp")
-    assert (said.code, "conflict at future.thing@1: ours stands" in said.out) == (1, True)
+    assert (said.code, "conflict at future.thing@1: ours is kept" in said.out) == (1, True)
 
 
 def test_a_merge_does_not_overwrite(amp, three, folder) -> None:

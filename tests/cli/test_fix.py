@@ -130,8 +130,8 @@ def test_only_safe_fixes_leave_the_motion_alone(broken: Path, amp) -> None:
 @pytest.mark.parametrize(
     ("option", "text", "told"),
     [
-        ("--rule", "9pc.servo.excess-margins", "Unknown rule '9pc.servo.excess-margins'. Nearest: 9pc.servo.excess-margin"),
-        ("--rule", "", "Unknown rule ''."),
+        ("--rule", "9pc.servo.excess-margins", "Unknown rule '9pc.servo.excess-margins'. Did you mean: 9pc.servo.excess-margin"),
+        ("--rule", "", "Unknown rule ''"),
         ("--param", "servo.exces_error@1", "servo.excess_error"),
         ("--param", "99999", "99999"),
     ],

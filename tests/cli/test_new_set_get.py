@@ -40,7 +40,7 @@ def test_a_new_file_does_not_overwrite(amp, mill: Path, folder) -> None:
     ("arguments", "said"),
     [
         (("fanuc", "x.amp"), "Unknown family 'fanuc'. Known: "),
-        (("9pc", "x.amp", "--machine", "grinder"), "has no machine type 'grinder': lathe, mill"),
+        (("9pc", "x.amp", "--machine", "grinder"), "Unknown machine type 'grinder'. Known: lathe, mill"),
         (("9pc", "x.amp", "--axes", "X,Q"), "'Q' is not a choice of Axis Name"),
         (("9pc", "x.amp", "--axes", "X,Y,Z,A,B,C,U,V,W"), "9 axes are too many"),
         (("9pc", "x.amp", "--axes", "X,,Z"), "'' is not a choice of Axis Name"),
@@ -121,12 +121,12 @@ def test_without_parameters_everything_that_exists_is_given(amp, mill: Path) -> 
     assert shown == {a for a, row in every.items() if a in is_set and row["state"] != "hidden"}
 
 
-def test_a_person_sees_what_was_changed_and_what_is_out_of_force(amp, mill: Path) -> None:
+def test_a_person_sees_what_was_changed_and_what_is_inactive(amp, mill: Path) -> None:
     amp("set", mill, "1300=2")
     lines = amp("get", mill, "1300", "2300", "1320", "1009").out.splitlines()
     assert re.fullmatch(r"1300 Home Calibration +2 mm \*", lines[0])
     assert re.fullmatch(r"2300 Home Calibration +0 mm", lines[1])
-    assert re.fullmatch(r"1320 Positive Software Overtravel +0 mm  \(ignored\)", lines[2])
+    assert re.fullmatch(r"1320 Positive Software Overtravel +0 mm  \(inactive: ignored\)", lines[2])
     assert re.fullmatch(r"1009 Programmable Zone Group Axis +—", lines[3])
 
 
@@ -197,11 +197,11 @@ def test_a_pair_that_bounds_each_other_is_set_together(amp, mill: Path) -> None:
     )
 
 
-def test_who_sets_what_is_not_in_force_is_told(amp, mill: Path) -> None:
+def test_who_sets_what_is_inactive_is_told(amp, mill: Path) -> None:
     said = amp("set", mill, "1320=5")
     assert (said.code, said.err) == (
         0,
-        "1320 Positive Software Overtravel is ignored: software overtravel is not used on this axis\n",
+        "1320 Positive Software Overtravel is inactive (ignored): software overtravel is not used on this axis\n",
     )
 
 

@@ -183,7 +183,7 @@ def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
     ("arguments", "said"),
     [
         (("schema", "fanuc"), "Unknown family 'fanuc'. Known: "),
-        (("schema", "9pc", "--group", "Tools"), "has no group 'Tools': Axis Configuration, "),
+        (("schema", "9pc", "--group", "Tools"), "Unknown group 'Tools'"),
         (("show", "fanuc", "1"), "Unknown family 'fanuc'. Known: "),
         (("show", "9pc", "99999"), "Unknown parameter '99999'. Did you mean: "),
         (("show", "9pc", "home.calibratio"), "Unknown parameter 'home.calibratio'"),
@@ -219,7 +219,7 @@ def test_tables_as_json_are_all_there(amp) -> None:
 
 def test_a_table_that_there_is_not_is_refused(amp) -> None:
     assert amp("tables", "syntec", "mot-999").err == (
-        "amp-studio: there is no table 'mot-999'; without one they are all listed\n"
+        "amp-studio: Unknown table 'mot-999'. Did you mean: mot-029, mot-019; without a name all are listed\n"
     )
 
 

@@ -50,7 +50,7 @@ def in_force(file: ParameterFile) -> list[Address]:
 def test_nothing_is_found_wrong(example: Path, capsys: pytest.CaptureFixture[str]) -> None:
     # The advice an example keeps on purpose would stand in its README; at present there is none.
     assert run(["validate", str(example)]) == 0
-    assert capsys.readouterr().out == f"{example}: 0 errors, 0 warnings, 0 pieces of advice\n"
+    assert capsys.readouterr().out == f"{example}: 0 errors, 0 warnings, 0 recommendations\n"
 
 
 def test_every_parameter_in_force_has_a_value(example: Path) -> None:

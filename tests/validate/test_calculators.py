@@ -27,11 +27,15 @@ def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str
 @pytest.mark.parametrize(
     ("name", "texts", "said"),
     [
-        ("nonsense", {}, "there is no formula 'nonsense'"),
+        ("nonsense", {}, "Unknown formula 'nonsense'"),
         ("gain_break_point", {"gain": "1"}, "needs max_contouring"),
         ("gain_break_point", {"max_contouring": "x", "gain": "1"}, "'x' is no max_contouring"),
         ("gain_break_point", {"max_contouring": "1 mm", "gain": "1"}, "'1 mm' is no max_contouring"),
-        ("gain_break_point", {"max_contouring": "1", "gain": "1", "speed": "2"}, "has no 'speed'"),
+        (
+            "gain_break_point",
+            {"max_contouring": "1", "gain": "1", "speed": "2"},
+            "Unknown argument of gain_break_point 'speed'. Known: max_contouring, gain",
+        ),
         ("gain_break_point", {"max_contouring": "1", "gain": "0"}, "greater than zero"),
         ("inside_zone", {"position": "5, 5", "limits": "0, 10"}, r"'0, 10' is no limits"),
     ],

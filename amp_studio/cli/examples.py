@@ -1,0 +1,58 @@
+"""Examples of every verb, shown by its help and the man page, and run word for word by the tests."""
+
+from __future__ import annotations
+
+MILL = "MILL_1394.amp"
+"""The example machine (``examples/mill-1394``); a copy of it lies in the folder in which the examples are run."""
+
+EXAMPLES: dict[str, tuple[str, ...]] = {
+    "families": ("amp-studio families",),
+    "schema": ('amp-studio schema 9pc --group "Home Parameters"', "amp-studio schema num --json"),
+    "show": ("amp-studio show 9pc 1300", "amp-studio show num P21", "amp-studio show syntec Pr61"),
+    "tables": ("amp-studio tables 9pc", "amp-studio tables 9pc accdec-codes"),
+    "calculate": (
+        "amp-studio calculate 9pc",
+        "amp-studio calculate 9pc acceleration_time_s milliseconds=125",
+    ),
+    "new": ("amp-studio new 9pc lathe.amp --machine lathe --axes X,Z,S",),
+    "set": (
+        f"amp-studio set {MILL} 1300=1.5",
+        f'amp-studio set {MILL} home.calibration@X="0.05 in" 1350=300',
+        f"amp-studio set {MILL} 1300=",
+    ),
+    "get": (
+        f"amp-studio get {MILL} 1300 home.calibration@Y",
+        f"amp-studio get {MILL} --all --json",
+    ),
+    "validate": (
+        f"amp-studio validate {MILL}",
+        f"amp-studio validate {MILL} --why --json",
+    ),
+    "fix": (f"amp-studio fix {MILL} --dry-run", f"amp-studio fix {MILL} --safe"),
+    "diff": (f"amp-studio diff {MILL} other.amp",),
+    "merge": (f"amp-studio merge {MILL} other.amp {MILL} -o merged.amp",),
+    "report": (
+        f"amp-studio report {MILL} -o mill.pdf",
+        f"amp-studio report {MILL} -o changed.csv --changed-only --sort axis",
+    ),
+    "export": (f"amp-studio export {MILL} -o mill.csv",),
+    "import": ("amp-studio import values.csv -o imported.amp --family 9pc",),
+    "emulate": ("amp-studio emulate 9pc --listen tcp://127.0.0.1:8193 --state control",),
+    "ports": ("amp-studio ports",),
+    "identify": ("amp-studio identify tcp://127.0.0.1:8193",),
+    "download": (f"amp-studio download {MILL} --to tcp://127.0.0.1:8193",),
+    "verify": (f"amp-studio verify {MILL} --with tcp://127.0.0.1:8193",),
+    "upload": (
+        "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.amp",
+        "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.img",
+    ),
+    "restore": ("amp-studio restore uploaded.img --to tcp://127.0.0.1:8193",),
+    "simulate": (
+        f"amp-studio simulate {MILL} step --axis X",
+        f"amp-studio simulate {MILL} step --axis X --set move.distance=50 -o trace.csv",
+    ),
+    "demo": ("amp-studio demo --terminal",),
+    "completion": ("amp-studio completion bash",),
+    "man": ("amp-studio man",),
+}
+"""Verb -> command lines, in the order in which they can be tried one after the other."""

@@ -1,0 +1,115 @@
+"""What stands below the help of a verb, and the man page: both from the parser and the examples.
+
+Nothing here loads a schema: help must come at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+
+from amp_studio import __version__
+
+from .examples import EXAMPLES
+
+SCENARIOS = ("step",)
+"""Scenarios of ``simulate``; the room of the simulator knows them, and loading it takes a second."""
+
+EXIT_CODES = (
+    "0  done, nothing wrong",
+    "1  done; what was checked has errors, or the two sides differ",
+    "2  the input cannot be used; nothing was changed",
+    "3  something was changed before it failed; the message says what holds now",
+    "4  it is not known whether the control changed; the message says how to find out",
+)
+_FAMILY = ("schema", "show", "tables", "calculate", "new", "import", "emulate")
+_PARAM = ("show", "set", "get", "fix", "simulate")
+_ADDRESS = ("diff", "emulate", "identify", "download", "verify", "upload", "restore")
+_PARAMETERS = (
+    "1300                 the number in the manual",
+    "home.calibration@X   id and axis, by letter or number",
+    "P3N0.5               one bit of a packed word",
+    "P21                  every word of a number (get, show)",
+)
+_VALUES = (
+    "12.5, '10 ipm'       a number, in the unit of entry or with its unit",
+    "yes, no              yes/no, or the label or letter of a choice (a)",
+    "raw:-1               what the control stores",
+    "0x05                 a mask; bit by bit: P3N0.5=yes",
+    "nothing              not set: 1300=",
+    "Units: mm, in, deg, mm/min, ipm, deg/min, rpm, ms, s, %, V, Hz",
+)
+_ADDRESSES = (
+    "tcp://HOST:PORT      tls://HOST:PORT      rfc2217://HOST:PORT",
+    "/dev/ttyUSB0, COM3   serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even&stop=2&flow=xonxoff",
+    "pty:                 (emulate only) make a terminal and print its name",
+)
+
+
+def families() -> tuple[str, ...]:
+    """Return the families, as ``family_ids`` of the schema does, without loading it."""
+    package = Path(__file__).resolve().parent.parent
+    folders = (package / "parameter_db", package.parent / "parameter_db")
+    return tuple(sorted(p.parent.name for folder in folders for p in folder.glob("*/family.yaml")))
+
+
+def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield what stands below the help of a verb, or of the program (""): a title and its lines."""
+    if verb in ("", *_FAMILY):
+        yield "families", (", ".join(families()),)
+    if verb == "simulate":
+        yield "scenarios", (", ".join(SCENARIOS),)
+    if verb in _PARAM:
+        yield "PARAM", _PARAMETERS
+    if verb in ("set", "simulate"):
+        yield "VALUE", _VALUES
+    if verb in _ADDRESS:
+        yield "ADDRESS", _ADDRESSES
+    if verb in EXAMPLES:
+        yield "examples", EXAMPLES[verb]
+    yield "exit codes", EXIT_CODES
+
+
+def man_verb(options: argparse.Namespace) -> int:  # noqa: ARG001  # every verb takes them
+    """Print the man page."""
+    print(man_page(), end="")
+    return 0
+
+
+def man_page() -> str:
+    """Return the man page as troff."""
+    from .parser import parser, verbs_of
+
+    top = parser()
+    lines = [
+        f'.TH AMP-STUDIO 1 "" "amp-studio {__version__}" "User Commands"',
+        ".SH NAME", _plain(f"amp-studio - {(top.description or '').partition('. ')[0].rstrip('.').lower()}"),
+        ".SH SYNOPSIS", r".B amp\-studio", r".I VERB", "[argument ...]",
+        ".SH DESCRIPTION", _plain(top.description or ""),
+        ".SH VERBS",
+    ]  # fmt: skip
+    for name, sub in verbs_of(top).items():
+        lines += [f".SS {_plain(name)}", _plain(sub.description or ""), ".PP", _usage(sub)]
+        for action in sub._actions:
+            if action.help and action.dest != "help":
+                names = ", ".join(action.option_strings) or str(action.metavar or action.dest)
+                lines += [".TP", rf"\fB{_plain(names)}\fR", _plain(action.help)]
+        lines += _blocks(list(sections(name))[:-1])
+    lines += [".SH EXIT STATUS", ".nf", *map(_plain, EXIT_CODES), ".fi"]
+    return "\n".join(lines) + "\n"
+
+
+def _usage(sub: argparse.ArgumentParser) -> str:
+    return _plain(" ".join(sub.format_usage().removeprefix("usage: ").split()))
+
+
+def _blocks(found: list[tuple[str, tuple[str, ...]]]) -> Iterator[str]:
+    for title, lines in found:
+        yield from (".PP", _plain(f"{title}:"), ".RS", ".nf", *map(_plain, lines), ".fi", ".RE")
+
+
+def _plain(text: str) -> str:
+    """Return a text with nothing in it that troff would take for its own."""
+    escaped = text.replace("\\", r"\e").replace("-", r"\-").replace("%%", "%").replace("…", "...")
+    return rf"\&{escaped}" if escaped.startswith((".", "'")) else escaped

@@ -1,0 +1,266 @@
+"""Help, examples, the man page and shell completion."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from amp_studio import cli
+from amp_studio.cli.examples import EXAMPLES, MILL
+from amp_studio.cli.manual import SCENARIOS, families, man_page
+from amp_studio.cli.parser import parser, verbs_of
+from amp_studio.schema import family_ids
+from amp_studio.sim import SCENARIOS as SIMULATED
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / MILL
+AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore")
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder with a copy of the example machine, another one that differs, and a table of values."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(EXAMPLE, MILL)
+    shutil.copy(EXAMPLE, "other.amp")
+    assert cli.run(["set", "other.amp", "1300=2"]) == 0
+    assert cli.run(["export", MILL, "-o", "values.csv"]) == 0
+    return tmp_path
+
+
+# -- help -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arguments", ["--version", "--help", "validate --help", "simulate --help"])
+def test_neither_the_version_nor_help_loads_a_schema(arguments: str) -> None:
+    code = (
+        "import sys; from amp_studio import cli; cli.run(sys.argv[1:]);"
+        "print([m for m in ('pydantic', 'ruamel.yaml', 'amp_studio.schema', 'amp_studio.sim') if m in sys.modules])"
+    )
+    told = subprocess.run(
+        [sys.executable, "-c", code, *arguments.split()], capture_output=True, text=True, check=True
+    )
+    assert told.stdout.splitlines()[-1] == "[]"
+
+
+def test_help_names_the_families_and_scenarios_that_there_are() -> None:
+    assert families() == family_ids()
+    assert tuple(SIMULATED) == SCENARIOS
+
+
+@pytest.mark.parametrize("verb", verbs_of(parser()))
+def test_help_of_every_verb_has_examples_and_exit_codes_and_explains_every_argument(verb: str) -> None:
+    sub = verbs_of(parser())[verb]
+    told = sub.format_help()
+    assert all(line in told for line in EXAMPLES[verb])
+    assert "exit codes:\n  0  done" in told
+    assert [action.dest for action in sub._actions if not action.help] == []
+
+
+def offline() -> Iterator[str]:
+    """Yield the examples that need no control, in their order."""
+    yield from (line for verb, lines in EXAMPLES.items() if verb not in AT_A_CONTROL for line in lines)
+
+
+@pytest.mark.parametrize("line", [line for line in offline() if " demo " not in line])
+def test_an_example_works_word_for_word(line: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, *arguments = shlex.split(line)
+    differs = "diff" in arguments
+    assert (program, cli.run(arguments)) == ("amp-studio", 1 if differs else 0), capsys.readouterr().err
+
+
+def test_the_examples_at_a_control_work_word_for_word_one_after_the_other(here: Path) -> None:
+    (emulate,) = EXAMPLES["emulate"]
+    run = [sys.executable, "-m", "amp_studio.cli"]
+    with subprocess.Popen(
+        [*run, *shlex.split(emulate)[1:]], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as control:
+        try:
+            first = control.stdout.readline()
+            if not first:
+                pytest.skip(f"the port of the example is taken: {control.stderr.read()}")
+            for verb in AT_A_CONTROL[1:]:
+                for line in EXAMPLES[verb]:
+                    done = subprocess.run([*run, *shlex.split(line)[1:]], capture_output=True, check=False)
+                    assert done.returncode == 0, (line, done.stderr)
+        finally:
+            control.kill()
+
+
+# -- wrong names ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("vaildate x.amp", "Unknown verb 'vaildate'. Did you mean: validate"),
+        ("validate --jsn x.amp", "Unknown option '--jsn'."),
+        ("report --outptu x.pdf", "Did you mean: --output"),
+        ("--verison", "Unknown option '--verison'. Known: -h, --help, --version. Did you mean: --version"),
+        (
+            "report a -o b.pdf --sort axes",
+            "Unknown sort 'axes'. Known: axis, number, group. Did you mean: axis",
+        ),
+        (
+            "new 9PC x.amp",
+            "Unknown family '9PC'. Known: 57c422b, 9pc, acromill, num, syntec. Did you mean: 9pc",
+        ),
+        ("new 9pc x.amp --machine mil", "Unknown machine type 'mil'. Known: lathe, mill. Did you mean: mill"),
+        (
+            "schema 9pc --group=home-parameters",
+            "Unknown group 'home-parameters'. Did you mean: Home Parameters",
+        ),
+        ("tables 9pc accdec-code", "Unknown table 'accdec-code'. Did you mean: accdec-codes"),
+        (
+            "calculate 9pc gain_break_pont",
+            "Unknown formula 'gain_break_pont'. Did you mean: gain_break_point",
+        ),
+        (f"simulate {MILL} setp", "Unknown scenario 'setp'. Known: step. Did you mean: step"),
+    ],
+)
+def test_a_wrong_name_is_answered_with_the_nearest(amp, here: Path, line: str, said: str) -> None:
+    refused = amp(*line.split())
+    assert (refused.code, said in refused.err) == (2, True), refused.err
+
+
+def test_all_slips_of_a_set_are_told_at_once_and_nothing_is_changed(amp, here: Path) -> None:
+    before = Path(MILL).read_bytes()
+    refused = amp("set", MILL, "1300=abc", "home.calibratio@X=1", "350=drill", "2300=9999999 mm", "3300=1")
+    assert refused.code == 2
+    for said in ("'abc'", "Unknown parameter 'home.calibratio@X'", "'drill'", "2300"):
+        assert said in refused.err, said
+    assert Path(MILL).read_bytes() == before
+    assert "'1300' is not PARAM=VALUE; '=5' is not PARAM=VALUE" in amp("set", MILL, "1300", "=5").err
+
+
+# -- findings and counts ----------------------------------------------------------------------------------------
+
+
+def test_what_is_said_alike_of_several_axes_is_said_once_and_json_has_each(amp, here: Path) -> None:
+    assert amp("set", MILL, "1740=0.1", "2740=0.1", "3740=0.1").code == 0
+    told = amp("validate", MILL)
+    found = amp("validate", MILL, "--json").json["findings"]
+    rule = found[0]["rule"]
+    assert [f["rule"] for f in found].count(rule) == 3
+    assert [found.count(f) for f in found] == [1] * 6
+    assert (
+        len([line for line in told.out.splitlines() if line.startswith("warning  axes X, Y, Z: 1740, 2740")])
+        == 1
+    )
+    assert told.out.endswith(f"{MILL}: 0 errors, 6 warnings, 0 recommendations\n")
+
+
+def test_one_is_one_and_two_are_several(amp, here: Path) -> None:
+    assert re.search(r": 0 errors, 0 warnings, 0 recommendations$", amp("validate", MILL).out.strip())
+    amp("set", MILL, "1750=0.5")
+    assert re.search(r": 1 error, 1 warning, ", amp("validate", MILL).out), amp("validate", MILL).out
+
+
+# -- man page ---------------------------------------------------------------------------------------------------
+
+
+def test_the_man_page_has_every_verb_and_troff_finds_nothing_wrong_in_it() -> None:
+    page = man_page()
+    for verb in verbs_of(parser()):
+        assert f"\n.SS {verb}\n" in page
+    if shutil.which("groff") is None:
+        pytest.skip("there is no groff")
+    done = subprocess.run(
+        ["groff", "-man", "-Tutf8", "-ww"], input=page, capture_output=True, text=True, check=True
+    )
+    assert (done.stderr, "amp-studio validate MILL_1394.amp" in done.stdout) == ("", True)
+
+
+# -- completion -------------------------------------------------------------------------------------------------
+
+LINES = [
+    ("amp-studio vali", ["validate"]),
+    ("amp-studio validate --js", ["--json"]),
+    ("amp-studio new 9", ["9pc"]),
+    ("amp-studio simulate MILL_1394.amp st", ["step"]),
+    ("amp-studio report MILL_1394.amp --sort nu", ["number"]),
+    ("amp-studio get MILL_1394.amp 130", ["1300"]),
+    ("amp-studio get MILL_1394.amp home.cal", ["home.calibration"]),
+    ("amp-studio set MILL_1394.amp control.ty", ["control.type="]),
+    ("amp-studio set MILL_1394.amp 350=La", ["Lathe"]),
+    ("amp-studio show 9pc home.cal", ["home.calibration"]),
+]
+"""A line as it is typed, and what bash puts in the place of what stands behind its last word break."""
+
+
+def asked_of_bash(line: str, folder: Path) -> list[str]:
+    """Return what bash completes a line with, by the script that the program prints."""
+    script = (
+        'source <("$PROGRAM" completion bash); COMP_LINE=$1; COMP_POINT=${#1}; COMP_WORDS=("$PROGRAM" x); COMP_CWORD=1;'
+        "compopt() { :; }; _amp_studio; printf '%s\\n' \"${COMPREPLY[@]}\""
+    )
+    return shell(["bash", "--norc", "-c", script, "bash", line], folder).split()
+
+
+def shell(command: list[str], folder: Path) -> str:
+    """Run a shell that finds the program by its name."""
+    program = folder / "bin" / "amp-studio"
+    program.parent.mkdir(exist_ok=True)
+    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m amp_studio.cli "$@"\n')
+    program.chmod(0o755)
+    checkout = str(Path(__file__).parents[2])
+    env = {
+        **os.environ,
+        "PROGRAM": str(program),
+        "PATH": f"{program.parent}:{os.environ['PATH']}",
+        "PYTHONPATH": checkout,
+    }
+    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=env, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
+@pytest.mark.parametrize(("line", "expected"), LINES)
+def test_bash_completes(line: str, expected: list[str], here: Path) -> None:
+    assert asked_of_bash(line, here) == expected
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
+def test_bash_is_left_to_complete_the_name_of_a_file(here: Path) -> None:
+    assert asked_of_bash("amp-studio validate MI", here) == []
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="there is no fish")
+@pytest.mark.parametrize(("line", "expected"), [*LINES[:8], ("amp-studio validate MI", [MILL])])
+def test_fish_completes(line: str, expected: list[str], here: Path) -> None:
+    script = f"amp-studio completion fish | source; complete -C {shlex.quote(line)}"
+    assert shell(["fish", "--no-config", "-c", script], here).split() == expected
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="there is no zsh")
+@pytest.mark.parametrize(("line", "expected"), LINES[:8])
+def test_zsh_completes(line: str, expected: list[str], here: Path) -> None:
+    words = shlex.join(line.split())
+    script = (
+        "compdef() { :; }; compadd() { shift; [[ $1 == '' || $1 == -- ]] && shift; [[ $1 == -- ]] && shift; print -l -- $@; };"
+        f"source <(amp-studio completion zsh); words=({words}); CURRENT=$#words; _amp_studio"
+    )
+    assert shell(["zsh", "-f", "-c", script], here).split() == expected
+
+
+def test_completion_of_what_cannot_be_read_is_silent(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("broken.amp").write_text("family: [", encoding="utf-8")
+    capsys.readouterr()
+    for line in (
+        "get broken.amp x",
+        "get none.amp x",
+        "nonsense x",
+        "show nowhere 1",
+        "set MILL_1394.amp zz=1",
+    ):
+        cli.run(["__complete", *line.split()])
+        told = capsys.readouterr()
+        assert (told.out, told.err) == ("", ""), line
