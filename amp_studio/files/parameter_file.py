@@ -70,7 +70,9 @@ class ParameterFile:
         """Addresses set out of range on purpose, and when."""
         self.unknown: dict[str, str] = {}
         """Entries of the file that name no parameter of this schema, kept as they are."""
-        self.evaluation = Evaluation(schema, self.values.get, lambda: self.machine)
+        self.evaluation = Evaluation(
+            schema, self.values.get, lambda: self.machine, lambda: self.header.application
+        )
         self._listeners: list[Callable[[Change], None]] = []
 
     @property

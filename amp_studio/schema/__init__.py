@@ -8,9 +8,10 @@ from .address import Address, UnknownParameterError, part_of, read_address, writ
 from .addressing import Meant, addresses_meant, all_meant, axis_meant, meant, unknown
 from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
-from .conditions import IN_FORCE, Reference, StateInfo, program
+from .conditions import IN_FORCE, Reference, StateInfo
 from .constraint import Limits, bounding, clip, fault, limits
 from .evaluation import Evaluation, canonical_value, same_value
+from .expression import program
 from .file_error import FileError
 from .load import DatabaseError, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
 from .machine_schema import MachineSchema, labelled

@@ -1,39 +1,26 @@
 """What the conditions of a family read on one machine type: worked out once, for all its files.
 
-Nothing here depends on a value. What a condition came to for equal values is remembered here too.
+Nothing here depends on a value. Whoever has to know what an expression reads asks here: an edit, to forget what hung on
+it, and the plan of all checks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Literal
 
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
-from .cel_engine import Program, compile_expression, functions_called
-from .model import Condition, Scope, State
-
-Canonical = float | str | bool | None
+from .cel_engine import WORD_FUNCTIONS
+from .expression import Decision, program
+from .model import BoundRef, Scope, State
 
 Asked = tuple[str, str, str | None]
 """What is asked (a condition, an entry of ``reads``), for which instance, of which scope."""
 
 Reach = Literal["all", "whole", "each"]
 """For what a condition holds alike: for all instances, for the parts of one, or for each by itself."""
-
-_REMEMBERED = 20_000
-"""Verdicts kept before all are forgotten: some megabytes."""
-
-
-class Verdicts(dict[Hashable, bool]):
-    """What an expression came to for values it has met: most machines have most values in common."""
-
-    def __setitem__(self, key: Hashable, verdict: bool) -> None:
-        if len(self) >= _REMEMBERED:
-            self.clear()
-        super().__setitem__(key, verdict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,19 +59,22 @@ class Conditions:
     def __init__(self, schema: Schema, machine: str) -> None:
         self._schema, self._here = schema, schema.on(machine)
         self.scopes: dict[str, Scope | None] = self._here.scopes
-        self.reaches: dict[str, Reach] = {n: self._reach(c) for n, c in schema.family.conditions.items()}
+        self.decisions = {
+            n: Decision(program(c.when), WORD_FUNCTIONS) for n, c in schema.family.conditions.items()
+        }
+        self.reaches: dict[str, Reach] = {n: self._reach(n) for n in self.decisions}
         self.readers: dict[Address, set[Asked]] = {}
         """Address -> what was asked, in whatever file, that reads it."""
         self.plans_asking: dict[Asked, set[StatePlan]] = {}
-        self.verdicts = Verdicts()
         self.plan_of: dict[Address, StatePlan] = {}
         """What ``state_plan`` has returned so far."""
         self._plans: dict[tuple[object, ...], StatePlan] = {}
         self._references: dict[Asked, Reference] = {}
         self._reads: dict[Asked, tuple[Reference | None, ...]] = {}
 
-    def _reach(self, condition: Condition) -> Reach:
-        if names_instance(condition.when):
+    def _reach(self, name: str) -> Reach:
+        condition = self._schema.family.conditions[name]
+        if self.decisions[name].asks_instance:
             return "each"
         reads_all = True
         for parameter_id, which in map(read_address, condition.reads.values()):
@@ -118,6 +108,39 @@ class Conditions:
         return plan
 
     # -- what is read ----------------------------------------------------------
+
+    def state_reads(self, address: Address) -> frozenset[Address]:
+        """Return every address whose value can change the state, the unit or the choice of the range of this one."""
+        parameter, family = self._schema.parameters[address[0]], self._schema.family
+        names = [r.when or r.unless or "" for r in parameter.states]
+        names += [v.when for v in parameter.range_variants]
+        names += [family.angular_when] if family.angular_when else []
+        asked = [self.asked(name, address[1], self.scopes[address[0]]) for name in names]
+        found = {
+            a for one in asked for reference in self.reads(one) if reference for a in reference.addresses
+        }
+        by_machine = parameter.layouts or any("machine" in self.decisions[name].always for name in names)
+        if by_machine and family.machine_parameter:
+            found.add((family.machine_parameter, ""))
+        return frozenset(found)
+
+    def range_reads(self, address: Address) -> frozenset[Address]:
+        """Return every address whose value can change the range of this one, where other parameters set its bounds too."""
+        found = self.state_reads(address)
+        for source in self.bound_sources(address):
+            found |= {source} | self.state_reads(source)
+        return found
+
+    def bound_sources(self, address: Address) -> tuple[Address, ...]:
+        """Return the parameters that set a bound of this one."""
+        parameter = self._schema.parameters[address[0]]
+        ranges = [parameter.ranges or {}, *(variant.ranges for variant in parameter.range_variants)]
+        bounds = (bound for units in ranges for pair in units.values() for bound in pair)
+        return tuple(
+            self.reference(bound.param, address[1], self.scopes[address[0]]).addresses[0]
+            for bound in bounds
+            if isinstance(bound, BoundRef)
+        )
 
     def asked(self, name: str, instance: str, scope: str | None) -> Asked:
         """Return what to ask for a condition to hold for an instance: the same for all for which it holds alike."""
@@ -181,29 +204,3 @@ class Conditions:
 def conditions_of(schema: Schema, machine: str) -> Conditions:
     """Return the conditions of a family on one machine type."""
     return Conditions(schema, machine)
-
-
-@cache
-def program(expression: str) -> Program:
-    """Return a compiled CEL expression; raises ValueError for a syntax error."""
-    return compile_expression(expression)
-
-
-@cache
-def functions_of(expression: str) -> frozenset[str]:
-    """Return the functions an expression calls."""
-    return functions_called(program(expression))
-
-
-@cache
-def names_instance(expression: str) -> bool:
-    """Tell whether an expression asks which instance, or which part, it is worked out for."""
-    return bool({"instance", "part"} & set(program(expression).variables()))
-
-
-def same_values(values: Sequence[Canonical | list[Canonical]]) -> Hashable:
-    """Return what is equal only for values that CEL cannot tell apart: Python takes 1 and True for equal."""
-    kinds = tuple(map(type, values))
-    if list not in kinds:
-        return kinds, tuple(values)
-    return kinds, tuple([same_values(v) if isinstance(v, list) else v for v in values])

@@ -8,23 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .address import Address, UnknownParameterError, part_of
+from .address import Address, UnknownParameterError
 from .addressing import meant
 from .catalog import Schema
-from .cel_engine import WORD_FUNCTIONS, Context
-from .conditions import (
-    Asked,
-    Canonical,
-    Conditions,
-    Reference,
-    StateInfo,
-    StatePlan,
-    conditions_of,
-    functions_of,
-    names_instance,
-    program,
-    same_values,
-)
+from .conditions import Asked, Conditions, Reference, StateInfo, StatePlan, conditions_of
+from .expression import Canonical, Circumstances, same_values
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
 from .quoting import quoted
@@ -36,9 +24,13 @@ class Evaluation:
     """Conditions and states of one file."""
 
     def __init__(
-        self, schema: Schema, value: Callable[[Address], Value | None], machine: Callable[[], str]
+        self,
+        schema: Schema,
+        value: Callable[[Address], Value | None],
+        machine: Callable[[], str],
+        application: Callable[[], str] = str,
     ) -> None:
-        self.schema, self._value, self._asked_machine = schema, value, machine
+        self.schema, self._value, self._asked_machine, self._application = schema, value, machine, application
         self._machine: str | None = None
         self._facts: Conditions | None = None
         self._canonical: dict[Address, Canonical] = {}
@@ -108,7 +100,7 @@ class Evaluation:
 
     def _evaluate(self, asked: Asked) -> bool:
         name, instance, _ = asked
-        when = self.condition(name).when
+        names = tuple(self.condition(name).reads)
         got: list[Canonical | list[Canonical]] = []
         for reference in self._conditions.reads(asked):
             if reference is None:
@@ -117,25 +109,8 @@ class Evaluation:
                 got.append([self.canonical(a) for a in reference.addresses])
             else:
                 got.append(self.canonical(reference.addresses[0]))
-        verdicts = self._conditions.verdicts
-        key = name, instance if names_instance(when) else "", same_values(got)
-        found = verdicts.get(key)
-        if found is None:
-            names = dict(zip(self.condition(name).reads, got, strict=True))
-            found = verdicts[key] = self._execute(when, instance, names)
-        return found
-
-    def _execute(self, when: str, instance: str, names: dict[str, Canonical | list[Canonical]]) -> bool:
-        context = Context({"machine": self.machine, "instance": instance, "part": part_of(instance), **names})
-        for called in functions_of(when):
-            context.add_function(called, WORD_FUNCTIONS[called])
-        try:
-            return program(when).execute(context) is True
-        except (
-            TypeError,
-            RuntimeError,
-        ):  # neither CEL nor the functions of words make sense of an unset value
-            return False
+        circumstances = Circumstances(self.machine, self._application(), instance)
+        return self._conditions.decisions[name].holds(same_values(got), names, got, circumstances)
 
     # -- states ----------------------------------------------------------------
 
@@ -149,24 +124,17 @@ class Evaluation:
             found = self._states[plan] = next(decided, plan.otherwise)
         return found
 
-    def state_reads(self, address: Address) -> set[Address]:
+    def state_reads(self, address: Address) -> frozenset[Address]:
         """Return every address whose value can change the state of this one."""
-        found: set[Address] = set()
-        parameter = self.schema.parameters[address[0]]
-        names = [r.when or r.unless or "" for r in parameter.states]
-        names += [v.when for v in parameter.range_variants]
-        if self.schema.family.angular_when:
-            names.append(self.schema.family.angular_when)
-        for name in names:
-            for text in self.condition(name).reads.values():
-                try:
-                    found.update(self.reference(text, address[1], self.scope(address)).addresses)
-                except UnknownParameterError:
-                    continue
-        by_machine = parameter.layouts or any("machine" in self.condition(n).when for n in names)
-        if by_machine and self.schema.family.machine_parameter:
-            found.add((self.schema.family.machine_parameter, ""))
-        return found
+        return self._conditions.state_reads(address)
+
+    def range_reads(self, address: Address) -> frozenset[Address]:
+        """Return every address whose value can change the range of this one."""
+        return self._conditions.range_reads(address)
+
+    def bound_sources(self, address: Address) -> tuple[Address, ...]:
+        """Return the parameters that set a bound of this one."""
+        return self._conditions.bound_sources(address)
 
     def turns(self, address: Address) -> bool:
         """Tell whether the instance belongs to an axis whose lengths are angles."""

@@ -7,8 +7,8 @@ from typing import Any
 
 from amp_studio.schema import Address
 from amp_studio.schema.cel_engine import Context, Program
+from amp_studio.schema.expression import EVALUATION_ERRORS
 
-from .expressions import EVALUATION_ERRORS
 from .plan import RuleCheck
 
 _Named = tuple[tuple[str, Program], ...]

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 from amp_studio.schema import MASKED, Address, Rule, program, show_value, shown, write_number
 from amp_studio.schema.cel_engine import Context
-from amp_studio.schema.model import BoundRef
+from amp_studio.schema.expression import EVALUATION_ERRORS
 from amp_studio.schema.units import canonical_unit
 
-from .expressions import EVALUATION_ERRORS
 from .finding import Finding
 from .plan import RuleCheck
 from .validator import Validator
@@ -86,16 +85,7 @@ def _of_a_value(validator: Validator, finding: Finding) -> Explanation:
     evaluation, addresses = validator.file.evaluation, list(finding.addresses)
     hung_on: list[Address] = []
     for address in addresses[:1] if finding.rule.startswith("schema.") else []:
-        parameter = evaluation.schema.parameters[address[0]]
-        for pair in [
-            *(parameter.ranges or {}).values(),
-            *(r for v in parameter.range_variants for r in v.ranges.values()),
-        ]:
-            for bound in pair:
-                if isinstance(bound, BoundRef):
-                    hung_on += evaluation.reference(
-                        bound.param, address[1], evaluation.scope(address)
-                    ).addresses
+        hung_on += evaluation.bound_sources(address)
     every = dict.fromkeys(addresses[:_LONG_LIST] + hung_on)
     seen = tuple(_seen(validator, a, "") for a in every if not _is_hidden(validator, a))
     titles = {

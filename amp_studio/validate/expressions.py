@@ -7,24 +7,19 @@ whatever a rule says that cannot be meant is a fault before it runs.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from string import Formatter
+from typing import Any
 
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
-from amp_studio.schema.conditions import Verdicts
+from amp_studio.schema.expression import ALWAYS_THERE, Decision
 from amp_studio.schema.units import UNITS
-
-ALWAYS_THERE = ("machine", "application", "instance", "part")
-"""Names that a rule need not read: machine type and model of the control, the instance it runs for, its part."""
 
 AT_HAND = ("it", "at")
 """Names in the conditions of ``blames`` and ``compares``: the value at hand, and its position in a list."""
-
-EVALUATION_ERRORS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
-"""What CEL raises for a value of a kind that an expression does not speak of."""
 
 TYPES = {
     "int",
@@ -75,13 +70,13 @@ class Expressions:
     ``told`` when it is first broken. Either raises RuleError for a rule that cannot be used; ``check_rule`` does at once.
     """
 
-    def __init__(self, rule: Rule, functions: Collection[str], told: Told | None = None) -> None:
+    def __init__(
+        self, rule: Rule, functions: Mapping[str, Callable[..., Any]], told: Told | None = None
+    ) -> None:
         self._rule, self._functions, self._told = rule, functions, told
-        self.verdicts = Verdicts()
-        """Whether the rule was broken, for values it has met."""
 
     @cached_property
-    def broken(self) -> Program:
+    def broken(self) -> Decision:
         """True where the rule applies and does not hold."""
         rule = self._rule
         # A line of its own for each bracket: an expression may end in a comment.
@@ -92,17 +87,7 @@ class Expressions:
             known.issuperset(compiled.variables()) and functions_called(compiled) <= set(self._functions)
         ):
             check_rule(rule, self._functions)  # says in which of the two expressions
-        return compiled
-
-    @cached_property
-    def functions(self) -> tuple[str, ...]:
-        """Functions offered to rules that decide whether it is broken."""
-        return tuple(sorted(functions_called(self.broken) & set(self._functions)))
-
-    @cached_property
-    def always(self) -> tuple[str, ...]:
-        """Which of the names that need not be read decide whether it is broken."""
-        return tuple(sorted(set(self.broken.variables()) & set(ALWAYS_THERE)))
+        return Decision(compiled, self._functions)
 
     @cached_property
     def told(self) -> Told:
@@ -110,7 +95,7 @@ class Expressions:
         return self._told or check_rule(self._rule, self._functions)
 
 
-def check_rule(rule: Rule, functions: Collection[str]) -> Told:
+def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Told:
     """Compile a rule that may call ``functions`` and return what it tells; raises RuleError."""
     called: set[str] = set()
     spoken_of: set[str] = set()

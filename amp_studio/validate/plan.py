@@ -20,7 +20,6 @@ from amp_studio.schema import (
     UnknownParameterError,
     read_address,
 )
-from amp_studio.schema.model import BoundRef
 
 from .expressions import Expressions, RuleError, check_rule
 from .formulas import rule_functions
@@ -93,14 +92,14 @@ class Plan:
     @cached_property
     def _states(self) -> dict[Address, frozenset[Address]]:
         """Address -> what its state depends on."""
-        return {address: frozenset(self.evaluation.state_reads(address)) for address in self.addresses}
+        return {address: self.evaluation.state_reads(address) for address in self.addresses}
 
     @cached_property
     def range_readers(self) -> Mapping[Address, frozenset[Address]]:
         """Address -> addresses whose range check must run again when it changes."""
         readers: dict[Address, set[Address]] = {}
         for address in self.addresses:
-            for read in {address} | self._states[address] | _bounds(self.evaluation, address):
+            for read in {address} | self.evaluation.range_reads(address):
                 readers.setdefault(read, set()).add(address)
         return {a: frozenset(r) for a, r in readers.items()}
 
@@ -133,21 +132,6 @@ def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     addresses = schema.on(machine).addresses
     checks = checks_of(evaluation, schema.rules + further.rules, late=len(schema.rules))
     return Plan(addresses, {address: n for n, address in enumerate(addresses)}, checks, evaluation)
-
-
-def _bounds(evaluation: Evaluation, address: Address) -> frozenset[Address]:
-    """Return what the bounds of an address depend on, where other parameters set them."""
-    parameter = evaluation.schema.parameters[address[0]]
-    ranges = [*(parameter.ranges or {}).values()]
-    for variant in parameter.range_variants:
-        ranges += variant.ranges.values()
-    found: set[Address] = set()
-    for pair in ranges:
-        for bound in pair:
-            if isinstance(bound, BoundRef):
-                source = evaluation.reference(bound.param, address[1], evaluation.scope(address)).addresses[0]
-                found |= {source} | evaluation.state_reads(source)
-    return frozenset(found)
 
 
 def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) -> tuple[RuleCheck, ...]:

@@ -24,7 +24,7 @@ from amp_studio.schema import (
     show_value,
     shown,
 )
-from amp_studio.schema.conditions import Verdicts
+from amp_studio.schema.expression import Verdicts
 from amp_studio.schema.model import BoundRef
 
 from .finding import Finding, Setting

@@ -8,6 +8,7 @@ from functools import cache
 from string import Formatter
 
 from amp_studio.schema import Parameter, Rule, Schema, family_ids, load_schema, read_address
+from amp_studio.schema.expression import ALWAYS_THERE
 from amp_studio.schema.nearest import did_you_mean
 from amp_studio.schema.units import UNITS
 from amp_studio.schema.yaml_reader import KeyPath
@@ -29,7 +30,7 @@ from .expression_worth import (
     signature_of,
     text_worth,
 )
-from .expressions import ALWAYS_THERE, TYPES
+from .expressions import TYPES
 from .formulas import rule_functions
 
 MOST_STEPS = 5_000_000

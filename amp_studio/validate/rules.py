@@ -17,18 +17,23 @@ from amp_studio.schema import (
     canonical_unit,
     canonical_value,
     convert,
-    part_of,
     show_value,
     shown,
     write_number,
 )
 from amp_studio.schema.cel_engine import Context, Program
-from amp_studio.schema.conditions import Canonical, same_values
+from amp_studio.schema.expression import (
+    ALWAYS_THERE,
+    EVALUATION_ERRORS,
+    Canonical,
+    Circumstances,
+    context_of,
+    same_values,
+)
 from amp_studio.schema.units import angular
 
 from .blame import about
 from .expression_worth import LONGEST_TEXT
-from .expressions import ALWAYS_THERE, EVALUATION_ERRORS
 from .finding import Finding, Setting
 from .formulas import rule_functions
 from .plan import Listed, RuleCheck
@@ -50,6 +55,7 @@ class RuleChecks:
         self._functions = rule_functions(file.schema.family.family)
         self._given: dict[int, tuple[list[Any], bool]] = {}
         """Place of a check -> the values it was given, and whether it was broken by them."""
+        self._by_instance: dict[str, Circumstances] = {}
         self._seen: dict[Address, Canonical] = {}
         self._lists: dict[Listed, list[Canonical]] = {}
         self._lists_before: dict[Listed, list[Canonical]] = {}
@@ -85,50 +91,26 @@ class RuleChecks:
         """Tell whether a rule is broken by values; what it came to for equal ones before is remembered."""
         if isinstance(check.rule, BuilderRule) and _too_long(values):
             return False
-        expressions = check.expressions
         key = same_values(values[: len(check.singles)])
         if check.lists:
             key = key, *[self._list_key(listed) for _, listed in check.lists]
-        if expressions.always:
-            key = key, *[self._always(check, name) for name in expressions.always]
-        found = expressions.verdicts.get(key)
-        if found is None:
-            broken = expressions.broken
-            context = self._context(expressions.functions, expressions.always, check, values)
-            try:
-                found = broken.execute(context) is True
-            except EVALUATION_ERRORS:
-                found = (
-                    False  # a value of a kind the rule does not speak of; its own check says what is wrong
-                )
-            expressions.verdicts[key] = found
-        return found
+        return check.expressions.broken.holds(key, check.names, values, self._circumstances(check))
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see now."""
-        return self._full_context(check, self._values(check) or [None] * len(check.names))
+        return self._context(check, self._values(check) or [None] * len(check.names))
 
-    def _full_context(self, check: RuleCheck, values: list[Any]) -> Context:
+    def _context(self, check: RuleCheck, values: list[Any]) -> Context:
         """Return what every expression of a check sees."""
-        return self._context(check.expressions.told.functions, ALWAYS_THERE, check, values)
+        functions = {name: self._functions[name] for name in check.expressions.told.functions}
+        return context_of(functions, ALWAYS_THERE, check.names, values, self._circumstances(check))
 
-    def _context(
-        self, functions: Iterable[str], always: Iterable[str], check: RuleCheck, values: list[Any]
-    ) -> Context:
-        names: dict[str, Any] = {name: self._always(check, name) for name in always}
-        names.update(zip(check.names, values, strict=True))
-        context = Context(names)
-        for name in functions:
-            context.add_function(name, self._functions[name])
-        return context
-
-    def _always(self, check: RuleCheck, name: str) -> Canonical:
-        """Return one of the names that a rule need not read."""
-        if name == "machine":
-            return self._machine
-        if name == "application":
-            return self._file.header.application
-        return check.instance if name == "instance" else part_of(check.instance)
+    def _circumstances(self, check: RuleCheck) -> Circumstances:
+        found = self._by_instance.get(check.instance)
+        if found is None:
+            found = Circumstances(self._machine, self._file.header.application, check.instance)
+            self._by_instance[check.instance] = found
+        return found
 
     # -- values ----------------------------------------------------------------
 
@@ -182,7 +164,7 @@ class RuleChecks:
 
     def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
         rule, evaluation = check.rule, self._file.evaluation
-        given = _Given(self._full_context(check, present), present)
+        given = _Given(self._context(check, present), present)
         texts = {"instance": check.instance, "machine": self._machine}
         texts["application"] = self._file.header.application
         texts["part"] = check.instance.partition(".")[2]
@@ -272,7 +254,7 @@ class RuleChecks:
                 after[name] = [mended.get(a, v) for a, v in zip(listed.addresses, before[name], strict=True)]
         given.context.update(after)
         try:
-            return check.expressions.broken.execute(given.context) is not True
+            return check.expressions.broken.program.execute(given.context) is not True
         except EVALUATION_ERRORS:
             return False
         finally:

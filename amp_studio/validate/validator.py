@@ -50,6 +50,7 @@ class Validator:
     def run(self) -> tuple[Finding, ...]:
         """Check everything; returns the findings, errors first, in the manual's order."""
         if not self._checks.fit:
+            self.file.evaluation.forget()  # conditions may name the model of the control
             self._prepare()
         self._trials = Trials(self.file, self._plan, self.own)  # of a file in which anything may have changed
         self._light = self._present_light()

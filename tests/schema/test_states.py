@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import (
     IN_FORCE,
     Evaluation,
@@ -257,3 +258,13 @@ def test_only_what_a_state_reads_can_change_it(changes) -> None:
             values[address] = value
         after = Evaluation(schema, values.get, lambda: "mill")
         assert before == {a: after.state(a) for a in unread}, address
+
+
+def test_a_condition_may_name_the_model_of_the_control_as_a_rule_may(facts, head) -> None:
+    model = "\nconditions:\n  scale: {when: application == 'T', why: the T has no speed}\n"
+    model += "  nothing: {when: 'false', why: never}\n  fast: {when: 'true', why: always}\n"
+    file = ParameterFile(facts.schema(FOUR, head + model), Header(application="M"))
+    assert file.evaluation.state(("device.speed", "")) == IN_FORCE
+    file.header.application = "T"
+    file.evaluation.forget()
+    assert file.evaluation.state(("device.speed", "")) == StateInfo("unusable", "the T has no speed")
