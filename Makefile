@@ -12,7 +12,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test mutants campaign faults check format schema lock bench wheel clean setup setup-run
+.PHONY: help run test mutants campaign faults check format schema lock bench man wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -48,6 +48,9 @@ schema: setup ## write the JSON Schemas by which an editor completes and checks 
 
 bench: setup ## measure, and print one table
 	@$(BIN)/python bench/run.py
+
+man: setup ## write build/amp-studio.1, the man page
+	@mkdir -p build && $(BIN)/amp-studio man > build/amp-studio.1
 
 wheel: setup ## build dist/*.whl and the source archive, without the network
 	@$(BIN)/python -m build --no-isolation --outdir dist
