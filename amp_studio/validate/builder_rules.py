@@ -232,13 +232,20 @@ def _ids(schema: Schema) -> frozenset[str]:
 @lru_cache(maxsize=4096)
 def _is_known(text: str, schema: Schema) -> bool:
     """Tell whether a family has what a suppression names, on whatever machine type."""
-    parameter_id, which = read_address(text)
-    if parameter_id in schema.parameters:
-        parameter = schema.parameters[parameter_id]
-        return not which or any(
-            which in schema.on(m.key).instances(parameter) for m in schema.family.machines
-        )
-    return any(schema.on(machine.key).addressed_by(text) for machine in schema.family.machines)
+    parameter_id, which = read_address(text.strip().casefold())
+    parameter = schema.parameters.get(parameter_id)
+    for on in (schema.on(machine.key) for machine in schema.family.machines):
+        if parameter is None:
+            word = text.strip().rpartition(".")[0]  # of one of its bits
+            known = bool(on.addressed_by(text) or on.words(text) or (word and on.addressed_by(word)))
+        else:
+            is_axis = which.isalpha() and on.kin(
+                on.scopes[parameter.id], "axis"
+            )  # by a letter that the file gives it
+            known = not which or is_axis or which in map(str.casefold, on.instances(parameter))
+        if known:
+            return True
+    return False
 
 
 @lru_cache(maxsize=4096)
@@ -250,7 +257,8 @@ def _is_elsewhere(text: str, schema: Schema) -> bool:
 
 
 def _finding(path: Path, fault: DatabaseError) -> Finding:
-    return Finding(OWN_FAULT, "error", (), f"{_told(path, fault)}.")
+    told = _told(path, fault)
+    return Finding(OWN_FAULT, "error", (), told if told.endswith("?") else f"{told}.")
 
 
 def _told(path: Path, fault: DatabaseError) -> str:

@@ -9,7 +9,7 @@ text that is none of its keys, a number with a text, a whole number added to a d
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from amp_studio.schema.nearest import did_you_mean
@@ -46,6 +46,11 @@ _CALLED = {
     "null": "null",
 }
 _NUMBERS = ("decimal", "whole")
+_PIECES: Mapping[str, Callable[[str, str], bool]] = {
+    "contains": str.__contains__,
+    "startsWith": str.startswith,
+    "endsWith": str.endswith,
+}
 
 
 class ExpressionCheck:
@@ -154,11 +159,26 @@ class ExpressionCheck:
                 )
         if name == "matches":
             cost += self._pattern(node.parts[1], given)
+        if name in _PIECES:
+            self._piece(node, given)
+        if name == "string" and given[0].choices:
+            return given[0], cost
         gives = signature.gives
         if gives.item or gives.kind == "text":  # a formula may give back as much as it is given
             length = gives.length + sum(worth.length for worth in given)
             gives = list_worth(length, gives.item) if gives.item else text_worth(length)
         return gives, cost
+
+    def _piece(self, node: Node, given: list[Worth]) -> None:
+        """See that a text that is looked for in a choice is in one of its keys."""
+        of, name = given[0], str(node.value)
+        if not of.choices or not of.is_closed or of.choices.open:
+            return
+        for text in given[1].literals:
+            if not any(_PIECES[name](key, text) for key in (*of.choices.keys, *of.literals)):
+                self._slip(
+                    f"no key of {shown(node.parts[0].text)} has {shown(text)} there: {_keys(of.choices)}"
+                )
 
     def _pattern(self, node: Node, given: list[Worth]) -> int:
         """Return what a pattern costs; one that is worked out could be any."""
@@ -258,6 +278,9 @@ class ExpressionCheck:
         how = "never equals" if node.kind in ("==", "!=", "in") else "cannot be compared with"
         there = "what is in " if node.kind == "in" else ""
         hint = ": compare it with true or false" if "yes/no" in kinds and "text" in kinds else ""
+        choice = next((worth.choices for worth in (left, right) if worth.choices), None)
+        if choice and hint:
+            hint = f": {meant(one.text if left.kind == 'yes/no' else other.text, choice)}"
         self._slip(
             f"{shown(one.text)} is {_CALLED[left.kind]} and {how} {there}{shown(other.text)}, {_CALLED[right.kind]}{hint}"
         )
@@ -294,6 +317,10 @@ def meant(text: str, choices: Choices) -> str:
     )
     if near:
         return f"write a key{near}"
+    return _keys(choices)
+
+
+def _keys(choices: Choices) -> str:
     keys = list(choices.keys)
     return f"its keys are {', '.join(keys[:12])}{' and others' if len(keys) > 12 else ''}"
 

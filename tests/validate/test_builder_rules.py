@@ -8,7 +8,7 @@ from textwrap import dedent
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.atomic import SaveError
 from amp_studio.report import finding_text, why_text
 from amp_studio.schema import Value, load_schema
@@ -78,36 +78,36 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
     ("old", "new", "said"),
     [
         ("severity: warning", "severity: fatal", "line 5: builder.rapid: severity: 'fatal' is not 'error', 'warning' or 'advice'."),
-        ("severity: warning", "severity: waring", "line 5: builder.rapid: severity: 'waring' is not 'error', 'warning' or 'advice', did you mean 'warning'?."),
-        ("check: ", "chek: ", "line 7: builder.rapid: chek: there is no such key, did you mean 'check'?."),
+        ("severity: warning", "severity: waring", "line 5: builder.rapid: severity: 'waring' is not 'error', 'warning' or 'advice', did you mean 'warning'?"),
+        ("check: ", "chek: ", "line 7: builder.rapid: chek: there is no such key, did you mean 'check'?"),
         ("    check: rapid <= 10000.0\n", "", "line 3: builder.rapid: check: is missing."),
         ("title: Rapid of this machine", "title: 1", "line 4: builder.rapid: title: must be a text: put '1' in quotes."),
         ("id: builder.rapid", "id: Builder rapid", "line 3: Builder rapid: id: 'Builder rapid' is no id: small letters"),
         ("rules:", "rules: [", "line 3: "),
         ("rules:", "rule:", "line 2: rule: here stand rules, suppressions."),
-        ("feedrate.rapid}", "feedrate.rapids}", "line 6: builder.rapid: reads rapid: 'feedrate.rapids' is no parameter of 9pc, did you mean 'feedrate.rapid'?."),
+        ("feedrate.rapid}", "feedrate.rapids}", "line 6: builder.rapid: reads rapid: 'feedrate.rapids' is no parameter of 9pc, did you mean 'feedrate.rapid'?"),
         ("severity:", "family: 9pc\n    severity:", ""),
         ("severity:", "family: 9PC\n    severity:", "line 5: builder.rapid: family: '9PC' is no family"),
         ("feedrate.rapid}", "feedrate.rapid@9}", "line 6: builder.rapid: reads rapid: Rapid Feedrate for Positioning has no instance '9'; it has 1, 2, 3, 4, 5, 6, 7, 8."),
         ("{rapid: feedrate", "{loop: axis.type, rapid: feedrate", "line 6: builder.rapid: reads loop: 'loop' is a word of the language and can be no name."),
         ("<= 10000.0", "<=", "line 7: builder.rapid: check: a value is missing behind '<=' at the end."),
         ("<= 10000.0", "= 10000.0", "line 7: builder.rapid: check: '=' is no operator: write '=='."),
-        ("check: rapid", "check: rapit", "line 7: builder.rapid: check: 'rapit' is not read: add it under reads, or did you mean 'rapid'?."),
+        ("check: rapid", "check: rapit", "line 7: builder.rapid: check: 'rapit' is not read: add it under reads, or did you mean 'rapid'?"),
         ("<= 10000.0", "* 2 <= 10000.0", "line 7: builder.rapid: check: 'rapid * 2' mixes a whole number with a decimal one: write 2.0."),
-        ("check: rapid <=", "check: maxi(rapid, 1.0) <=", "line 7: builder.rapid: check: 'maxi' is no function, did you mean 'max'?."),
+        ("check: rapid <=", "check: maxi(rapid, 1.0) <=", "line 7: builder.rapid: check: 'maxi' is no function, did you mean 'max'?"),
         ("check: rapid <=", "check: max(rapid) <=", "line 7: builder.rapid: check: max takes 2 values, not 1."),
         (" <= 10000.0", "", "line 7: builder.rapid: check: it does not give true or false."),
-        ("Rapid {rapid} is", "Rapid {rapit} is", "line 8: builder.rapid: message: {rapit} is neither read nor among its values, did you mean 'rapid'?."),
+        ("Rapid {rapid} is", "Rapid {rapit} is", "line 8: builder.rapid: message: {rapit} is neither read nor among its values, did you mean 'rapid'?"),
         ("Rapid {rapid} is", "Rapid {rapid:>1000000000} is", "line 8: builder.rapid: message: {rapid} is shown as it is: leave out what stands behind the name."),
-        ("{set: rapid,", "{set: rapt,", "line 10: builder.rapid: fix 1 set: 'rapt' is not read, did you mean 'rapid'?."),
+        ("{set: rapid,", "{set: rapt,", "line 10: builder.rapid: fix 1 set: 'rapt' is not read, did you mean 'rapid'?"),
         ('value: "10000.0"', "value: 10000.0", "line 10: builder.rapid: fix 1 value: must be a text: put '10000.0' in quotes."),
         ('value: "10000.0"', "value: \"'fast'\"", "line 10: builder.rapid: fix 1 value: it does not give a number for Rapid Feedrate for Positioning."),
         ("id: builder.rapid", "id: 9pc.axis.consecutive", "line 3: 9pc.axis.consecutive: id: a rule of 9pc has this id already."),
         ("rules:", "suppressions: [{rule: builder.rapid, by: me}]\nrules:", "line 2: reason: is missing."),
         ("rules:", "suppressions: [{rule: builder.rapids, by: me, reason: why}]\nrules:",
-         "line 2: rule: 'builder.rapids' is no rule, did you mean 'builder.rapid'?."),
+         "line 2: rule: 'builder.rapids' is no rule, did you mean 'builder.rapid'?"),
         ("rules:", "suppressions: [{rule: builder.rapid, params: [feedrate.rapit], by: me, reason: why}]\nrules:",
-         "line 2: params 1: 'feedrate.rapit' is no parameter of 9pc, did you mean 'feedrate.rapid'?."),
+         "line 2: params 1: 'feedrate.rapit' is no parameter of 9pc, did you mean 'feedrate.rapid'?"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_used_is_a_finding_with_file_and_the_line_of_the_field(
@@ -154,7 +154,11 @@ rules:
         ("machine == 'Mill'", "'machine' is never 'Mill': write the key 'mill'"),
         ("{'linear': 1, 'roundish': 2}[type] == 1", "'type' is never 'roundish': its keys are linear, rotary, spindle, unfitted"),
         ("type == 3.0", "'type' is a text and never equals '3.0', a number"),
-        ("type == true", "'type' is a text and never equals 'true', true or false: compare it with true or false"),
+        ("type == true", "'type' is a text and never equals 'true', true or false: its keys are linear, rotary, spindle, unfitted"),
+        ("baud.contains('MHz')", "no key of 'baud' has 'MHz' there: its keys are mhz2, mhz4"),
+        ("baud.startsWith('4')", "no key of 'baud' has '4' there: its keys are mhz2, mhz4"),
+        ("type.endsWith('Y')", "no key of 'type' has 'Y' there: its keys are linear, rotary, spindle, unfitted"),
+        ("string(baud) == '4 MHz'", "'string(baud)' is never '4 MHz': write the key 'mhz4'"),
         ("type == baud", "'type' and 'baud' have no choice in common"),
         ("type == 'rotary' || baud != 'mhz4' || type in ['linear', 'spindle'] || type == null", ""),
         ("type + 'x' == 'anything'", ""),
@@ -163,7 +167,9 @@ rules:
 def test_a_choice_is_compared_with_its_keys_only(mill, path: Path, check: str, said: str) -> None:
     """A comparison with anything else is silently false, so the rule would never be broken."""
     told = faults(path, CHOICE.replace("CHECK", f'"{check}"'), mill)
-    assert told == ([f"rules.yaml, line 7: works.choice: check: {said}."] if said else [])
+    assert told == (
+        [f"rules.yaml, line 7: works.choice: check: {said}" + "." * (said[-1] != "?")] if said else []
+    )
 
 
 def test_one_wrong_rule_hides_neither_the_others_nor_the_family_s(mill, path: Path) -> None:
@@ -356,3 +362,14 @@ def test_rules_that_are_no_file_are_a_finding_at_once(tmp_path: Path, kind: str)
     found = rules_beside(machine, load_schema("9pc")).faults
     assert [fault.rule for fault in found] == ["rules.unusable"]
     assert found[0].message.startswith("rules.yaml: ")
+
+
+@pytest.mark.parametrize("named", ["P21", "P21N2", "p21n2", "21N2", "servo.loop_gain@Z", "Servo.Loop_Gain"])
+def test_a_suppression_names_a_parameter_as_every_verb_does(path: Path, named: str, checkout: Path) -> None:
+    file = open_file(checkout / "examples/num-1060-mill/MILL_1060.amp").file
+    file.set(("servo.loop_gain", "2"), Value(0))
+    entry = f"{{rule: num.servo.gain-set, params: ['{named}'], by: me, reason: none}}"
+    path.write_text(f"suppressions: [{entry}]\n", "utf-8")
+    validator = Validator(file, read_builder_rules(path, file.schema))
+    assert [f for f in validator.run() if f.rule.startswith("rules.")] == []
+    assert [s.finding.instance for s in validator.suppressed] == ["2"]
