@@ -345,8 +345,9 @@ def _plain(parameter: Parameter, value: float | bool | str) -> str:
 def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
     """Yield the command that sets the first instance, with a gap for each value: ``NOTCH X(…, …)``."""
     if parameter.storage and parameter.storage.command:
-        first = schema.on(schema.family.default_machine).instances(parameter)[0]
-        known = {"{i}": first, "{n}": "0"}
+        here = schema.on(schema.family.default_machine)
+        first = here.instances(parameter)[0]
+        known = {"{i}": first, "{k}": "0", "{n}": here.plain_number((parameter.id, first))}
         yield re.sub("{.*?}", lambda gap: known.get(gap[0], "…"), parameter.storage.command)
 
 

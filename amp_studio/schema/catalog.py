@@ -94,6 +94,8 @@ class Schema:
             for word in ("code", "command"):
                 if storage and storage[word] is None:
                     del storage[word]  # files of a family without codes or commands keep their checksum
+            if storage and "command" in storage:
+                storage["command"] = storage["command"].replace("{k}", "{n}")  # as the place was written once
             lines.append([parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit,
                           instances, numbers, choices, bits, storage])  # fmt: skip
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))

@@ -106,7 +106,7 @@ def _in_parameter(
             yield ("range_variants", n, "when"), f"there is no condition '{variant.when}'"
     command = parameter.storage.command if parameter.storage else None
     for named in re.findall(r"{(.*?)}", command or ""):
-        if named not in ("i", "n", "v") and named not in ids:
+        if named not in ("i", "k", "n", "v") and named not in ids:
             yield ("storage", "command"), f"there is no parameter '{named}' for its command"
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:

@@ -80,6 +80,14 @@ class MachineSchema:
             if layout.numbers.listed is None or i in layout.numbers.listed
         }
 
+    def plain_number(self, address: Address) -> str:
+        """Return the number of an instance without what its format writes around it: ``110`` of ``$110``."""
+        parameter, instance = self.parameters[address[0]], address[1]
+        layout = self.layout(parameter)
+        if layout is None or layout.numbers is None or self.number(address) is None:
+            return ""
+        return _plain_number(layout.numbers, self.instances(parameter).index(instance), instance)
+
     @cached_property
     def _numbers(self) -> dict[Address, str]:
         return {(p.id, i): n for p in self.parameters.values() for i, n in self.numbers(p).items()}
@@ -170,13 +178,18 @@ def _layout(parameter: Parameter, machine: str) -> Layout | None:
 
 def number_of(numbers: Numbers, index: int, instance: str) -> str:
     """Return the number of the instance at ``index``."""
+    plain = _plain_number(numbers, index, instance)
+    return plain if numbers.listed is not None else numbers.format.format(n=plain, i=instance)
+
+
+def _plain_number(numbers: Numbers, index: int, instance: str) -> str:
+    """Return what ``{n}`` stands for: the number without what its format writes around it."""
     if numbers.listed is not None:
         return numbers.listed[instance]
     if numbers.starts is not None:
         whole, _, part = instance.partition(".")
-        return numbers.format.format(n=numbers.starts[whole] + int(part) * numbers.step, i=instance)
-    plain = "" if numbers.start is None else numbers.start + index * numbers.step
-    return numbers.format.format(n=plain, i=instance)
+        return str(numbers.starts[whole] + int(part) * numbers.step)
+    return "" if numbers.start is None else str(numbers.start + index * numbers.step)
 
 
 def labelled(label: str, instance: str) -> str:

@@ -58,7 +58,7 @@ def test_a_command_comes_out_as_it_is_printed(acromill: Schema, command: str) ->
     assert parameter.storage is not None
     assert parameter.storage.command is not None
     place = acromill.on("mill").instances(parameter).index(instance)
-    known = {"i": instance, "n": str(place), "v": value}
+    known = {"i": instance, "k": str(place), "v": value}
     known |= {"tuning.notch_frequency": "500", "tuning.notch_width": "50"}
     assert re.sub("{(.*?)}", lambda found: known[found[1]], parameter.storage.command) == command
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from amp_studio.files import new_file
 from amp_studio.schema import Rule, Schema, Value, fault, load_schema, part_of
 from amp_studio.validate.plan import checks_of
 
@@ -142,3 +143,17 @@ def test_every_label_of_an_instance_is_its_own() -> None:
                 for i in schema.on(machine).instances(parameter)
             ]
             assert len(set(names)) == len(names), parameter.id
+
+
+def test_the_picture_of_what_is_read_in_docs_is_what_is_read() -> None:
+    evaluation = new_file("9pc").evaluation
+    seen = {sign: evaluation.reference(f"feedrate.rapid{sign}", "2", "axis") for sign in ("", "@3", "@*", "@<", "@>")}  # fmt: skip
+    axes = {sign: [address[1] for address in found.addresses] for sign, found in seen.items()}
+    assert axes["@*"] == ["1", "2", "3", "4", "5", "6", "7", "8"]
+    assert (axes[""], axes["@3"], axes["@<"], axes["@>"]) == (["2"], ["3"], ["1"], ["3", "4", "5", "6", "7", "8"])  # fmt: skip
+    assert [seen[sign].is_list for sign in seen] == [False, False, True, True, True]
+    gears = evaluation.reference("spindle.max_speed@.", "2", "spindle").addresses
+    assert [gear for _, gear in gears][:2] == ["2.1", "2.2"]
+    assert evaluation.reference("spindle.gear_count", "2.3", "spindle").addresses == (
+        ("spindle.gear_count", "2"),
+    )

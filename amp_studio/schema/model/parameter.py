@@ -118,7 +118,8 @@ class Storage(Model):
     code: int | None = None
     """The control's own code of the type of word, which its files name (NUM: 6 for 32 bits in hexadecimal)."""
     command: str | None = None
-    """The command that sets it: ``{i}`` is the instance, ``{n}`` its place from 0, ``{v}`` the value, ``{other.id}`` that of another.
+    """The command that sets it: ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value,
+    ``{other.id}`` that of another.
 
     A command of several values stands the same at each of them: ``NOTCH {i}({notch.frequency}, {notch.width})``.
     """

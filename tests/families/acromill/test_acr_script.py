@@ -473,8 +473,8 @@ COMMANDS = """
   - {id: a.sense, name: Sense, type: choice, choices: [{key: up, label: Up, raw: 1}, {key: down, label: Down}],
      storage: {command: "SENSE {v}"}, help: {what: A choice.}, page: "1"}
   - {id: a.time, name: Time, scope: axis, type: real, quantity: time, unit: s,
-     storage: {unit: ms, scale: 2, decimals: 1, command: "SET TIME{n}: {a.time} {a.sense2}"}, help: {what: A time.}, page: "1"}
-  - {id: a.sense2, name: Word, scope: axis, type: bits, storage: {bits: 16, command: "SET TIME{n}: {a.time} {a.sense2}"},
+     storage: {unit: ms, scale: 2, decimals: 1, command: "SET TIME{k}: {a.time} {a.sense2}"}, help: {what: A time.}, page: "1"}
+  - {id: a.sense2, name: Word, scope: axis, type: bits, storage: {bits: 16, command: "SET TIME{k}: {a.time} {a.sense2}"},
      help: {what: A word.}, page: "1"}
   - {id: a.note, name: Note, type: text, storage: {command: "NOTE {v}"}, help: {what: A text.}, page: "1"}
 """
@@ -517,3 +517,25 @@ def test_what_has_no_figure_is_told(small: Schema) -> None:
         with pytest.raises(FormatError, match=said):
             FORMAT.write(file)
         file.set((name, ""), None)
+
+
+NUMBERED = """
+  - {id: rate.max, name: Maximum Rate, scope: axis, numbers: {start: 110, step: 1, format: "${n}"}, type: real,
+     unit: mm/min, storage: {command: "${n}={v}"}, help: {what: A rate.}, page: "1"}
+  - {id: rate.homing, name: Homing Rate, numbers: {start: 25, format: "${n}"}, type: real,
+     unit: mm/min, storage: {command: "${n}={v}"}, help: {what: A rate.}, page: "1"}
+"""
+
+
+def test_the_number_in_a_command_is_the_number_that_the_manual_prints(tmp_path: Path) -> None:
+    (tmp_path / "small" / "groups").mkdir(parents=True)
+    (tmp_path / "small" / "family.yaml").write_text(SMALL, "utf-8")
+    group = f'key: all\nname: All\nchapter: "1"\nparameters:\n{NUMBERED}'
+    (tmp_path / "small" / "groups" / "all.yaml").write_text(group, "utf-8")
+    (command,) = commands_of(schema_of(compile_family(tmp_path / "small")), "mill")
+    written = [setting.write(["500"]) for setting in command.settings]
+    assert written == ["$110=500", "$111=500", "$112=500", "$25=500"]
+    found = command.read("$111=600", 0)
+    assert found is not None
+    assert (found.setting.addresses, found.figures) == ((("rate.max", "X2"),), (("600", 6),))
+    assert command.read("$1=600", 0) is None

@@ -1,6 +1,6 @@
 """The form of a command that sets parameters, taken from the schema: ``NOTCH {i}({notch.frequency}, {notch.width})``.
 
-``{i}`` is the instance, ``{n}`` its place from 0, ``{v}`` the value of the parameter that names the command, and
+``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value of the parameter that names the command, and
 ``{other.id}`` that of another one. Blanks between signs may be there or not (``TLM X 2``, ``TLM X4``, page 115).
 """
 
@@ -24,12 +24,14 @@ class Setting:
     template: str
     instance: str
     place: int
+    number: str
+    """As the manual numbers it, without what is written around the number; empty where it has none."""
     addresses: tuple[Address, ...]
 
     def write(self, figures: list[str]) -> str:
         """Return the command with these figures."""
         left = iter(figures)
-        fill = {"i": self.instance, "n": str(self.place)}
+        fill = {"i": self.instance, "k": str(self.place), "n": self.number}
         return _PART.sub(
             lambda found: (
                 found[0]
@@ -63,10 +65,11 @@ class Command:
     def __init__(self, template: str, settings: tuple[Setting, ...]) -> None:
         head, _, tail = template.partition(" ")
         self.word, self.form = ("", template) if "{" in head else (head.upper(), tail)
-        """A word in front of all arguments, which need not be said again: PPU, but not the DAC of ``DAC{n} GAIN``."""
+        """A word in front of all arguments, which need not be said again: PPU, but not the DAC of ``DAC{k} GAIN``."""
         self.settings = settings
         self._by_instance = {s.instance.casefold(): s for s in settings}
         self._by_place = {s.place: s for s in settings}
+        self._by_number = {s.number: s for s in settings}
 
     @property
     def instances(self) -> list[str]:
@@ -84,7 +87,9 @@ class Command:
         groups = found.groupdict()
         setting: Setting | None = self.settings[0]
         if "n" in groups:
-            setting = self._by_place.get(int(groups["n"]))
+            setting = self._by_number.get(groups["n"])
+        elif "k" in groups:
+            setting = self._by_place.get(int(groups["k"]))
         elif "i" in groups:
             setting = self._by_instance.get(groups["i"].casefold())
         if setting is None:
@@ -95,7 +100,7 @@ class Command:
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
         names = "|".join(re.escape(i) for i in sorted(self.instances, key=len, reverse=True))
-        places = {"i": rf"\s*(?P<i>{names})\s*", "n": "(?P<n>[0-9]{1,9})"}
+        places = {"i": rf"\s*(?P<i>{names})\s*", "k": "(?P<k>[0-9]{1,9})", "n": "(?P<n>[0-9]{1,9})"}
         text, count = "", 0
         for part in _PART.finditer(self.form):
             if part["place"] is not None:
@@ -123,8 +128,10 @@ def commands_of(schema: Schema, machine: str) -> list[Command]:
 
 
 def _settings(schema: Schema, machine: str, parameter: Parameter, template: str) -> Iterator[Setting]:
-    places = [m["place"] for m in _PART.finditer(template) if m["place"] not in (None, "i", "n")]
+    places = [m["place"] for m in _PART.finditer(template) if m["place"] not in (None, "i", "k", "n")]
     ids = [parameter.id if place == "v" else place for place in places]
-    for n, instance in enumerate(schema.on(machine).instances(parameter)):
-        if all(instance in schema.on(machine).instances(schema.parameters[name]) for name in ids):
-            yield Setting(template, instance, n, tuple((name, instance) for name in ids))
+    here = schema.on(machine)
+    for place, instance in enumerate(here.instances(parameter)):
+        if all(instance in here.instances(schema.parameters[name]) for name in ids):
+            number = here.plain_number((parameter.id, instance))
+            yield Setting(template, instance, place, number, tuple((name, instance) for name in ids))
