@@ -105,6 +105,26 @@ class UnitError(ValueError):
     """A unit that is not known, or does not measure what is asked for."""
 
 
+def define_unit(unit: str, measures: str, factor: Fraction) -> None:
+    """Make a unit known that only one family has: what it measures, and the factor to the canonical unit of that.
+
+    Raises UnitError for one that is known already with another meaning, and for a dimension without a canonical unit.
+    """
+    meaning = (measures, factor)
+    known = UNITS.get(unit)
+    if known is None and ALIASES.get(unit, ALIASES.get(unit.lower())) is not None:
+        raise UnitError(f"{quoted(unit)} is how people write {ALIASES.get(unit, ALIASES.get(unit.lower()))}")
+    if known is not None and known != meaning:
+        raise UnitError(
+            f"{quoted(unit)} measures {known[0] or 'nothing'} already, with the factor {known[1]}"
+        )
+    if factor <= 0:
+        raise UnitError(f"the factor of {quoted(unit)} is {factor}: it must be above 0")
+    if factor != 1 and (measures, Fraction(1)) not in UNITS.values():
+        raise UnitError(f"no unit of {measures} has the factor 1, which {quoted(unit)} could be converted to")
+    UNITS[unit] = meaning
+
+
 def unit_named(text: str) -> str:
     """Return the unit a person wrote in any of its usual spellings; raises UnitError."""
     word = text.strip().replace(" ", "")

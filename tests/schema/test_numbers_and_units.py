@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.schema import (
+    DatabaseError,
     InvalidValueError,
     UnitError,
     Value,
@@ -370,3 +371,21 @@ def test_a_whole_number_takes_no_fraction(ninepc) -> None:
         read_value(parameter, "3.5", "")
     with pytest.raises(InvalidValueError, match="too large for Teeth"):
         read_value(parameter, "9007199254740993.0e1", "")
+
+
+@pytest.mark.parametrize(
+    ("own", "said"),
+    [
+        ("mm: {measures: step}", "'mm' measures length already, with the factor 1"),
+        ("blu: {measures: step}", "'blu' is how people write BLU"),
+        ("steps/dm: {measures: step density, factor: 1/100}", "no unit of step density has the factor 1"),
+        ("steps/dm: {measures: length, factor: -1/2}", "must be above 0"),
+        ("steps/dm: {measures: length, factor: 1/0}", "'1/0' is no factor"),
+        ("steps/dm: {measures: length, factor: ten}", "Invalid literal for Fraction: 'ten'"),
+        ('"1 mm": {measures: length}', "'1 mm' is no name of a unit"),
+    ],
+)
+def test_a_unit_of_a_family_contradicts_no_other(facts, head: str, own: str, said: str) -> None:
+    with pytest.raises(DatabaseError) as caught:
+        facts.schema("", f"own_units:\n  {own}\n{head}")
+    assert said in str(caught.value)

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from pydantic import model_validator
+import re
+from fractions import Fraction
+from typing import Annotated
+
+from pydantic import AfterValidator, model_validator
+
+from amp_studio.schema.units import define_unit
 
 from .parameter import Bit, Choice, Effect
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
@@ -67,9 +73,32 @@ class AxisNames(Model):
     bit: int
 
 
+class OwnUnit(Model):
+    """A unit that only one family has."""
+
+    measures: str
+    """Its dimension; a name that no other unit has makes a dimension of its own."""
+    factor: str = "1"
+    """To the unit of the dimension that has 1, exactly: a number in quotes or a fraction (``10/254``)."""
+
+
+def _defined(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
+    """Make the units known to whatever is read after them."""
+    for unit, meaning in own.items():
+        if not re.fullmatch("[A-Za-z][A-Za-z0-9]*(/[A-Za-z0-9]+)*", unit):
+            raise ValueError(f"'{unit}' is no name of a unit: letters and digits, as steps/mm")
+        try:
+            define_unit(unit, meaning.measures, Fraction(meaning.factor))
+        except ZeroDivisionError:
+            raise ValueError(f"'{meaning.factor}' is no factor") from None
+    return own
+
+
 class Family(Model):
     """``family.yaml``: identity, scopes, units and the order of the groups."""
 
+    own_units: Annotated[dict[str, OwnUnit], AfterValidator(_defined)] = {}
+    """Units that the program does not know by itself. First, because all that follows may use them."""
     family: Key
     name: str
     document: str

@@ -38,7 +38,7 @@ def path(tmp_path: Path) -> Path:
 def test_it_is_listed_with_the_others(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["families", "--json"]) == 0
     listed = {each["id"]: each for each in json.loads(capsys.readouterr().out)["families"]}
-    assert (listed[FAMILY]["name"], listed[FAMILY]["parameters"]) == ("Stepper control", 3)
+    assert (listed[FAMILY]["name"], listed[FAMILY]["parameters"]) == ("Stepper control", 4)
     assert len(listed) > 5
 
 
@@ -55,6 +55,16 @@ def test_its_rule_resolves_blu_through_the_increment_system(
     assert finding["message"] == "Stroke Limit 70000 BLU is 70 mm, and the guide has 60 mm."
     assert run(["set", str(path), "1=IS-C"]) == 0
     assert run(["validate", str(path)]) == 0, "70000 BLU are 7 mm under IS-C"
+
+
+def test_its_own_unit_is_entered_converted_and_checked_like_any_other(
+    path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["set", str(path), "30=25400 steps/in"]) == 0, "that is 1000 steps/mm, the bound itself"
+    assert open_file(path).file.evaluation.canonical(("axis.density", "X")) == 1000.0
+    assert run(["set", str(path), "30=25400.1 steps/in"]) == 2
+    assert "25400.1 steps/in is outside 25.4 to 25400 steps/in" in capsys.readouterr().err
+    assert run(["set", str(path), "30=5 mm"]) == 2
 
 
 def test_its_format_is_written_and_recognised(path: Path, tmp_path: Path) -> None:
