@@ -1,7 +1,7 @@
-"""Printed documentation, and parameters and findings in words.
+"""Printed documentation, and parameters and findings as text and JSON.
 
 ``write_report`` prints a parameter file as PDF, HTML, CSV or text, in one of
-the documenter's three orders; ``build_report`` gives the same as plain data.
+one of three orders; ``build_report`` returns the same as plain data.
 """
 
 from .build import build_report

@@ -21,12 +21,13 @@ from amp_studio.schema import Address, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
 from .findings import joined_places, notes_of, suppressed_notes
-from .model import SORTS, Report, Row, Sort, counted
+from .model import SORTS, Report, ReportRow, Sort
 from .rows import Rows, axis_name, printed_axes, row_of, rows_of, scope_of
 from .sections import number_span, sections_of
+from .wording import counted
 
 _SHORT = 16
-"""Digits of a checksum that are printed."""
+"""Number of digits of a checksum that are printed."""
 
 
 def build_report(
@@ -39,13 +40,13 @@ def build_report(
     own: BuilderRules = NO_RULES,
     secrets: bool = False,
 ) -> Report:
-    """Return the report of a file as it is in memory; secrets are masked unless ``secrets`` asks for them.
+    """Return the report of a file as it is in memory; secrets are masked unless ``secrets`` is true.
 
-    ``source`` is where it lies on disk; ``date`` is printed, now when left
-    out. Raises ValueError for an order that is none of the three.
+    ``source`` is its path on disk; ``date`` is printed, the present time if left
+    out. Raises ValueError for an unknown order.
     """
     if sort not in SORTS:
-        raise ValueError(f"'{sort}' is no order of a report: {', '.join(SORTS)}")
+        raise ValueError(f"Unknown order '{sort}'. Known: {', '.join(SORTS)}")
     found = rows_of(file, secrets=secrets)
     printed = tuple(r for r in found.rows if r.is_changed) if changed_only else found.rows
     validator = Validator(file, own)
@@ -97,7 +98,7 @@ def _facts(
         _checksum(file, source, secrets),
         ("Schema signature", _signature(file)),
         ("Order", SORTS[sort]),
-        ("Contents", "only what differs from the printed default" if changed_only else "every value"),
+        ("Contents", "only what differs from the printed default" if changed_only else "all parameters"),
     ]
     return [(title, text or "–") for title, text in facts]
 
@@ -134,21 +135,21 @@ def _signature(file: ParameterFile) -> str:
 
 def _counts(file: ParameterFile, found: Rows, findings: Sequence[Finding]) -> list[tuple[str, str]]:
     rows = found.rows
-    told = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(findings, s))]
+    severities = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(findings, s))]
     counts = [
-        ("Findings", ", ".join(told) or "none"),
+        ("Findings", ", ".join(severities) or "none"),
         ("Values", str(len(rows))),
         ("Differ from the default", str(sum(r.is_changed for r in rows))),
         ("Forced out of range", str(len(file.forced))),
         ("Not set", str(sum(_is_missing(r) for r in rows))),
         ("Ignored by the control", str(sum(r.state == "ignored" for r in rows))),
-        ("Unusable", str(sum(r.state == "unusable" for r in rows))),
+        ("Not available", str(sum(r.state == "unusable" for r in rows))),
         ("Hidden, left out", str(found.hidden)),
     ]
     if file.schema.family.axes is not None:
         counts.append(("Of unfitted axes, left out", str(found.unfitted)))
     if file.unknown:
-        counts.append(("Not known here, kept", str(len(file.unknown))))
+        counts.append(("Unknown entries, kept in the file", str(len(file.unknown))))
     return counts
 
 
@@ -156,19 +157,19 @@ def _severity(findings: Sequence[Finding], severity: str) -> int:
     return sum(f.severity == severity for f in findings)
 
 
-def _forced(file: ParameterFile, rows: Sequence[Row], secrets: bool) -> tuple[Row, ...]:
-    """Return every value set out of range on purpose, also those that are not printed otherwise."""
+def _forced(file: ParameterFile, rows: Sequence[ReportRow], secrets: bool) -> tuple[ReportRow, ...]:
+    """Return all forced values, also those that are not printed otherwise."""
     printed = {(r.id, r.instance): r for r in rows}
     forced = (a for a in file.addresses() if a in file.forced)
     return tuple(printed.get(a) or row_of(file, a, secrets=secrets) for a in forced)
 
 
-def _is_missing(row: Row) -> bool:
+def _is_missing(row: ReportRow) -> bool:
     return not row.is_set and row.state == "in-force"
 
 
-def _not_set(rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
-    """Yield number, name and places of each parameter that is in force without a value."""
+def _not_set(rows: Sequence[ReportRow]) -> Iterator[tuple[str, str, str]]:
+    """Yield number, name and places of each active parameter without a value."""
     for _, members in groupby((r for r in rows if _is_missing(r)), key=lambda r: r.id):
         own = list(members)
         places = [r.place or "Control" for r in own] if any(r.place for r in own) else []
@@ -179,9 +180,9 @@ def _not_set(rows: Sequence[Row]) -> Iterator[tuple[str, str, str]]:
 
 
 def _axes(
-    file: ParameterFile, rows: Sequence[Row], findings: Sequence[Finding]
+    file: ParameterFile, rows: Sequence[ReportRow], findings: Sequence[Finding]
 ) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-    """Return the heads and the lines of the axis summary; both empty for a family without an axis profile."""
+    """Return heads and lines of the axis summary; both are empty for a family without an axis profile."""
     profile = file.schema.family.axes
     if profile is None:
         return (), ()
@@ -198,14 +199,18 @@ def _axes(
 
 
 def _axis(
-    file: ParameterFile, axis: str, asked: Sequence[str], rows: Sequence[Row], findings: Sequence[Finding]
+    file: ParameterFile,
+    axis: str,
+    asked: Sequence[str],
+    rows: Sequence[ReportRow],
+    findings: Sequence[Finding],
 ) -> tuple[str, ...]:
     own = [r for r in rows if r.instance == axis and scope_of(file, (r.id, axis)) == "axis"]
     touching = [f for f in findings if any(a[1] == axis and scope_of(file, a) == "axis" for a in f.addresses)]
-    told = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
+    severities = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
     settings = [_setting(file, (p, axis)) for p in asked]
     return (axis, axis_name(file, axis) or "–", *settings, str(len(own)), str(sum(r.is_changed for r in own)),
-            ", ".join(told) or "–")  # fmt: skip
+            ", ".join(severities) or "–")  # fmt: skip
 
 
 def _setting(file: ParameterFile, address: Address) -> str:

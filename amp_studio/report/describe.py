@@ -1,4 +1,4 @@
-"""Parameters as JSON; findings as JSON and in words."""
+"""Parameters as JSON; findings as JSON and as text."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .model import SEVERITY_WORDS
 
 
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
-    """Return one parameter definition as ``schema --json`` gives it."""
+    """Return one parameter definition in the form of ``schema --json``."""
     machines = [m.key for m in schema.family.machines]
     layout = schema.on(schema.family.default_machine).layout(parameter)
     printed = {m: schema.on(m).numbers(parameter) for m in machines}
@@ -114,7 +114,7 @@ def _default(parameter: Parameter) -> dict[str, Any] | None:
 
 
 def _available(schema: Schema, states: tuple[StateRule, ...]) -> str:
-    """Return when a parameter is in force, as conditions in CEL joined by 'and'."""
+    """Return when a parameter is active, as CEL conditions joined by 'and'."""
     parts = []
     for state in states:
         condition = schema.family.conditions[state.when or state.unless or ""].when
@@ -123,8 +123,8 @@ def _available(schema: Schema, states: tuple[StateRule, ...]) -> str:
 
 
 def _help(parameter: Parameter) -> str:
-    told = parameter.help
-    return "\n\n".join(part for part in (told.what, told.find, told.wrong) if part)
+    texts = parameter.help
+    return "\n\n".join(part for part in (texts.what, texts.find, texts.wrong) if part)
 
 
 def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
@@ -150,25 +150,25 @@ def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
 
 
 def finding_text(file: ParameterFile, finding: Finding) -> str:
-    """Return a finding in a line or two for the terminal."""
+    """Return a finding as one or two lines for the terminal."""
     names = ", ".join(_named(file, a) for a in finding.addresses[:8])
     page = f" ({finding.cited})" if finding.page else ""
     severity = SEVERITY_WORDS.get(finding.severity, finding.severity)
     lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
     for what, settings in (("the control uses", finding.effective), ("suggested fix", finding.repairs)):
         if settings:
-            told = ", ".join(
+            values = ", ".join(
                 f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"
                 for s in settings
             )
-            lines.append(f"         {what}: {told}")
+            lines.append(f"         {what}: {values}")
     return "\n".join(lines)
 
 
 def suppressed_text(file: ParameterFile, left: Suppressed) -> str:
-    """Return a finding that a builder leaves as it is, in two lines for the terminal."""
-    said = finding_text(file, replace(left.finding, repairs=(), effective=()))
-    return f"suppressed {said}\n         by {left.suppression.by}: {left.suppression.reason}"
+    """Return a suppressed finding as two lines for the terminal."""
+    text = finding_text(file, replace(left.finding, repairs=(), effective=()))
+    return f"suppressed {text}\n         by {left.suppression.by}: {left.suppression.reason}"
 
 
 def _written(parameter: Parameter, value: Value) -> str:

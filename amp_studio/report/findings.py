@@ -1,4 +1,4 @@
-"""Findings as they are printed: the same sentence about several axes is said once."""
+"""Findings of a report: equal messages about several axes become one note."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .model import SEVERITY_WORDS, Note
 from .rows import axis_label, axis_name, scope_of
 
 _NAMED = 6
-"""Values a finding names one by one; a message about more names the first of them itself."""
+"""Number of values that a note lists; a finding about more names only the first ones in its message."""
 
 
 def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
@@ -55,13 +55,13 @@ def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
 
 
 def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: set[str]) -> tuple[Note, ...]:
-    """Return the findings that a builder leaves as they are, with his name and the reason."""
+    """Return the suppressed findings as notes, with name and reason."""
     alike: dict[tuple[str, str], list[Finding]] = {}
     for suppressed in left:
         finding, why = suppressed.finding, suppressed.suppression
-        said = f"{finding.message} Suppressed by {why.by}: {why.reason}"
-        alike.setdefault((finding.rule, said), []).append(
-            replace(finding, message=said, repairs=(), effective=())
+        message = f"{finding.message} Suppressed by {why.by}: {why.reason}"
+        alike.setdefault((finding.rule, message), []).append(
+            replace(finding, message=message, repairs=(), effective=())
         )
     return tuple(replace(_note(file, same, printed), severity="suppressed") for same in alike.values())
 
@@ -75,7 +75,7 @@ def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> No
         count=len(same),
         place=_places(file, addresses),
         about=tuple(_links(file, addresses, printed)),
-        message=same[0].message + (f" The control uses {used}." if used else ""),
+        message=same[0].message + (f" Effective value in the control: {used}." if used else ""),
         repair="; ".join(_settings(file, repairs)),
         page=same[0].page or "",
         is_own=same[0].is_own,
@@ -90,7 +90,7 @@ def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:
 
 
 def joined_places(places: Iterable[str]) -> str:
-    """Return ``Axis 1 X, 2 Y``: the word that neighbours share is said once."""
+    """Return ``Axis 1 X, 2 Y``: a common first word is not repeated."""
     texts, word = [], ""
     for place in places:
         first, _, rest = place.partition(" ")
@@ -100,7 +100,7 @@ def joined_places(places: Iterable[str]) -> str:
 
 
 def _links(file: ParameterFile, addresses: Sequence[Address], printed: set[str]) -> Iterable[tuple[str, str]]:
-    """Yield anchor and label: of one parameter's values ``1300``, ``2300`` and then ``3300 Home Calibration``."""
+    """Yield anchor and label of each value, for example ``1300``, ``2300`` and ``3300 Home Calibration``."""
     order = [a[0] for a in addresses]
     for _, members in groupby(sorted(addresses, key=lambda a: order.index(a[0])), key=lambda a: a[0]):
         same = list(members)
@@ -110,9 +110,9 @@ def _links(file: ParameterFile, addresses: Sequence[Address], printed: set[str])
 
 
 def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool) -> str:
-    """Return number and name of the last of one parameter's values, the number alone of the others.
+    """Return number and name for the last value of a parameter, the number alone for the others.
 
-    Without a number it is the name and the axis of the first, and the axis alone of the others.
+    Without a number: name and axis for the first value, the axis alone for the others.
     """
     here = file.machine_schema
     number = here.number(address)

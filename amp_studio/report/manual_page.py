@@ -1,4 +1,4 @@
-"""One parameter as a person reads it: the page of a manual, as short facts and as help."""
+"""The description of one parameter as text: short facts and help."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _INDENT = "  "
 def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
     """Return what is known of a parameter, by number or id; raises UnknownParameterError.
 
-    Where a number means several parameters, or another one on another machine type, each has its page.
+    A number that belongs to several parameters, or to another one on another machine type, gives one page for each.
     """
     machines = [machine] if machine else [m.key for m in schema.family.machines]
     found = schema.parameters.get(read_address(param.strip().casefold())[0])
@@ -90,13 +90,14 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
         ]
     rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
     lines += _section(
-        "Rules it takes part in", (f"{r.severity:8} {r.title} (page {r.page}; {r.id})" for r in rules)
+        "Rules that use it",
+        (f"{severity_name(r.severity):14} {r.title} (page {r.page}; {r.id})" for r in rules),
     )
     return "\n".join(lines).rstrip()
 
 
 def _steps(schema: Schema, parameter: Parameter) -> Iterator[str]:
-    """Yield where the guides of the family set a parameter."""
+    """Yield the steps of the family's guides that set a parameter."""
     for guide in schema.guides:
         for n, step in enumerate(guide.steps, 1):
             if parameter.id in step.params:
@@ -121,12 +122,12 @@ def _section(title: str, entries: Iterable[str]) -> list[str]:
 
 
 def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
-    """Return the published formulas of a parameter, each with its arguments and what it gives."""
+    """Return the published formulas of a parameter, each with its arguments and description."""
     lines = []
     for name in parameter.formulas:
         function = formulas(schema.family.family)[name]
-        told = (inspect.getdoc(function) or "").partition("\n")[0].replace("``", "")
-        lines.append(f"{name}({', '.join(inspect.signature(function).parameters)}): {told}")
+        description = (inspect.getdoc(function) or "").partition("\n")[0].replace("``", "")
+        lines.append(f"{name}({', '.join(inspect.signature(function).parameters)}): {description}")
     return lines
 
 
@@ -154,16 +155,18 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
         "reset": "on reset",
         "restart": "on restart of the control",
         "command": f"when {effect.command} reads it",
-        "unknown": "the manual does not say",
+        "unknown": "not given in the manual",
     }
-    read_only = "only read: the control writes it itself"
+    read_only = "read-only"
     found.append(
         ("Access", read_only) if parameter.access == "read" else ("Takes effect", levels[effect.level])
     )
     for state in parameter.states:
         condition = schema.family.conditions[state.when or state.unless or ""]
         page = state.page or condition.page
-        found.append((state.state.capitalize(), condition.why + (f" (page {page})" if page else "")))
+        found.append(
+            (state_name(state.state).capitalize(), condition.why + (f" (page {page})" if page else ""))
+        )
     found += [("Needs", f"{need.what} (page {need.page})") for need in parameter.needs]
     pages = " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
     found.append(("Source", f"{schema.family.title}, page {pages}"))
@@ -171,7 +174,7 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
 
 
 def _numbers(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
-    """Yield the numbers, once for all machine types where they are the same on each."""
+    """Yield the numbers, once if they are the same on all machine types."""
     machines = [m for m in schema.family.machines if machine in (None, m.key)]
     texts = {m.name: _spans(schema, parameter, m.key) for m in machines}
     if len(set(texts.values())) == 1:
@@ -222,14 +225,14 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
 
 
 def _even(members: list[tuple[str, str]]) -> bool:
-    """Tell whether the numbers go up by the same step, so that first, second and last say it all."""
+    """Return whether the numbers have a constant step, so that first, second and last are enough."""
     split = [_counted(number) for _, number in members]
     steps = {b[1] - a[1] for a, b in pairwise(split)}
     return len(split) > 2 and len({head for head, _ in split}) == len(steps) == 1 and steps != {0}
 
 
 def _counted(text: str) -> tuple[str, int]:
-    """Return a text without the digits at its end, and these as a number; 0 where there are none."""
+    """Return a text without the digits at its end, and these digits as a number (0 without digits)."""
     head = text.rstrip("0123456789")
     return head, int(text[len(head) :] or 0)
 
@@ -298,7 +301,7 @@ def _choice(choice: Choice, patchable: bool) -> str:
 
 
 def _bits(parameter: Parameter) -> Iterator[str]:
-    """Yield a line for each field of a packed word; bits that are called alike and counted up share one."""
+    """Yield one line for each field of a packed word; bits with counted names (Axis 2, Axis 3) share one."""
     fields = list(parameter.bits or ())
     while fields:
         run = [fields.pop(0)]
@@ -308,13 +311,13 @@ def _bits(parameter: Parameter) -> Iterator[str]:
         end = last.bit + last.width - 1
         where = f"{first.bit}" if end == first.bit else f"{first.bit} to {end}"
         what = first.label if first is last else f"{first.label} to {last.label}"
-        unknown = " (the manual's figure is lost: kept as it stands)" if first.unknown else ""
+        unknown = " (not legible in the manual: keep the present value)" if first.unknown else ""
         yield f"{where}: {what}{unknown}"
         yield from (f"    {_choice(choice, patchable=False)}" for choice in first.choices or ())
 
 
 def _goes_on(a: Bit, b: Bit) -> bool:
-    """Tell whether a bit is the next one of a row: Axis 3 after Axis 2."""
+    """Return whether a bit continues a series: Axis 3 after Axis 2."""
     (head, number), (other, following) = _counted(a.label), _counted(b.label)
     plain = a.width == b.width == 1 and not a.choices and not b.choices and a.unknown == b.unknown
     return plain and head == other and following == number + 1 and b.bit == a.bit + 1
@@ -343,7 +346,7 @@ def _plain(parameter: Parameter, value: float | bool | str) -> str:
 
 
 def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
-    """Yield the command that sets the first instance, with a gap for each value: ``NOTCH X(…, …)``."""
+    """Yield the command that sets the first instance, with a placeholder for each value: ``NOTCH X(…, …)``."""
     if parameter.storage and parameter.storage.command:
         here = schema.on(schema.family.default_machine)
         first = here.instances(parameter)[0]
@@ -353,12 +356,12 @@ def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
 
 def _at_the_control(parameter: Parameter) -> Iterator[str]:
     if parameter.tunable:
-        yield "can be changed at the running machine"
+        yield "can be changed while the machine runs"
     if parameter.patchable:
         storage = parameter.storage
         unit = f", in {shown(storage.unit)}" if storage and storage.unit else ""
         places = f" with {storage.decimals} decimals" if storage and storage.decimals else ""
-        yield f"can be keyed in by its number{unit}{places}"
+        yield f"can be entered by its number{unit}{places}"
 
 
 # -- help ----------------------------------------------------------------------
@@ -366,18 +369,18 @@ def _at_the_control(parameter: Parameter) -> Iterator[str]:
 
 def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
     """Return the help as (title, text)."""
-    told = parameter.help
+    texts = parameter.help
     parts = [
-        ("What it does", told.what),
-        ("How to find its value", told.find),
-        ("When it is wrong", told.wrong),
+        ("What it does", texts.what),
+        ("How to find its value", texts.find),
+        ("When it is wrong", texts.wrong),
     ]
-    related = ", ".join(schema.parameters[r].name for r in told.related if r in schema.parameters)
+    related = ", ".join(schema.parameters[r].name for r in texts.related if r in schema.parameters)
     parts.append(("Related", related))
     errata = [schema.errata[e] for e in parameter.errata if e in schema.errata]
     for n, erratum in enumerate(errata, 1):
         count = f" ({n} of {len(errata)})" if len(errata) > 1 else ""
-        parts.append((f"The manual contradicts itself{count}", erratum_text(erratum)))
+        parts.append((f"Contradiction in the manual{count}", erratum_text(erratum)))
     return [(title, " ".join(text.split())) for title, text in parts if text]
 
 
@@ -385,7 +388,7 @@ def erratum_text(erratum: Erratum) -> str:
     """Return a contradiction of the manual in one paragraph."""
     readings = "; ".join(f"page {r.page}: {r.says}" for r in erratum.readings)
     why = erratum.why.strip()
-    return f"{readings}. Taken: {erratum.taken.strip().rstrip('.')}. {why}"
+    return f"{readings}. Used here: {erratum.taken.strip().rstrip('.')}. {why}"
 
 
 def _short_span(schema: Schema, parameter: Parameter, machine: str) -> str:

@@ -1,6 +1,6 @@
-"""A printed report as plain data: what every format writes, with nothing left to look up.
+"""A report as plain data, complete for every output format.
 
-Texts are for a person and not escaped; each format escapes in its own way.
+Texts are not escaped; each format escapes them itself.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from typing import Literal
 from amp_studio.schema.model import Severity, State
 
 Sort = Literal["axis", "number", "group"]
-"""The three orders of the documenter (9/PC CNC AMP Reference Manual, Documenting AMP Files)."""
+"""The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files)."""
 
 SORTS: dict[Sort, str] = {
-    "axis": "by axis, then what belongs to no axis",
+    "axis": "by axis, then non-axis parameters",
     "number": "by parameter number",
     "group": "by group",
 }
@@ -24,8 +24,8 @@ SORTS: dict[Sort, str] = {
 MARKS: dict[str, str] = {
     "*": "differs from the printed default, or none is printed",
     "!": "forced: set out of range on purpose",
-    "i": "ignored by the control for this machine; the reason stands below the table under its number",
-    "u": "unusable: another setting forbids it, likewise with its reason",
+    "i": "ignored by the control on this machine; the reason is below the table",
+    "u": "not available: another setting excludes it; the reason is below the table",
 }
 
 
@@ -33,13 +33,13 @@ _MANY_AXES = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
-    """One addressable value."""
+class ReportRow:
+    """One value."""
 
     id: str
     instance: str
     number: str
-    """The number that addresses it; empty where it has none of its own."""
+    """Its number; empty if it has none."""
     name: str
     group: str
     place: str
@@ -48,38 +48,38 @@ class Row:
     value: str
     """Label or number without its unit; empty when not set."""
     unit: str
-    """As the database writes it (``mm/s2``)."""
+    """In the spelling of the database (``mm/s2``)."""
     shown_unit: str
-    """As a person reads it (``mm/s²``)."""
+    """In the printed spelling (``mm/s²``)."""
     detail: str
-    """What the set bits of a packed word mean; empty for everything else."""
+    """The meaning of the set bits of a packed word; empty for all others."""
     default: str
-    """The printed default, with its unit only where that is not the value's."""
+    """The printed default; with its unit if that differs from the unit of the value."""
     plain_default: str
-    """The default in the unit of the value, for a table that is calculated with."""
+    """The default as a number in the unit of the value, for calculations in a spreadsheet."""
     is_changed: bool
-    """A value is set, and it is not the printed default."""
+    """Whether a value is set and differs from the printed default."""
     state: State
     why: str
-    """Why it is out of force."""
+    """Why it is inactive; empty when it is active."""
     state_mark: str
-    """``i2`` for the second reason of this report why a value is ignored, ``u1`` for unusable; empty in force."""
+    """``i2`` for the second reason in this report why a value is ignored, ``u1`` for not available; empty when active."""
     forced: str
-    """When and by whom it was set out of range on purpose; empty when it was not."""
+    """When and by whom it was forced out of range; empty when it was not."""
 
     @property
     def anchor(self) -> str:
-        """What links to this row."""
+        """The anchor of links to this row."""
         return f"{self.id}@{self.instance}"
 
     @property
     def marks(self) -> str:
-        """The marks of ``MARKS`` that this value bears."""
+        """The marks (keys of ``MARKS``) of this value."""
         return ("*" if self.is_changed else "") + self.other_marks
 
     @property
     def other_marks(self) -> str:
-        """Its marks without that of a change, for a format that shows a change by its looks."""
+        """Its marks without ``*``, for a format that shows a change by colour."""
         return ("!" if self.forced else "") + self.state_mark
 
     @property
@@ -96,17 +96,17 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """One line of a grid: a parameter across the axes, or a value that belongs to no axis and spans them."""
+class GridLine:
+    """One line of a grid: a parameter across the axes, or a non-axis value that spans all columns."""
 
     number: str
     name: str
     place: str
     shown_unit: str
-    """Of most cells; a cell in another unit writes its own."""
+    """The unit of most cells; a cell in another unit includes it."""
     default: str
-    cells: tuple[Row | None, ...]
-    """One for each column, None where the parameter does not exist there; a single one when it spans."""
+    cells: tuple[ReportRow | None, ...]
+    """One cell for each column, None where the parameter does not exist; one single cell when it spans."""
     spans: bool
 
     @property
@@ -114,46 +114,46 @@ class Line:
         """Whether any of its values differs from the printed default."""
         return any(row.is_changed for row in self.cells if row is not None)
 
-    def cell_text(self, row: Row) -> str:
-        """Return what stands in a cell."""
+    def cell_text(self, row: ReportRow) -> str:
+        """Return the text of a cell."""
         return row.bare_text if row.shown_unit == self.shown_unit else row.text
 
 
 @dataclass(frozen=True, slots=True)
 class Listing:
-    """Values one below the other."""
+    """A table with one line for each value."""
 
     title: str
-    rows: tuple[Row, ...]
+    rows: tuple[ReportRow, ...]
     by_place: bool
-    """Whether a column must say where each value belongs."""
+    """Whether a column with the axis or instance is needed."""
 
     @property
     def reasons(self) -> tuple[tuple[str, str], ...]:
-        """The marks of values out of force, and why they are."""
+        """The marks of inactive values with their reasons."""
         return _reasons(self.rows)
 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Parameters one below the other, axes side by side, as in the editor."""
+    """A table with one line for each parameter and one column for each axis, as in the editor."""
 
     title: str
     columns: tuple[str, ...]
-    lines: tuple[Line, ...]
+    lines: tuple[GridLine, ...]
 
     @property
-    def rows(self) -> tuple[Row, ...]:
+    def rows(self) -> tuple[ReportRow, ...]:
         """Every value, line by line."""
         return tuple(row for line in self.lines for row in line.cells if row is not None)
 
     @property
     def reasons(self) -> tuple[tuple[str, str], ...]:
-        """The marks of values out of force, and why they are."""
+        """The marks of inactive values with their reasons."""
         return _reasons(self.rows)
 
 
-def _reasons(rows: Iterable[Row]) -> tuple[tuple[str, str], ...]:
+def _reasons(rows: Iterable[ReportRow]) -> tuple[tuple[str, str], ...]:
     found = {row.state_mark: row.why for row in rows if row.state_mark}
     return tuple(sorted(found.items(), key=lambda item: (item[0][0], int(item[0][1:]))))
 
@@ -172,29 +172,29 @@ NoteKind = Severity | Literal["suppressed"]
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """One finding, or several that say the same of other axes."""
+    """One finding, or several equal ones about different axes."""
 
     severity: NoteKind
     count: int
     place: str
-    """``Axis 1 X, 2 Y``; empty for a finding about many values, whose message names the first of them."""
+    """``Axis 1 X, 2 Y``; empty for a finding about many values."""
     about: tuple[tuple[str, str], ...]
-    """(anchor, label) of the values it is about; an empty anchor where the report does not print the value."""
+    """(anchor, label) of its values; the anchor is empty for a value that the report does not print."""
     message: str
     repair: str
     page: str
     is_own: bool = False
-    """It is of a builder's rule: ``page`` is where he wrote it down."""
+    """Whether it belongs to a builder's rule; ``page`` is then the place in the rules file."""
 
     @property
     def cited(self) -> str:
-        """The page as a sentence says it."""
+        """The source in words: ``page 7-20``."""
         return self.page if self.is_own else f"page {self.page}"
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Everything a format writes."""
+    """The complete content of a report."""
 
     title: str
     """The machine's name, or the file's."""
@@ -211,30 +211,30 @@ class Report:
     axis_heads: tuple[str, ...]
     axes: tuple[tuple[str, ...], ...]
     notes: tuple[Note, ...]
-    forced: tuple[Row, ...]
+    forced: tuple[ReportRow, ...]
     not_set: tuple[tuple[str, str, str], ...]
-    """(number, parameter, places) of what is in force without a value, one entry a parameter."""
+    """(number, parameter, places) of each active parameter without a value."""
     sections: tuple[Section, ...]
 
     @property
     def when(self) -> str:
-        """Date and time as they are printed."""
+        """Date and time in printed form."""
         return self.date.strftime("%Y-%m-%d %H:%M")
 
     @property
     def lies_across(self) -> bool:
-        """Whether its widest grid needs the long side of the paper."""
+        """Whether its widest grid needs landscape paper."""
         grids = (p for section in self.sections for p in section.parts if isinstance(p, Grid))
         return max((len(g.columns) for g in grids), default=0) >= _MANY_AXES
 
-    def rows(self) -> Iterator[Row]:
-        """Yield every printed value in the order of the report."""
+    def rows(self) -> Iterator[ReportRow]:
+        """Yield all printed values in the order of the report."""
         for section in self.sections:
             for part in section.parts:
                 yield from part.rows
 
     def severities(self) -> dict[NoteKind, tuple[Note, ...]]:
-        """Return the findings by severity, errors first, suppressed ones last; no entry for a severity without one."""
+        """Return the findings by severity, errors first, suppressed ones last; empty severities are left out."""
         names: tuple[NoteKind, ...] = ("error", "warning", "advice", "suppressed")
         found = {name: tuple(n for n in self.notes if n.severity == name) for name in names}
         return {name: notes for name, notes in found.items() if notes}
@@ -253,7 +253,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def printable(text: str) -> str:
-    """Return a text without signs that would steer a printer, a terminal or the direction of writing."""
+    """Return a text without control characters for printers, terminals and text direction."""
     return (
         text if text.isprintable() else "".join(c if c.isprintable() or c == "\u00a0" else " " for c in text)
     )

@@ -1,10 +1,11 @@
-"""The report as one web page: nothing is loaded from elsewhere, and it prints."""
+"""The report as one self-contained web page that can be printed."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from .model import MARKS, Listing, Report, counted, printable
+from .model import MARKS, Listing, Report, printable
+from .wording import counted
 
 
 def render_html(report: Report) -> bytes:
@@ -25,5 +26,5 @@ def render_html(report: Report) -> bytes:
 
 
 def _cleaned(value: object) -> object:
-    """Take steering signs out of a text of the file; what the template itself made stays."""
+    """Return a text of the file without control characters; text of the template is not changed."""
     return printable(value) if type(value) is str else value

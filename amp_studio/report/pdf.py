@@ -1,8 +1,8 @@
-"""The report as PDF: a template writes Typst, Typst sets the pages.
+"""The report as PDF: a template writes Typst source, and Typst sets the pages.
 
-Typst's own fonts are used, so that a report looks alike on every machine (those
-of the system are asked only for writing that Typst has no font for), and
-nothing but the report's date tells when it was made.
+Typst's built-in fonts are used, so that a report looks the same on every machine
+(fonts of the system only for scripts that Typst has no font for), and nothing
+but the report's date depends on the time of printing.
 """
 
 from __future__ import annotations
@@ -10,29 +10,30 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from .model import MARKS, Listing, Report, counted, printable
+from .model import MARKS, Listing, Report, printable
+from .wording import counted
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _BREAK = "\u200b"
-"""Zero-width space: a line may be broken here."""
+"""Zero-width space: a possible line break."""
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
 _JOINT = re.compile(r"\\.|[^\w-]|_|[^\W_]{8}")
 _FOREIGN = re.compile(
     r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
 )
-"""Writing that Typst's own fonts lack (Chinese, Japanese, Korean, Thai, …); they have Latin, Greek and Cyrillic."""
+"""Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin, Greek and Cyrillic."""
 _BRIEF = 40
-"""Signs of a text in the running head."""
+"""Most characters of a text in the page header."""
 
 
 class Exact(str):
-    """A text that is written as it is: without places where it may be broken."""
+    """A text without added line-break places."""
 
     __slots__ = ()
 
 
 def typst_literal(value: object) -> str:
-    """Write a value of the template as a Typst literal, so that no text can be taken for markup."""
+    """Return a value of the template as a Typst literal, so that no text can become markup."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
@@ -42,7 +43,7 @@ def typst_literal(value: object) -> str:
 
 
 def _breakable(text: str) -> str:
-    """Let a long run of signs without a space be broken, so that it stays in its column."""
+    """Return a text with break places in long words, so that it stays in its column."""
     return _LONG_RUN.sub(lambda run: _JOINT.sub(rf"\g<0>{_BREAK}", run.group()), text)
 
 
@@ -66,13 +67,13 @@ def typst_source(report: Report) -> str:
 
 
 def render_pdf(report: Report) -> bytes:
-    """Return the PDF; the same report gives the same bytes."""
+    """Return the PDF; equal reports have equal bytes."""
     import typst
 
     source = typst_source(report)
     own_fonts = _FOREIGN.search(source) is None
     # The root is given because Typst takes the working folder otherwise, which may be gone;
-    # the library's stubs want it in the type of the source, the library itself does not.
+    # the library's stubs require the type of the source, the library itself does not.
     pages = typst.compile(  # type: ignore[call-overload]
         source.encode("utf-8"), root=_TEMPLATES, format="pdf", ignore_system_fonts=own_fonts
     )

@@ -1,4 +1,4 @@
-"""One printed row for each addressable value of a file."""
+"""One report row for each value of a file."""
 
 from __future__ import annotations
 
@@ -19,24 +19,25 @@ from amp_studio.schema import (
     write_value,
 )
 
-from .model import Row
+from .model import ReportRow
 
 
 @dataclass(frozen=True)
 class Rows:
-    """The values of a file that are printed, in the manual's order, and how many are not."""
+    """The printed values of a file in the manual's order, and the number of values not printed."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[ReportRow, ...]
     hidden: int
-    """Values of fitted axes and of the control that do not exist for this configuration."""
+    """Number of hidden values of fitted axes and of the control."""
     unfitted: int
-    """Values of unfitted axes."""
+    """Number of values of unfitted axes."""
 
 
 def rows_of(file: ParameterFile, *, secrets: bool = False) -> Rows:
-    """Return a row for every value that exists: hidden ones and those of unfitted axes are only counted.
+    """Return a row for every value; hidden values and those of unfitted axes are only counted.
 
-    Secrets are masked unless ``secrets`` asks for them. Of what a file is complete without (the entries of a tool table) only the values that are set are printed.
+    Secrets are masked unless ``secrets`` is true. Of optional entries (those of a tool table) only the
+    values that are set are printed.
     """
     axes = printed_axes(file)
     rows, hidden, unfitted = [], 0, 0
@@ -52,7 +53,7 @@ def rows_of(file: ParameterFile, *, secrets: bool = False) -> Rows:
 
 
 def _state_mark(state: StateInfo, marks: dict[tuple[str, str], str]) -> str:
-    """Return the mark of a state with its reason, numbering the reasons as they come."""
+    """Return the mark of a state; each different reason gets the next number."""
     letter = {"ignored": "i", "unusable": "u"}.get(state.state)
     if letter is None:
         return ""
@@ -62,7 +63,7 @@ def _state_mark(state: StateInfo, marks: dict[tuple[str, str], str]) -> str:
 
 
 def printed_axes(file: ParameterFile) -> tuple[str, ...]:
-    """Return the axes a report prints: the fitted ones, or all of a family that cannot leave one unfitted."""
+    """Return the axes a report prints: the fitted ones, or all if the family has no unfitted axes."""
     family = file.schema.family
     if family.axes is not None:
         return fitted_axes(file)
@@ -77,7 +78,7 @@ def scope_of(file: ParameterFile, address: Address) -> str:
 
 
 def axis_name(file: ParameterFile, axis: str) -> str:
-    """Return the letter or name an axis is given; empty where it has none."""
+    """Return the letter or name of an axis; empty if it has none."""
     profile = file.schema.family.axes
     value = file.get((profile.name, axis)) if profile else None
     return label_of(file.schema.parameters[profile.name], str(value.value)) if profile and value else ""
@@ -88,10 +89,12 @@ def axis_label(file: ParameterFile, axis: str) -> str:
     return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {axis_name(file, axis)}".rstrip()
 
 
-def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secrets: bool = False) -> Row:
-    """Return the row of one value; ``state_mark`` says in short why it is out of force.
+def row_of(
+    file: ParameterFile, address: Address, state_mark: str = "", *, secrets: bool = False
+) -> ReportRow:
+    """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive.
 
-    A secret has no default in its row: with the mark of a change it would tell the value.
+    The row of a secret has no default: together with the mark of a change it would reveal the value.
     """
     schema, here = file.schema, file.machine_schema
     parameter = schema.parameters[address[0]]
@@ -102,7 +105,7 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secre
         known.unit if known else "" if parameter.choices else file.evaluation.unit(address, file.header.units)
     )
     on_axis = scope_of(file, address) == "axis"
-    return Row(
+    return ReportRow(
         id=address[0],
         instance=address[1],
         number="" if here.is_disputed(address[0]) else here.number(address) or "",
@@ -125,19 +128,19 @@ def row_of(file: ParameterFile, address: Address, state_mark: str = "", *, secre
 
 
 def _bare(parameter: Parameter, value: Value | None) -> str:
-    """Write a value without its unit, so that it reads back exactly; empty when there is none."""
+    """Return a value as exact text without its unit; empty when it is not set."""
     return "" if value is None else write_value(parameter, Value(value.value))
 
 
 def _default(parameter: Parameter, default: Value | None, unit: str) -> str:
-    """Write the printed default as it is printed, with its unit only where that is not ``unit``."""
+    """Return the default as printed; with its unit if that is not ``unit``."""
     if default is None or default.unit == unit:
         return _bare(parameter, default)
     return f"{_bare(parameter, default)} {shown(default.unit)}".rstrip()
 
 
 def _converted(default: Value | None, unit: str) -> Value | None:
-    """Return a default in another unit; None where it measures something else."""
+    """Return a default in another unit; None for a unit of another quantity."""
     if default is None or isinstance(default.value, (str, bool)) or default.unit == unit:
         return default
     try:
@@ -147,7 +150,7 @@ def _converted(default: Value | None, unit: str) -> Value | None:
 
 
 def _bits(parameter: Parameter, value: Value | None) -> str:
-    """Say what the set bits and the fields of a packed word mean."""
+    """Return the meaning of the set bits and the fields of a packed word."""
     if not parameter.bits or value is None or isinstance(value.value, (str, bool)):
         return ""
     word, parts = int(value.value), []

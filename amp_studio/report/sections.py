@@ -9,36 +9,36 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile
 
-from .model import Grid, Line, Listing, Row, Section, Sort
+from .model import Grid, GridLine, Listing, ReportRow, Section, Sort
 from .rows import axis_label, axis_name, printed_axes, scope_of
 
 _WIDEST_GRID = 8
-"""Axes side by side; a machine with more gets another grid below."""
+"""Most axes in one grid; further axes get another grid below."""
 
 
-def sections_of(file: ParameterFile, rows: Sequence[Row], sort: Sort) -> tuple[Section, ...]:
-    """Return the rows in one of the three orders; sections without a row are left out."""
+def sections_of(file: ParameterFile, rows: Sequence[ReportRow], sort: Sort) -> tuple[Section, ...]:
+    """Return the rows in one of the three orders; empty sections are left out."""
     if sort == "number":
         return _by_number(rows)
     return _by_axis(file, rows) if sort == "axis" else _by_group(file, rows)
 
 
-def _is_axis(file: ParameterFile, row: Row) -> bool:
+def _is_axis(file: ParameterFile, row: ReportRow) -> bool:
     return scope_of(file, (row.id, row.instance)) == "axis"
 
 
 # -- by number -----------------------------------------------------------------
 
 
-def number_key(row: Row) -> tuple[tuple[int, int, str], ...]:
-    """Return what sorts ``P2N10`` after ``P2N9``, and a value without a number last."""
+def number_key(row: ReportRow) -> tuple[tuple[int, int, str], ...]:
+    """Return the sort key of a row: ``P2N10`` after ``P2N9``, and values without a number last."""
     if not row.number:
         return ((2, 0, ""),)
     parts = re.findall(r"\d+|\D+", row.number)
     return tuple((0, int(p), "") if p.isdecimal() else (1, 0, p) for p in parts)
 
 
-def _by_number(rows: Sequence[Row]) -> tuple[Section, ...]:
+def _by_number(rows: Sequence[ReportRow]) -> tuple[Section, ...]:
     ordered = tuple(sorted(rows, key=number_key))
     part = Listing("", ordered, any(r.place for r in ordered))
     return (Section("numbers", "Parameters by number", (part,)),) if rows else ()
@@ -47,7 +47,7 @@ def _by_number(rows: Sequence[Row]) -> tuple[Section, ...]:
 # -- by axis -------------------------------------------------------------------
 
 
-def _by_axis(file: ParameterFile, rows: Sequence[Row]) -> tuple[Section, ...]:
+def _by_axis(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, ...]:
     sections = []
     for axis in printed_axes(file):
         own = [r for r in rows if r.instance == axis and _is_axis(file, r)]
@@ -62,13 +62,13 @@ def _by_axis(file: ParameterFile, rows: Sequence[Row]) -> tuple[Section, ...]:
     return tuple(sections)
 
 
-def _listings(file: ParameterFile, rows: Iterable[Row], by_place: bool) -> tuple[Listing, ...]:
+def _listings(file: ParameterFile, rows: Iterable[ReportRow], by_place: bool) -> tuple[Listing, ...]:
     """Return one listing for each group of the manual."""
     parts = groupby(rows, key=lambda r: _group_title(file, r))
     return tuple(Listing(title, tuple(part), by_place) for title, part in parts)
 
 
-def _group_title(file: ParameterFile, row: Row) -> str:
+def _group_title(file: ParameterFile, row: ReportRow) -> str:
     group = file.schema.group_of[row.id]
     return f"{group.name}: {group.section}" if group.section else group.name
 
@@ -76,8 +76,8 @@ def _group_title(file: ParameterFile, row: Row) -> str:
 # -- by group ------------------------------------------------------------------
 
 
-def _by_group(file: ParameterFile, rows: Sequence[Row]) -> tuple[Section, ...]:
-    """Return one section for each group; the parts of a long group, which share its name, stay together."""
+def _by_group(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, ...]:
+    """Return one section for each group; the parts of a long group stay together."""
     sections: list[Section] = []
     for name, members in groupby(rows, key=lambda r: r.group):
         parts: list[Listing | Grid] = []
@@ -87,7 +87,7 @@ def _by_group(file: ParameterFile, rows: Sequence[Row]) -> tuple[Section, ...]:
     return tuple(sections)
 
 
-def _group_parts(file: ParameterFile, title: str, rows: list[Row]) -> list[Listing | Grid]:
+def _group_parts(file: ParameterFile, title: str, rows: list[ReportRow]) -> list[Listing | Grid]:
     axes = printed_axes(file)
     if not any(_is_axis(file, r) for r in rows):
         return [Listing(title, tuple(rows), any(r.place for r in rows))]
@@ -101,12 +101,16 @@ def _group_parts(file: ParameterFile, title: str, rows: list[Row]) -> list[Listi
     return grids
 
 
-def _lines(file: ParameterFile, rows: list[Row], axes: Sequence[str], with_others: bool) -> Iterable[Line]:
+def _lines(
+    file: ParameterFile, rows: list[ReportRow], axes: Sequence[str], with_others: bool
+) -> Iterable[GridLine]:
     for _, members in groupby(rows, key=lambda r: r.id):
         own = list(members)
         if not _is_axis(file, own[0]):
             if with_others:
-                yield from (Line(r.number, r.name, r.place, r.shown_unit, r.default, (r,), True) for r in own)
+                yield from (
+                    GridLine(r.number, r.name, r.place, r.shown_unit, r.default, (r,), True) for r in own
+                )
             continue
         at = {r.instance: r for r in own}
         cells = tuple(at.get(axis) for axis in axes)
@@ -115,9 +119,9 @@ def _lines(file: ParameterFile, rows: list[Row], axes: Sequence[str], with_other
             yield _axis_line(present, cells)
 
 
-def _axis_line(present: list[Row], cells: tuple[Row | None, ...]) -> Line:
+def _axis_line(present: list[ReportRow], cells: tuple[ReportRow | None, ...]) -> GridLine:
     defaults = dict.fromkeys(r.default for r in present)
-    return Line(
+    return GridLine(
         number=number_span(present),
         name=present[0].name,
         place="",
@@ -128,14 +132,14 @@ def _axis_line(present: list[Row], cells: tuple[Row | None, ...]) -> Line:
     )
 
 
-def _line_unit(present: list[Row]) -> str:
-    """Return the unit of most cells, of those on axes that move straight where there are any."""
+def _line_unit(present: list[ReportRow]) -> str:
+    """Return the unit of most cells, of those of linear axes if there are any."""
     units = [r.shown_unit for r in present]
     straight = [u for u in units if not u.startswith(("°", "deg"))]
     return Counter(straight or units).most_common(1)[0][0]
 
 
-def number_span(rows: Sequence[Row]) -> str:
+def number_span(rows: Sequence[ReportRow]) -> str:
     """Return ``1300–5300`` for the values of one parameter."""
     first, last = rows[0].number, rows[-1].number
     return first if first == last else f"{first}–{last}"

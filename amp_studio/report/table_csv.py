@@ -1,4 +1,4 @@
-"""The report as a table for a spreadsheet: one line a value, RFC 4180, UTF-8 with the mark Excel looks for."""
+"""The report as a CSV table: one line for each value, RFC 4180, UTF-8 with a byte order mark for Excel."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import io
 
 from amp_studio.files.spreadsheet import text_cell
 
-from .model import Report, Row
+from .model import Report, ReportRow
 
 HEADS = (
     "number",
@@ -25,9 +25,9 @@ HEADS = (
 
 
 def render_csv(report: Report) -> bytes:
-    """Return the table. Units are those of the parameter file, so that a value reads back as it is.
+    """Return the table. Units are spelled as in the parameter file, so that values can be read back.
 
-    A default stands in the unit of its value.
+    A default is given in the unit of its value.
     """
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\r\n")
@@ -36,6 +36,6 @@ def render_csv(report: Report) -> bytes:
     return stream.getvalue().encode("utf-8-sig")
 
 
-def _line(row: Row) -> tuple[str, ...]:
+def _line(row: ReportRow) -> tuple[str, ...]:
     return (row.number, row.id, row.instance, row.name, row.group, row.value, row.unit, row.plain_default,
             "yes" if row.is_changed else "no", row.state, row.forced)  # fmt: skip

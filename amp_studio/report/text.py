@@ -1,11 +1,12 @@
-"""The report as plain text of 100 columns, for a printer or a terminal that knows no better."""
+"""The report as plain text of 100 columns, for line printers and terminals."""
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from .model import MARKS, Listing, Note, Report, Row, counted, printable
+from .model import MARKS, Listing, Note, Report, ReportRow, printable
+from .wording import counted
 
 WIDTH = 100
 
@@ -36,7 +37,7 @@ def _lines(report: Report) -> Iterator[str]:
             yield ""
 
 
-# -- what stands before the values ---------------------------------------------
+# -- before the values ---------------------------------------------
 
 
 def _title(report: Report) -> Iterator[str]:
@@ -67,7 +68,7 @@ def _title(report: Report) -> Iterator[str]:
 def _findings(report: Report) -> Iterator[str]:
     yield from _heading("FINDINGS")
     if not report.notes:
-        yield "No errors, no warnings, no advice."
+        yield "No errors, no warnings, no recommendations."
     for severity, notes in report.severities().items():
         yield counted(sum(n.count for n in notes), severity).capitalize()
         for note in notes:
@@ -81,10 +82,10 @@ def _finding(note: Note) -> Iterator[str]:
     if note.about:
         yield from _wrapped(", ".join(label for _, label in note.about), "    about  ")
     if note.repair:
-        yield from _wrapped(note.repair, "    repair ")
+        yield from _wrapped(note.repair, "    fix    ")
 
 
-def _values(title: str, rows: Sequence[Row]) -> Iterator[str]:
+def _values(title: str, rows: Sequence[ReportRow]) -> Iterator[str]:
     if rows:
         yield from _heading(title)
         yield from _table(rows, by_place=True)
@@ -108,7 +109,7 @@ def _heading(title: str) -> Iterator[str]:
     yield "=" * WIDTH
 
 
-def _table(rows: Iterable[Row], by_place: bool) -> Iterator[str]:
+def _table(rows: Iterable[ReportRow], by_place: bool) -> Iterator[str]:
     place = _ROW[2] if by_place else 0
     widths = (_ROW[0], _ROW[1] + (0 if by_place else _ROW[2] + 1), place, *_ROW[3:])
     yield from _beside(_HEAD, widths)
@@ -123,7 +124,7 @@ def _table(rows: Iterable[Row], by_place: bool) -> Iterator[str]:
 
 
 def _columns(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Write a small table; its columns share the width by what stands in them."""
+    """Yield a small table; the width of a column depends on its content."""
     wanted = [max(len(text) for text in column) for column in zip(heads, *lines, strict=True)]
     while sum(wanted) + len(wanted) - 1 > WIDTH:
         wanted[wanted.index(max(wanted))] -= 1
@@ -132,7 +133,7 @@ def _columns(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[s
 
 
 def _beside(texts: Sequence[str], widths: Sequence[int]) -> Iterator[str]:
-    """Write texts beside each other, each wrapped in its own width; a width of 0 leaves its column out."""
+    """Yield texts side by side, each wrapped to its width; a width of 0 leaves a column out."""
     pairs = [(text, width) for text, width in zip(texts, widths, strict=True) if width]
     wrapped = [textwrap.wrap(printable(text), width) or [""] for text, width in pairs]
     for n in range(max(len(lines) for lines in wrapped)):

@@ -1,4 +1,4 @@
-"""The explanation of a finding in words, for the terminal and for the desktop program."""
+"""The explanation of a finding as text, for the terminal and the desktop program."""
 
 from __future__ import annotations
 
@@ -9,23 +9,24 @@ from amp_studio.schema import Address
 from amp_studio.validate import Explanation, Finding
 
 from .manual_page import erratum_text
+from .wording import severity_name
 
 _MANY = 24
-"""Parameters that an explanation lists; a rule over all tools reads hundreds."""
+"""Most parameters that an explanation lists; a rule over all tools reads hundreds."""
 
 
 def why_parts(
     file: ParameterFile, finding: Finding, why: Explanation
 ) -> Iterator[tuple[str, str, Address | None]]:
-    """Yield title, text and, where the text is about one, the parameter, line by line."""
-    yield "Rule", f"{why.title} ({finding.rule}, {finding.severity})", None
+    """Yield title, text and, for a line about a parameter, its address."""
+    yield "Rule", f"{why.title} ({finding.rule}, {severity_name(finding.severity)})", None
     if why.when:
-        yield "Applies where", why.when, None
+        yield "Applies if", why.when, None
     if why.demand:
-        yield "Demands", why.demand, None
+        yield "Requires", why.demand, None
         yield "With the values", why.with_values, None
     for side, worth in why.sides:
-        yield "Comes to", f"{side} = {worth}", None
+        yield "Result", f"{side} = {worth}", None
     for seen in why.seen[:_MANY]:
         name = f"{seen.name} = " if seen.name else ""
         state = f" ({seen.state})" if seen.state else ""

@@ -1,4 +1,4 @@
-"""Writes a report in the format its ending names."""
+"""Writes a report in the format of its file extension."""
 
 from __future__ import annotations
 
@@ -34,19 +34,19 @@ def write_report(
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
     secrets: bool = False,
-    tell: Tell = lambda _said: None,
+    tell: Tell = lambda _note: None,
 ) -> None:
-    """Write the documentation of a file, whole or not at all; the format follows the ending of ``path``.
+    """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
 
-    ``sort`` is one of the documenter's three orders, ``changed_only`` keeps
-    what differs from the printed default, ``source`` is where the file lies
+    ``sort`` is one of the three orders, ``changed_only`` keeps
+    what differs from the printed default, ``source`` is the path of the file
     on disk, ``date`` is printed (now when left out), ``own`` are the builder's rules, and ``secrets`` prints
     passwords in clear; ``tell`` is called with what of a file that stood there could not be kept. Raises ValueError for an ending or an order that is not known, SaveError when it cannot be
     written.
     """
     render = FORMATS.get(path.suffix.lower())
     if render is None:
-        raise ValueError(f"{path.name}: a report is written as {', '.join(FORMATS)}, as its ending says")
+        raise ValueError(f"{path.name}: unknown report format. Use the file extension {', '.join(FORMATS)}")
     report = build_report(
         file, sort=sort, changed_only=changed_only, source=source, date=date, own=own, secrets=secrets
     )

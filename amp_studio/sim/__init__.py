@@ -1,4 +1,4 @@
-"""The machine in motion: what an axis does with the parameters it has, before the machine does it.
+"""The simulation: how an axis moves with its parameters, before the machine moves.
 
 `bind.axis_servo` takes the data of an axis from a parameter file (any callable that answers by parameter id),
 `step.run_step` moves it, `write` puts the trace into files. `SCENARIOS` holds one entry a scenario, each a
@@ -16,24 +16,24 @@ from .servo import AxisServo, SimulationError, Source
 from .simulate import simulate
 from .step import StepMove, default_move, run_step
 from .svg import plot_svg
-from .trace import Advice, Alarm, Figure, Trace
+from .trace import Alarm, Figure, Recommendation, Trace
 from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
 
 __all__ = [
     "SCENARIOS",
-    "Advice",
     "Alarm",
     "AxisServo",
     "Figure",
     "Law",
     "MotorGains",
+    "ParameterValue",
+    "ReadParameter",
+    "Recommendation",
     "Scenario",
     "SimulationError",
     "Source",
     "StepMove",
     "Trace",
-    "Value",
-    "ValueOf",
     "axis_servo",
     "default_move",
     "law_of",

@@ -1,4 +1,4 @@
-"""From a parameter file to an axis that can be simulated, whatever the family."""
+"""Makes the servo of an axis from a parameter file, for every supported family."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .servo import AxisServo
 
 
 def axis_servo(
-    value: ValueOf,
+    value: ReadParameter,
     axis: str,
-    overrides: Mapping[str, Value] | None = None,
+    overrides: Mapping[str, ParameterValue] | None = None,
     *,
     family: str,
     motor_gains: MotorGains | None = None,

@@ -1,7 +1,7 @@
-"""Runs the kernel as machine code or as plain Python, whichever is done sooner; the answer is the same.
+"""Runs the kernel as machine code or as plain Python, whichever is faster; the results are equal.
 
 Loading numba and the cached machine code takes longer than a short move takes in plain Python, so a single
-call from the command line does without it, and a program that stays open (or a long move) uses it.
+call from the command line does not use it; a program that stays open and a long move do.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Engine = Literal["auto", "plain", "compiled"]
 RunMove = Callable[[kernel.Loop, kernel.Profile, int, npt.NDArray[np.float64]], int]
 
 PLAIN_ROWS = 60_000
-"""Rows plain Python fills in about the time that loading numba and its cache takes (docs/simulation.md)."""
+"""Rows that plain Python computes in about the time of loading numba and its cache (docs/simulation.md)."""
 
 _PARTS = (
     kernel.velocity_asked,
@@ -36,11 +36,11 @@ _PARTS = (
 
 @lru_cache(maxsize=1)
 def compiled_run_move() -> RunMove:
-    """Return ``kernel.run_move`` as machine code; the first call on a machine compiles it and keeps the
+    """Return ``kernel.run_move`` as machine code; the first call on a machine compiles it and stores the
     result.
 
-    The signature is explicit, so there is one compilation and none later; ``fastmath`` stays off, so that
-    sums are formed in the order they are written in. Raises ImportError where numba is not installed.
+    The signature is explicit, so it is compiled once; ``fastmath`` is off, so that
+    sums are computed in the written order. Raises ImportError if numba is not installed.
     """
     import numba
     from numba.extending import register_jitable
@@ -58,8 +58,8 @@ def compiled_run_move() -> RunMove:
 def run_move_by(engine: Engine, rows: int) -> RunMove:
     """Return the function that runs a move of about ``rows`` rows.
 
-    ``auto`` takes machine code when it is already loaded or the move is long, else plain Python. Setting
-    NUMBA_DISABLE_JIT=1 in the environment makes everything plain.
+    ``auto`` uses machine code if it is already loaded or the move is long, else plain Python. Setting
+    NUMBA_DISABLE_JIT=1 in the environment always uses plain Python.
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return kernel.run_move

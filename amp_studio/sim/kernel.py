@@ -1,12 +1,12 @@
 """One move of one servo axis, from servo period to servo period: the inner loop, over plain floats and one
 array.
 
-Everything that is compiled stands in this one file: numba's cache notices a change of the file it compiled
-from, and of no other. The source is ordinary Python and runs without numba, with the same answer; `engine.py`
+All compiled code is in this one file: numba's cache notices changes of the file it compiled
+from, and of no other. The source is ordinary Python and runs without numba, with equal results; `engine.py`
 chooses.
 
 Once a servo period (the SERCOS cycle, which the 9/PC AMP manual calls the servo update rate, 7-4) the
-position is measured, the following error is watched, and the velocity command is set and then held, a
+position is measured, the following error is checked, and the velocity command is set and kept constant, a
 zero-order hold as in G. F. Franklin, J. D. Powell, M. L. Workman, Digital Control of Dynamic Systems (1998).
 Within the period velocity loop, torque limit and axis run in physics steps. Their states are position x,
 speed v and the sum w of the velocity error:
@@ -47,11 +47,11 @@ NONE, LINEAR, EXPONENTIAL = 0.0, 1.0, 2.0
 
 
 class Loop(NamedTuple):
-    """What the kernel knows of the axis. Lengths in the axis' unit (mm or deg), times in s; all floats."""
+    """The data of the axis. Lengths in the axis' unit (mm or deg), times in s; all floats."""
 
     servo_period: float
     position_gain: float
-    """1/s: speed asked for per following error."""
+    """1/s: commanded speed per following error."""
     gain_break_point: float
     gain_break_ratio: float
     feed_forward: float
@@ -61,7 +61,7 @@ class Loop(NamedTuple):
     integral_rate: float
     """ki, 1/s."""
     discharge: float
-    """How many times faster than it fills the sum of the velocity error empties."""
+    """Discharge rate of the integral of the velocity error, as a multiple of its charge rate."""
     rated_acceleration: float
     """unit/s2 at 100 % torque, above 0."""
     torque_positive: float
@@ -96,20 +96,20 @@ class Profile(NamedTuple):
     time_constant: float
     """s, above 0 when the ramp is EXPONENTIAL."""
     snap: float
-    """Rest of the distance below which an exponential command goes to its end."""
+    """Remaining distance below which an exponential command jumps to its end."""
     settle: float
-    """s to go on at most after the command has ended; infinite to fill all rows."""
+    """Most time in s after the end of the command; infinite to fill all rows."""
     rest: float
-    """Following error within which the axis counts as at rest, once the command has ended."""
+    """Largest following error of an axis at rest, after the end of the command."""
     hold: float
-    """s at rest after which the move is over; infinite to fill all rows."""
+    """Time at rest in s that ends the move; infinite to fill all rows."""
 
 
 def velocity_asked(f: Loop, following_error: float) -> float:
-    """Return the speed in unit/s the position loop asks for.
+    """Return the speed in unit/s that the position loop commands.
 
-    Proportional to the following error up to the gain break point (7-25); what lies beyond it counts only
-    ``gain_break_ratio`` times (7-22, 7-27), so the line is broken but without a jump.
+    Proportional to the following error up to the gain break point (7-25); the part beyond it counts only
+    ``gain_break_ratio`` times (7-22, 7-27): the slope changes, without a step.
     """
     size = abs(following_error)
     if size > f.gain_break_point:
@@ -118,20 +118,20 @@ def velocity_asked(f: Loop, following_error: float) -> float:
 
 
 def measured(f: Loop, position: float) -> float:
-    """Return the position the encoder tells: the nearest whole count (7-33)."""
+    """Return the measured position: the nearest whole count (7-33)."""
     if f.resolution == 0.0:
         return position
     return math.floor(position / f.resolution + 0.5) * f.resolution
 
 
 def wanted_torque(f: Loop, velocity_command: float, speed: float, error_sum: float) -> float:
-    """Return the torque the velocity loop asks for, in % of rated torque, before the limit (7-54, 7-56)."""
+    """Return the torque commanded by the velocity loop, in % of rated torque, before the limit (7-54, 7-56)."""
     wanted = f.velocity_rate * ((velocity_command - speed) + f.integral_rate * error_sum)
     return 100.0 * wanted / f.rated_acceleration
 
 
 def limited_torque(f: Loop, torque: float) -> float:
-    """Return a torque in % cut to the two torque limits (7-61, 7-62)."""
+    """Return a torque in % clamped to the two torque limits (7-61, 7-62)."""
     return min(max(torque, -f.torque_negative), f.torque_positive)
 
 
@@ -140,8 +140,8 @@ def rates(
 ) -> tuple[float, float]:
     """Return (dv/dt, dw/dt) in unit/s2 and unit/s; ``dry`` is the dry friction in unit/s2 with its sign.
 
-    The sum w empties ``discharge`` times faster than it fills (7-58), and holds while the torque is cut and
-    the error would push it further (conditional integration, Åström and Hägglund).
+    The sum w discharges ``discharge`` times faster than it charges (7-58), and is frozen while the torque is limited and
+    the error would increase it further (conditional integration, Åström and Hägglund).
     """
     error = velocity_command - speed
     wanted = wanted_torque(f, velocity_command, speed, error_sum)
@@ -157,10 +157,10 @@ def rates(
 def advance(
     f: Loop, velocity_command: float, position: float, speed: float, error_sum: float, h: float
 ) -> tuple[float, float, float]:
-    """Return position, speed and error sum ``h`` seconds later, the velocity command held (Runge-Kutta 4).
+    """Return position, speed and error sum ``h`` seconds later at a constant velocity command (Runge-Kutta 4).
 
-    Dry friction has the sign of the speed over the whole step. An axis that stands stays until the torque is
-    above the friction, and one whose speed passes through zero in a step stands at its end (after D. Karnopp,
+    Dry friction has the sign of the speed over the whole step. An axis at rest stays at rest until the torque is
+    above the friction, and an axis whose speed changes its sign in a step is at rest at its end (after D. Karnopp,
     Computer Simulation of Stick-Slip Friction in Mechanical Dynamic Systems, ASME Journal of Dynamic Systems,
     Measurement, and Control 107, 1985).
     """
@@ -190,7 +190,7 @@ def linear_step(
     """Return (progress, speed) one servo period later under the linear ramps (10-8, 10-10).
 
     The speed rises and falls by the ramps towards ``feedrate``, and never above the speed from which the
-    deceleration still stops at the end: with the mean of the old and the new speed over the period,
+    deceleration can still stop at the end: with the mean of the old and the new speed over the period,
     rest - (v + v') T / 2 = v'^2 / 2d, solved for v'.
     """
     rest = p.distance - progress
@@ -213,9 +213,9 @@ def next_command(
 ) -> tuple[float, float, float]:
     """Return (progress, speed, fed) of the command one servo period later, in unit, unit/s, unit.
 
-    All three are counted along the move and never negative. ``feedrate`` is the one in force now (halved
-    while suppressed, 7-21). ``fed`` is what the exponential filter has been given so far: the programmed
-    feedrate passes a first-order lag, v += (F - v)(1 - exp(-T / time constant)), which loses no distance
+    All three are measured along the move and never negative. ``feedrate`` is the active one (halved
+    while suppressed, 7-21). ``fed`` is the input of the exponential filter so far: the programmed
+    feedrate passes a first-order lag, v += (F - v)(1 - exp(-T / time constant)), which keeps the distance
     (10-14).
     """
     if p.ramp == LINEAR:
@@ -236,10 +236,10 @@ def next_command(
 
 
 def run_move(f: Loop, p: Profile, substeps: int, rows: npt.NDArray[np.float64]) -> int:
-    """Run one move from rest and fill ``rows``; return how many were filled.
+    """Run one move from rest, fill ``rows``, and return the number of filled rows.
 
-    ``rows`` is (n, 7) float64, one row a physics step (``substeps`` of them a servo period), columns as
-    COLUMNS in s, unit, unit/s and %. Fewer than n rows come back when the excess error ended the move (the
+    ``rows`` is (n, 7) float64, one row for each physics step (``substeps`` per servo period), columns as
+    COLUMNS in s, unit, unit/s and %. Fewer than n rows are filled when the excess error ended the move (the
     last row is then the first servo period with the error above it, 7-20), or when the command has ended and
     the axis has been at rest for ``hold``, or ``settle`` has passed.
     """

@@ -1,4 +1,4 @@
-"""What can be said of an axis without moving it: the closed equations of the manual and of the textbooks.
+"""Closed equations of the manual and of textbooks for an axis.
 
 Lengths in the axis' unit, velocities in unit/min, accelerations in unit/s2, times in s.
 """
@@ -10,16 +10,16 @@ import math
 from .servo import AxisServo
 
 RESPONSE_SHARE = 1.0 - math.exp(-2.0)
-"""Share of the speed a first-order lag has reached after two of its time constants: 86.5 %.
+"""Share of the final speed of a first-order lag after two time constants: 86.5 %.
 
 The manual's response time of 120 ms at gain 1 (10-2) is two of the 60 ms of that gain (Table 7.A, 7-25)."""
 
 
 def steady_following_error(servo: AxisServo, feedrate: float) -> float:
-    """Return the following error at a constant feedrate; infinite where the loop never reaches it.
+    """Return the following error at a constant feedrate; infinite if the loop never reaches that feedrate.
 
     feedrate / (gain x 1000) (7-25); with velocity feed-forward of p % the share 1 - p/100 of it (7-28). With
-    a gain break the error follows the broken line: up to the feedrate 1000 gain x break point as above,
+    a gain break: up to the feedrate 1000 gain x break point as above,
     beyond it break point + (feedrate - that feedrate) / (1000 gain x ratio) (inverse of the law of 7-22 and
     7-27).
     """
@@ -49,12 +49,12 @@ def response_time(servo: AxisServo) -> float:
 
 
 def response_ramp(servo: AxisServo, feedrate: float) -> float:
-    """Return the ramp that matches the servo's own response: feedrate / response time (10-2)."""
+    """Return the ramp that matches the response of the servo: feedrate / response time (10-2)."""
     return feedrate / 60.0 / response_time(servo)
 
 
 def loop_ratio(servo: AxisServo) -> float:
-    """Return how many times faster than the position loop the velocity loop is.
+    """Return the ratio of velocity loop rate to position loop rate.
 
     For a first-order velocity loop the damping of the position loop is half the root of this ratio: 4 for the
     aperiodic limit (Gross, Hamann, Wiegärtner, Electrical Feed Drives in Automation, 2001).
@@ -63,7 +63,7 @@ def loop_ratio(servo: AxisServo) -> float:
 
 
 def available_acceleration(servo: AxisServo, feedrate: float) -> float:
-    """Return what the weaker torque limit leaves for accelerating at a feedrate after friction; may be
+    """Return the acceleration that the lower torque limit allows at a feedrate after friction; may be
     negative.
     """
     torque = min(servo.torque_limit_positive, servo.torque_limit_negative)

@@ -1,4 +1,4 @@
-"""Numbers for people: few digits in a suggestion, the shortest text in a sentence."""
+"""Rounded numbers for recommendations and messages."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ def _rounded(value: float, digits: int, way: str) -> float:
 
 
 def rounded_up(value: float, digits: int = 3) -> float:
-    """Return the least number of so many digits that is not below the value."""
+    """Return the value rounded up to this number of digits."""
     return _rounded(value, digits, ROUND_CEILING)
 
 
 def rounded_down(value: float, digits: int = 3) -> float:
-    """Return the greatest number of so many digits that is not above the value."""
+    """Return the value rounded down to this number of digits."""
     return _rounded(value, digits, ROUND_FLOOR)
 
 
 def shown(value: float, unit: str = "", digits: int = 4) -> str:
-    """Write a value of so many digits, and its unit, without trailing zeros and without an exponent."""
+    """Return a value with this number of digits and its unit, without trailing zeros and without an exponent."""
     near = _rounded(value, digits, ROUND_HALF_EVEN)
     text = format(Decimal(repr(near)), "f") if math.isfinite(near) else repr(near)
     if "." in text:

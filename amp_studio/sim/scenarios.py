@@ -1,27 +1,27 @@
-"""The scenarios by name, each with one call from a parameter file to a trace."""
+"""The scenarios by name; each is one call from a parameter file to a trace."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from .axis_parameters import MotorGains, ParameterValue, ReadParameter
 from .bind import axis_servo
-from .reading import MotorGains, Value, ValueOf
 from .servo import SimulationError
 from .step import default_move, run_step
 from .trace import Trace
 
-Run = Callable[[ValueOf, str, Mapping[str, Value], str, MotorGains | None], Trace]
+Run = Callable[[ReadParameter, str, Mapping[str, ParameterValue], str, MotorGains | None], Trace]
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """Something that can be simulated."""
+    """One kind of simulation."""
 
     name: str
     title: str
     settings: Mapping[str, str]
-    """Settings of the move that can be given by hand -> what they are."""
+    """Settings of the move -> their description."""
     run: Run
     """run(value, axis, overrides, family, motor gains) -> Trace; overrides as in bind.axis_servo, with
     settings."""
@@ -29,19 +29,23 @@ class Scenario:
 
 MOVE = {
     "move.distance": "distance of the move, with its sign (mm or deg)",
-    "move.feedrate": "feedrate of the move (mm/min or deg/min); the rapid feedrate when not given",
-    "move.mode": "ramp: linear, exponential or none; the one of the axis for positioning when not given",
-    "move.duration": "time to simulate (s); until the axis rests when not given",
+    "move.feedrate": "feedrate of the move (mm/min or deg/min); default: the rapid feedrate",
+    "move.mode": "ramp: linear, exponential or none; default: the axis' ramp for positioning",
+    "move.duration": "time to simulate (s); default: until the axis is at rest",
 }
 
 
 def _run_step(
-    value: ValueOf, axis: str, overrides: Mapping[str, Value], family: str, motor_gains: MotorGains | None
+    value: ReadParameter,
+    axis: str,
+    overrides: Mapping[str, ParameterValue],
+    family: str,
+    motor_gains: MotorGains | None,
 ) -> Trace:
     given = {name: setting for name, setting in overrides.items() if name.startswith("move.")}
     for name in given:
         if name not in MOVE:
-            raise SimulationError(f"'{name}' is no setting of a move; there are {', '.join(MOVE)}", name)
+            raise SimulationError(f"Unknown setting '{name}' of a move. Known: {', '.join(MOVE)}", name)
     others = {name: setting for name, setting in overrides.items() if name not in given}
     servo = axis_servo(value, axis, others, family=family, motor_gains=motor_gains)
     mode = given.get("move.mode")
@@ -55,7 +59,7 @@ def _run_step(
     return run_step(servo, move)
 
 
-def _number(given: Mapping[str, Value], name: str) -> float | None:
+def _number(given: Mapping[str, ParameterValue], name: str) -> float | None:
     setting = given.get(name)
     if setting is None:
         return None

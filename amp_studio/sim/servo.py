@@ -1,7 +1,7 @@
-"""One servo axis as the simulator sees it: plain figures in canonical units, checked when it is made.
+"""The data of one servo axis: plain figures in canonical units, checked on creation.
 
-Nothing here knows a control family or a parameter file. `sources` says which parameter a figure came from, so
-that an error and a piece of advice can name it.
+Nothing here depends on a control family or a parameter file. `sources` contains the parameter of each figure, so
+that errors and recommendations can name it.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from dataclasses import dataclass, field
 from .kernel import Loop
 
 LONGEST_STEP = 0.25e-3
-"""s: the physics step is never longer."""
+"""Longest physics step in s."""
 STIFFEST_STEP = 0.5
-"""Physics step times the fastest rate of the axis; Runge-Kutta 4 is stable up to 2.7 and exact to 3e-4
+"""Physics step times the fastest rate of the axis; Runge-Kutta 4 is stable up to 2.7 and accurate to 3e-4
 here."""
 MOST_SUBSTEPS = 10_000
 
 
 class SimulationError(ValueError):
-    """Something that cannot be simulated: one sentence, and the parameter it is about where there is one."""
+    """A simulation is not possible; contains a message and the parameter, if there is one."""
 
     def __init__(self, what: str, parameter: str = "") -> None:
         self.what, self.parameter = what, parameter
@@ -34,28 +34,28 @@ class Source:
 
     parameter: str
     scale: float = 1.0
-    """Value in the file per value here."""
+    """Factor from this figure to the value in the file."""
     unit: str | None = None
-    """Unit of the value in the file where it is not the figure's own."""
+    """Unit of the value in the file if it differs from the unit of the figure."""
     whole: bool = False
-    """The file holds whole numbers only."""
+    """Whether the value in the file is a whole number."""
     largest: float = math.inf
     """Upper bound in the file."""
     page: str = ""
-    """Where its manual describes it."""
+    """Page of the manual."""
 
 
 @dataclass(frozen=True)
 class AxisServo:
     """The data of one axis; lengths in `unit` (mm or deg), velocities in unit/min, accelerations in unit/s2.
 
-    Raises SimulationError for data no axis can have.
+    Raises SimulationError for impossible data.
     """
 
     position_gain: float
     """1000 unit/min per unit of following error: at 1 an axis follows 0.001 unit behind for each unit/min."""
     velocity_rate: float
-    """1/s: acceleration asked for per velocity error."""
+    """1/s: commanded acceleration per velocity error."""
     acceleration_at_rated: float
     """unit/s2 at 100 % of rated torque."""
     feedback_counts: float
@@ -74,7 +74,7 @@ class AxisServo:
     gain_break_point: float = math.inf
     gain_break_ratio: float = 1.0
     zero_following_error: bool = False
-    """Velocity feed-forward is in use; the gain break is not."""
+    """Whether velocity feed-forward is used instead of the gain break."""
     feed_forward: float = 0.0
     """% of the command velocity."""
     gear_teeth: float = 1.0
@@ -82,7 +82,7 @@ class AxisServo:
     screw_teeth: float = 1.0
     """Teeth on the lead screw."""
     ideal_feedback: bool = False
-    """Measure without counts (to compare with closed solutions)."""
+    """Whether positions are measured without rounding to counts (to compare with closed solutions)."""
     linear_acceleration: float = 0.0
     """0 for no ramp."""
     linear_deceleration: float = 0.0
@@ -103,10 +103,10 @@ class AxisServo:
     unit: str = "mm"
     axis: str = ""
     model: str = ""
-    """What this axis is taken from, for the heading of a result."""
+    """Source of this axis, for the heading of a result."""
     sources: Mapping[str, Source] = field(default_factory=dict, compare=False)
     assumptions: tuple[str, ...] = field(default=(), compare=False)
-    """What was assumed in finding these figures, each with its source."""
+    """The assumptions behind these figures, each with its source."""
 
     def __post_init__(self) -> None:
         for name in _ABOVE_ZERO:
@@ -126,7 +126,7 @@ class AxisServo:
         if not self._substeps_wanted <= MOST_SUBSTEPS:
             raise SimulationError(
                 f"{self.described('velocity_rate')} makes a velocity loop too fast to simulate"
-                f" ({self.velocity_rate!r} 1/s)",
+                f" ({self.velocity_rate:.6g} 1/s)",
                 self.parameter("velocity_rate"),
             )
 
@@ -134,16 +134,17 @@ class AxisServo:
         if not good:
             figure = getattr(self, name)
             source = self.sources.get(name)
-            told = figure * source.scale if source and isinstance(figure, float) else figure
-            raise SimulationError(f"{self.described(name)} is {told!r}; it {what}", self.parameter(name))
+            scaled = figure * source.scale if source and isinstance(figure, float) else figure
+            number = f"{scaled:.6g}" if isinstance(scaled, float) else repr(scaled)
+            raise SimulationError(f"{self.described(name)} is {number}; it {what}", self.parameter(name))
 
     def parameter(self, name: str) -> str:
-        """Return the id of the parameter behind a figure, or the figure's own name where none is known."""
+        """Return the id of the parameter of a figure, or the name of the figure if it has none."""
         source = self.sources.get(name)
         return source.parameter if source else name
 
     def described(self, name: str) -> str:
-        """Name a figure for a person: its words, and the parameter with the axis where one is known."""
+        """Return the name of a figure in words, with parameter and axis if known."""
         words = name.replace("_", " ")
         if name not in self.sources:
             return words
@@ -161,12 +162,12 @@ class AxisServo:
 
     @property
     def break_ratio(self) -> float:
-        """The gain break ratio in force: 1 while velocity feed-forward is in use."""
+        """The active gain break ratio: 1 while velocity feed-forward is used."""
         return 1.0 if self.zero_following_error else self.gain_break_ratio
 
     @property
     def feed_forward_share(self) -> float:
-        """The feed-forward in force, 0 to 1: none unless zero following error is chosen."""
+        """The active feed-forward, 0 to 1: 0 unless zero following error is chosen."""
         return self.feed_forward / 100.0 if self.zero_following_error else 0.0
 
     @property
@@ -189,7 +190,7 @@ class AxisServo:
         return self.acceleration_at_rated * self.viscous_friction / 100.0 * 60.0 / 1000.0
 
     def loop(self) -> Loop:
-        """Return the figures of the kernel, in unit and s."""
+        """Return the input of the kernel, in unit and s."""
         period = self.servo_period / 1000.0
         figures = Loop(
             servo_period=period,

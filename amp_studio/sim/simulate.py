@@ -20,19 +20,19 @@ def simulate(
     axis: str | None = None,
     settings: Mapping[str, float | str] | None = None,
 ) -> Trace:
-    """Run a scenario on one axis of a file as it stands; the first fitted axis when none is named.
+    """Run a scenario with the present values of a file; ``axis`` None means the first fitted axis.
 
     ``settings`` are settings of the scenario and of the model (``move.feedrate``), in canonical units.
-    Raises SimulationError naming the parameter that is missing or impossible.
+    Raises SimulationError with the parameter that is missing or impossible.
     """
     if scenario not in SCENARIOS:
         raise SimulationError(unknown_name("scenario", scenario, SCENARIOS))
     fitted = fitted_axes(file)
     if not fitted:
-        raise SimulationError("no axis is fitted")
+        raise SimulationError("No axis is fitted. Set the type of an axis first")
     chosen = axis or fitted[0]
     if chosen not in fitted:
-        raise SimulationError(f"axis {chosen} is not fitted: {', '.join(fitted)}")
+        raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
 
     family = file.schema.family.family
 

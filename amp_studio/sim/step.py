@@ -1,7 +1,7 @@
 """Scenario `step`: one commanded move of one axis, from rest to rest.
 
-The axis runs by its own parameters; the result compares what the manual's equations predict with what the
-simulated axis does.
+The axis moves with its own parameters; the result compares the manual's equations with the
+simulated motion.
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ import numpy as np
 import numpy.typing as npt
 
 from . import kernel
-from .advice import advise
 from .engine import Engine, run_move_by
 from .laws import RESPONSE_SHARE, response_time, steady_following_error
-from .rounding import rounded_up
+from .recommendations import recommend
+from .rounding import rounded_up, shown
 from .servo import RAMPS, AxisServo, SimulationError
 from .trace import Alarm, Figure, Trace
 
 MOST_ROWS = 4_000_000
-"""Rows a move may take, 16 minutes at the longest physics step; one row is 56 bytes."""
+"""Most rows of a move, 16 minutes at the longest physics step; one row is 56 bytes."""
 STEADY_SPEED = 1e-3
-"""Share by which the command speed may differ from the feedrate and still count as constant."""
+"""Largest relative difference from the feedrate of a constant command speed."""
 STEADY_LAGS = 6.0
-"""Time constants of the position loop after which a constant speed counts as steady."""
+"""Number of time constants of the position loop after which a constant speed is steady."""
 _PAUSE = 0.1
-"""s of standstill every trace ends with, and more for a slow loop."""
+"""Time at rest in s at the end of every trace; longer for a slow loop."""
 
 MODEL = (
     "position loop P with gain break and feed-forward, velocity loop PI, torque limit, rigid axis, counted"
@@ -37,7 +37,7 @@ MODEL = (
 
 TEXTBOOK = (
     (
-        "The axis is one rigid mass; screw, coupling and bearings have no spring and no play (Gross, Hamann,"
+        "The axis is one rigid mass; screw, coupling and bearings have no elasticity and no backlash (Gross, Hamann,"
         " Wiegärtner, Electrical Feed Drives in Automation, 2001)."
     ),
     (
@@ -45,7 +45,7 @@ TEXTBOOK = (
         " faster than the velocity loop)."
     ),
     (
-        "Position is measured and the velocity command set once a servo period and held in between (Franklin,"
+        "Position is measured and the velocity command is set once in each servo period and constant in between (Franklin,"
         " Powell, Workman, Digital Control of Dynamic Systems, 1998)."
     ),
     (
@@ -53,7 +53,7 @@ TEXTBOOK = (
         " the nearest count."
     ),
     (
-        "The sum of the velocity error holds while the torque is cut and the error would push it further"
+        "The integral of the velocity error is frozen while the torque is limited and the error would increase it"
         " (Åström, Hägglund, PID Controllers, 1995)."
     ),
     (
@@ -66,10 +66,10 @@ TEXTBOOK = (
 
 @dataclass(frozen=True)
 class StepMove:
-    """One move from rest: distance with its sign in the axis' unit, feedrate in unit/min, ramp, time in s.
+    """One move from rest: signed distance in the axis' unit, feedrate in unit/min, ramp, time in s.
 
-    `mode` None takes the axis' ramp for positioning; `duration` None ends when the axis has come to rest.
-    Raises SimulationError for a move that is none.
+    `mode` None means the axis' ramp for positioning; `duration` None ends when the axis is at rest.
+    Raises SimulationError for an impossible move.
     """
 
     distance: float
@@ -79,15 +79,13 @@ class StepMove:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.distance) and self.distance != 0.0):
-            raise SimulationError(f"the distance of the move is {self.distance!r}; it must not be 0")
+            raise SimulationError(f"The distance of the move is {self.distance:g}; it must not be 0")
         if not (math.isfinite(self.feedrate) and self.feedrate > 0.0):
-            raise SimulationError(f"the feedrate of the move is {self.feedrate!r}; it must be above 0")
+            raise SimulationError(f"The feedrate of the move is {self.feedrate:g}; it must be above 0")
         if self.mode is not None and self.mode not in RAMPS:
-            raise SimulationError(
-                f"the ramp of the move is '{self.mode}'; it must be one of {', '.join(RAMPS)}"
-            )
+            raise SimulationError(f"Unknown ramp '{self.mode}'. Known: {', '.join(RAMPS)}")
         if self.duration is not None and not 0.0 < self.duration < math.inf:
-            raise SimulationError(f"the duration is {self.duration!r} s; it must be above 0")
+            raise SimulationError(f"The duration is {self.duration:g} s; it must be above 0")
 
 
 def default_move(
@@ -97,15 +95,16 @@ def default_move(
     mode: str | None = None,
     duration: float | None = None,
 ) -> StepMove:
-    """Return a move that shows the axis at a steady speed: at rapid, long enough for following error to
+    """Return a move at rapid feedrate that is long enough for the following error to
     settle.
 
-    Raises SimulationError where no feedrate is known.
+    Raises SimulationError if no feedrate is known.
     """
     speed = next((f for f in (feedrate, servo.rapid_feedrate, servo.cutting_feedrate) if f is not None), None)
     if speed is None:
         raise SimulationError(
-            "neither the move nor the axis names a feedrate", servo.parameter("rapid_feedrate")
+            "The rapid feedrate of the axis is not set. Give a feedrate for the move",
+            servo.parameter("rapid_feedrate"),
         )
     if distance is None:
         probe = StepMove(1.0, speed, mode)
@@ -117,9 +116,9 @@ def default_move(
 def run_step(servo: AxisServo, move: StepMove, *, engine: Engine = "auto") -> Trace:
     """Run the move and return its trace.
 
-    Columns are one row a physics step (at most 0.25 ms): time_s in s, command_position, position and
+    Columns have one row for each physics step (at most 0.25 ms): time_s in s, command_position, position and
     following_error in the axis' unit, command_velocity and velocity in unit/min, torque_percent in %. Raises
-    SimulationError where the move cannot be made (no time constant for an exponential ramp, a move that would
+    SimulationError if the move is not possible (no time constant for an exponential ramp, a move that would
     take longer than MOST_ROWS rows).
     """
     loop, profile = servo.loop(), _profile(servo, move)
@@ -140,20 +139,20 @@ def run_step(servo: AxisServo, move: StepMove, *, engine: Engine = "auto") -> Tr
         units=_units(servo.unit),
         result=result,
         alarms=alarms,
-        advice=advise(servo, move.feedrate, ramp_of(servo, move), result),
+        recommendations=recommend(servo, move.feedrate, ramp_of(servo, move), result),
         assumptions=servo.assumptions + TEXTBOOK,
         limits=_limits(servo),
     )
 
 
 def ramp_of(servo: AxisServo, move: StepMove) -> str:
-    """Return the ramp in force: a linear ramp of 0 is none (10-8)."""
+    """Return the active ramp: a linear ramp of 0 is none (10-8)."""
     mode = move.mode or servo.positioning_ramp
     return "none" if mode == "linear" and servo.linear_acceleration == 0.0 else mode
 
 
 def _ramp_time(servo: AxisServo, move: StepMove) -> float:
-    """Return in s what speeding up and slowing down adds to distance / feedrate."""
+    """Return the time in s that the ramps add to distance / feedrate."""
     mode, speed = ramp_of(servo, move), move.feedrate / 60.0
     if mode == "linear":
         down = servo.linear_deceleration or servo.linear_acceleration
@@ -167,14 +166,14 @@ def _ramp_time(servo: AxisServo, move: StepMove) -> float:
 def _time_constant(servo: AxisServo) -> float:
     if servo.exponential_time is None:
         raise SimulationError(
-            f"{servo.described('exponential_time')} is not set, and the move has an exponential ramp",
+            f"{servo.described('exponential_time')} is not set, but the move has an exponential ramp. Set it or choose another ramp",
             servo.parameter("exponential_time"),
         )
     return servo.exponential_time / 1000.0
 
 
 def _snap(servo: AxisServo, move: StepMove) -> float:
-    """An exponential command ends within one count of its end, or a billionth of the move."""
+    """Return the distance from the end at which an exponential command ends: one count, or a billionth of the move."""
     return max(0.0 if servo.ideal_feedback else servo.count, 1e-9 * abs(move.distance))
 
 
@@ -196,14 +195,14 @@ def _profile(servo: AxisServo, move: StepMove) -> kernel.Profile:
 
 
 def _slowest_lag(servo: AxisServo) -> float:
-    """Return the longest time constant of the position loop in s, above the gain break if it has one."""
+    """Return the longest time constant of the position loop in s, that above the gain break if there is one."""
     return 1.0 / (servo.position_rate * (servo.break_ratio or 1.0))
 
 
 def _settling(servo: AxisServo, move: StepMove) -> float:
-    """Return how long to wait in s at most for the axis to come to rest after the command has ended.
+    """Return the most time in s to wait for the axis to come to rest after the end of the command.
 
-    Twelve time constants of the position loop; the way down to the gain break; six integral times of the
+    Twelve time constants of the position loop; the time down to the gain break; six integral times of the
     velocity loop, but not more than 5 s.
     """
     lag = 1.0 / servo.position_rate
@@ -220,7 +219,7 @@ def _settling(servo: AxisServo, move: StepMove) -> float:
 
 
 def _rows(servo: AxisServo, move: StepMove, profile: kernel.Profile) -> tuple[int, int]:
-    """Return (rows to expect, rows to allow for); the move may take twice as long at half the feedrate."""
+    """Return (expected rows, most rows); the move may take twice as long at half the feedrate."""
     period = servo.servo_period / 1000.0
     if move.duration is not None:
         likely = most = move.duration
@@ -230,8 +229,8 @@ def _rows(servo: AxisServo, move: StepMove, profile: kernel.Profile) -> tuple[in
     per_second = servo.substeps / period
     if likely * per_second > MOST_ROWS:
         raise SimulationError(
-            f"the move takes about {likely:.0f} s, more than can be simulated ({MOST_ROWS / per_second:.0f}"
-            " s); take a shorter distance or a higher feedrate"
+            f"The move takes about {likely:.0f} s, more than can be simulated ({MOST_ROWS / per_second:.0f}"
+            " s). Give a shorter distance or a higher feedrate"
         )
     return math.ceil(likely * per_second), min(math.ceil(most * per_second - 1e-6), MOST_ROWS)
 
@@ -246,8 +245,8 @@ def _alarms(servo: AxisServo, columns: Mapping[str, npt.NDArray[np.float64]]) ->
         Alarm(
             "EXCESS FOLLOWING ERROR",
             moment,
-            f"Following error {last!r} {servo.unit} passed {servo.described('excess_error')},"
-            f" {servo.excess_error!r} {servo.unit}; the control goes into E-STOP and the move ends.",
+            f"Following error {shown(last, servo.unit)} is above {servo.described('excess_error')},"
+            f" {shown(servo.excess_error, servo.unit)}; the control goes into E-STOP and the move ends.",
         ),
     )
 
@@ -259,7 +258,7 @@ def _figures(
     substeps: int,
     stopped: bool,
 ) -> dict[str, Figure]:
-    """Return the named figures. Following error is judged at the servo periods, where the control sees it."""
+    """Return the named figures. The following error is that at the servo periods, as the control measures it."""
     unit, period = servo.unit, servo.servo_period / 1000.0
     error = np.abs(columns["following_error"][::substeps])
     torque, speed = columns["torque_percent"], np.abs(columns["velocity"])
@@ -290,7 +289,7 @@ def _steady(
 ) -> float | None:
     """Return the mean following error (without sign) at the end of the longest stretch of constant feedrate.
 
-    None where the stretch is shorter than STEADY_LAGS time constants or the error still changes in it.
+    None if the stretch is shorter than STEADY_LAGS time constants or the error still changes in it.
     """
     error = np.abs(columns["following_error"][::substeps])
     constant = np.abs(np.abs(columns["command_velocity"][::substeps]) / move.feedrate - 1.0) <= STEADY_SPEED
@@ -314,11 +313,11 @@ def _steady(
 def _settled(
     servo: AxisServo, move: StepMove, columns: Mapping[str, npt.NDArray[np.float64]], substeps: int
 ) -> tuple[float | None, float | None]:
-    """Return (time in s from the start of the move, time in s from the end of the command) of coming into
+    """Return (time in s from the start of the move, time in s from the end of the command) of reaching the
     position.
 
     In position is the first servo period from which the measured position stays within the inposition band of
-    the end of the move (7-24). (None, None) where the command or the axis does not get there.
+    the end of the move (7-24). (None, None) if the command or the axis does not reach it.
     """
     time = columns["time_s"][::substeps]
     command = columns["command_position"][::substeps]

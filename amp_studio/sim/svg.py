@@ -1,4 +1,4 @@
-"""Draws a trace as SVG: three panels over one time axis, written directly."""
+"""Draws a trace as SVG: three panels with a common time axis."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from .trace import Trace
 WIDTH, HEIGHT = 960, 760
 LEFT, RIGHT, TOP, PANEL, GAP = 92, 868, 66, 188, 38
 COMMAND, ACTUAL, THIRD, LIMIT = "#0072b2", "#d55e00", "#009e73", "#666666"
-"""Colours that stay apart for colour-blind readers (Okabe, Ito, Color Universal Design, 2008); no pure red
+"""Colours that colour-blind readers can distinguish (Okabe, Ito, Color Universal Design, 2008); no pure red
 and
 green together."""
 LABEL = 14.0
-"""Height of a label; labels closer than that share one line."""
+"""Height of a label; closer labels share one line."""
 FAR = 1.6
-"""A limit is drawn as a line when it is below so many times the peak; further off it is named in words."""
+"""A limit below this multiple of the peak is drawn as a line; a higher one is given as text."""
 
 Series = npt.NDArray[np.float64]
 
@@ -60,7 +60,7 @@ def ticks(low: float, high: float, about: int = 5) -> list[float]:
 
 
 def thinned(x: Series, y: Series, columns: int) -> tuple[Series, Series]:
-    """Keep the least and the greatest value of each of so many stretches: no peak is lost."""
+    """Return the least and greatest value of each of ``columns`` stretches, so that no peak is lost."""
     if len(x) <= 4 * columns:
         return x, y
     edges = np.linspace(0, len(x), columns + 1).astype(np.int64)
@@ -74,10 +74,10 @@ def thinned(x: Series, y: Series, columns: int) -> tuple[Series, Series]:
 
 def _title(trace: Trace) -> str:
     axis = f", axis {trace.axis}" if trace.axis else ""
-    return f"{trace.scenario}{axis}: {_told(trace, 'distance')} at {_told(trace, 'feedrate')}"
+    return f"{trace.scenario}{axis}: {_figure(trace, 'distance')} at {_figure(trace, 'feedrate')}"
 
 
-def _told(trace: Trace, name: str) -> str:
+def _figure(trace: Trace, name: str) -> str:
     figure, unit = trace.result.get(name, (None, ""))
     return "-" if figure is None else shown(figure, unit)
 
@@ -85,18 +85,18 @@ def _told(trace: Trace, name: str) -> str:
 def _subtitle(trace: Trace) -> str:
     parts = [
         (
-            f"following error {_told(trace, 'steady_following_error')}"
-            f" (predicted {_told(trace, 'predicted_following_error')})"
+            f"following error {_figure(trace, 'steady_following_error')}"
+            f" (predicted {_figure(trace, 'predicted_following_error')})"
         ),
-        f"peak torque {_told(trace, 'peak_torque')}",
-        f"in position after {_told(trace, 'in_position_time')}",
+        f"peak torque {_figure(trace, 'peak_torque')}",
+        f"in position after {_figure(trace, 'in_position_time')}",
     ]
     parts += [f"{alarm.code} at {shown(alarm.time_s, 's')}" for alarm in trace.alarms]
     return ", ".join(parts)
 
 
 class _Panel:
-    """One panel: where it stands, and the two ranges it shows."""
+    """One panel: its place and the two ranges it shows."""
 
     def __init__(self, number: int, time: Series, low: float, high: float) -> None:
         self.top = TOP + number * (PANEL + GAP)
@@ -113,7 +113,7 @@ class _Panel:
         return self.top + (self.high - value) / (self.high - self.low) * PANEL
 
     def frame(self, label: str) -> list[str]:
-        """Grid, numbers and the label of the left axis."""
+        """Return grid, numbers and the label of the left axis."""
         parts = [
             (
                 f'<rect x="{LEFT}" y="{self.top}" width="{RIGHT - LEFT}" height="{PANEL}" fill="none"'
@@ -175,13 +175,13 @@ def _error(trace: Trace, time: Series, number: int) -> list[str]:
         below = y - panel.top < LABEL + 4  # no room above the line
         parts.append(_text(RIGHT - 6, y + 13 if below else y - 4, words, anchor="end", size=11, fill=LIMIT))
     if far:
-        words = "off the panel: " + ", ".join(f"{name} {shown(level, unit)}" for name, level in far)
+        words = "outside the plot: " + ", ".join(f"{name} {shown(level, unit)}" for name, level in far)
         parts.append(_text(LEFT, panel.top - 6, words, size=11, fill=LIMIT))
     return parts
 
 
 def _speed(trace: Trace, time: Series, number: int) -> list[str]:
-    """Velocities on the left axis, torque on the right one."""
+    """Return the panel of velocities (left axis) and torque (right axis)."""
     command, actual = trace.columns["command_velocity"], trace.columns["velocity"]
     torque = trace.columns["torque_percent"]
     panel = _Panel(number, time, *_range(command, actual))

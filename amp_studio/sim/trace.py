@@ -1,4 +1,4 @@
-"""What a scenario hands back: the motion, its figures, the alarms, the advice and what was assumed."""
+"""The result of a scenario: motion, figures, alarms, recommendations and assumptions."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 Figure = tuple[float | None, str]
-"""A value and its unit; None where the motion never showed it."""
+"""A value and its unit; None if the motion did not reach it."""
 
 
 @dataclass(frozen=True)
 class Alarm:
-    """A message the control would show, and when."""
+    """An alarm of the control and its time."""
 
     code: str
     time_s: float
@@ -22,11 +22,11 @@ class Alarm:
 
 
 @dataclass(frozen=True)
-class Advice:
-    """One change worth making: the value, and why in one line with its price."""
+class Recommendation:
+    """A recommended value, with the reason in one line."""
 
     parameter: str
-    """Id of the parameter, or the name of the axis' figure where no parameter is known."""
+    """Id of the parameter, or the name of the axis' figure without one."""
     value: float
     unit: str
     why: str
@@ -46,10 +46,10 @@ class Trace:
     """Name of a column -> its unit."""
     result: Mapping[str, Figure]
     alarms: tuple[Alarm, ...]
-    advice: tuple[Advice, ...]
+    recommendations: tuple[Recommendation, ...]
     assumptions: tuple[str, ...]
     limits: Mapping[str, Figure]
-    """Named levels of following error to draw beside the curves."""
+    """Named limits of the following error, to draw beside the curves."""
 
     @property
     def rows(self) -> int:

@@ -1,4 +1,4 @@
-"""Writes a trace to a file (CSV, SVG, PNG by the ending) and as the JSON the command line promises."""
+"""Writes a trace to a file (CSV, SVG or PNG by its extension), as text and as JSON."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from .svg import plot_svg
 from .trace import Trace
 
 PIXELS_PER_INCH = 144
-"""Of a PNG; a point of the SVG is 1/72 inch."""
+"""Resolution of a PNG; a point of the SVG is 1/72 inch."""
 
 ENDINGS = (".csv", ".svg", ".png")
 
 
 def trace_csv(trace: Trace) -> str:
-    """Return the trace as CSV: a line of column names, then a line a row, numbers by shortest round trip."""
+    """Return the trace as CSV: column names, then one line for each row with exact numbers."""
     lines = [",".join(_heading(trace))]
     columns = [column.tolist() for column in trace.columns.values()]
     lines += [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
@@ -27,7 +27,7 @@ def trace_csv(trace: Trace) -> str:
 
 
 def _heading(trace: Trace) -> list[str]:
-    """Name the columns; a column of the time or the torque has its unit in its name already."""
+    """Return the column names with units; time and torque already have the unit in their name."""
     return [
         name if name in ("time_s", "torque_percent") else f"{name} [{trace.units[name]}]"
         for name in trace.columns
@@ -35,8 +35,8 @@ def _heading(trace: Trace) -> list[str]:
 
 
 def plot_png(trace: Trace) -> bytes:
-    """Return the plot as PNG: a Typst page of the size of the SVG, drawn by Typst."""
-    import typst  # only a PNG needs it
+    """Return the plot as PNG, drawn by Typst."""
+    import typst  # needed for a PNG only
 
     page = (
         "#set page(width: auto, height: auto, margin: 0pt)\n"
@@ -51,7 +51,7 @@ def plot_png(trace: Trace) -> bytes:
 
 
 def trace_text(trace: Trace) -> str:
-    """Return the result as a person reads it in a terminal: alarms, figures, advice, assumptions."""
+    """Return the result as text for the terminal: alarms, figures, recommendations, assumptions."""
     lines = [f"{trace.scenario}{', axis ' + trace.axis if trace.axis else ''}: {trace.model}"]
     lines += [f"ALARM at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
     width = max(len(name) for name in trace.result)
@@ -59,7 +59,10 @@ def trace_text(trace: Trace) -> str:
         words = name.replace("_", " ").ljust(width)
         lines.append(f"  {words}  {'not reached' if value is None else shown(value, unit, 6)}")
     for heading, entries in (
-        ("Advice", [f"{a.parameter} = {shown(a.value, a.unit, 9)}: {a.why}" for a in trace.advice]),
+        (
+            "Recommendations",
+            [f"{a.parameter} = {shown(a.value, a.unit, 9)}: {a.why}" for a in trace.recommendations],
+        ),
         ("Assumptions", list(trace.assumptions)),
     ):
         if entries:
@@ -67,8 +70,8 @@ def trace_text(trace: Trace) -> str:
     return "\n".join(lines)
 
 
-def write_trace(trace: Trace, path: Path, tell: Tell = lambda _said: None) -> None:
-    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``tell`` is called with what could not be kept.
+def write_trace(trace: Trace, path: Path, tell: Tell = lambda _note: None) -> None:
+    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``tell`` is called with each lost file attribute.
 
     Raises SimulationError for another ending, SaveError where it cannot.
     """
@@ -80,12 +83,14 @@ def write_trace(trace: Trace, path: Path, tell: Tell = lambda _said: None) -> No
     elif ending == ".png":
         content = plot_png(trace)
     else:
-        raise SimulationError(f"a trace is written as {', '.join(ENDINGS)}, not as '{path.name}'")
+        raise SimulationError(
+            f"{path.name}: unknown format of a trace. Use the file extension {', '.join(ENDINGS)}"
+        )
     write_atomic(path, content, keep_backup=False, tell=tell)
 
 
 def trace_summary(trace: Trace) -> dict[str, Any]:
-    """Return the result without the curves, in the shape of ``simulate --json``."""
+    """Return the result without the curves, in the form of ``simulate --json``."""
     return {
         "scenario": trace.scenario,
         "axis": trace.axis,
@@ -94,7 +99,7 @@ def trace_summary(trace: Trace) -> dict[str, Any]:
         "alarms": [{"code": a.code, "time_s": a.time_s, "message": a.message} for a in trace.alarms],
         "advice": [
             {"param": a.parameter, "value": f"{a.value!r} {a.unit}".rstrip(), "why": a.why}
-            for a in trace.advice
+            for a in trace.recommendations
         ],
         "assumptions": list(trace.assumptions),
         "trace": {"columns": list(trace.columns), "rows": trace.rows},

@@ -39,13 +39,15 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
 
 
 def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
-    """Return the hook that tells a fault of the program in a sentence; the traceback goes to the terminal."""
+    """Return the hook that shows an internal error as a message; the traceback goes to the terminal."""
 
-    def tell_fault(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-        from .questions import tell
+    def show_internal_error(
+        kind: type[BaseException], error: BaseException, trace: TracebackType | None
+    ) -> None:
+        from .questions import show_message
 
         traceback.print_exception(kind, error, trace)
-        tell(window, "A fault in AMP Studio", f"Something went wrong in the program itself: {kind.__name__}: {error}\n\n"
-             "Your work is still open: save it, under a new name to be sure.")  # fmt: skip
+        show_message(window, "Internal error", f"AMP Studio has an internal error: {kind.__name__}: {error}\n\n"
+             "Your work is still open. Save it under a new name.")  # fmt: skip
 
-    return tell_fault
+    return show_internal_error

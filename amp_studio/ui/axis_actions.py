@@ -62,10 +62,12 @@ class AxisActions:
         self._ask("Name axis", [self._workspace()[1].name])
 
     def configure_type(self) -> None:
-        """Make an axis linear, rotary, a spindle or unfitted; its lengths become angles or lengths with it."""
+        """Make an axis linear, rotary, a spindle or unfitted; the units of its lengths change with it."""
         workspace, profile = self._workspace()
         dialog = self._dialog("Configure axis type")
-        dialog.note.setText("Its figures stay: what is in mm becomes degrees, or the other way round.")
+        dialog.note.setText(
+            "The numbers stay the same; only the unit changes, from mm to degrees or from degrees to mm."
+        )
         dialog.ask_for([profile.type])
         if dialog.exec():
             axis, text = dialog.axis(), dialog.texts()[(profile.type, dialog.axis())]
@@ -83,18 +85,18 @@ class AxisActions:
         dialog = self._dialog("Copy axis")
         target = dialog.ask_for_target()
         dialog.note.setText(
-            "Every per-axis value of all groups is copied; the name stays. Both axes must be of one type."
+            "All values of the axis are copied, except its name. Both axes must have the same type."
         )
         if dialog.exec():
             source, axis = dialog.axis(), str(target.currentData())
             workspace.do(f"Copy axis {source} to {axis}", lambda: copy_axis(workspace.file, source, axis))
 
     def delete(self) -> None:
-        """Make an axis unfitted, with its values at their defaults."""
+        """Make an axis unfitted and set its values to their defaults."""
         workspace, _ = self._workspace()
         dialog = self._dialog("Delete axis")
         dialog.note.setText(
-            "The axis becomes unfitted and its values go back to their defaults. You can undo it."
+            "The axis becomes unfitted and its values are set to their defaults. You can undo this."
         )
         if dialog.exec():
             axis = dialog.axis()

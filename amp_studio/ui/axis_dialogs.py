@@ -21,7 +21,7 @@ from .workspace import Workspace
 
 
 class AxisDialog(QDialog):
-    """Asks for an axis and, below it, for choices and texts of that axis or for another axis."""
+    """Asks for an axis and then for its choices and texts, or for a second axis."""
 
     def __init__(self, workspace: Workspace, title: str, axis: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -54,12 +54,12 @@ class AxisDialog(QDialog):
         return box
 
     def ask_for(self, parameter_ids: list[str]) -> None:
-        """Offer these parameters of the chosen axis, choices as lists."""
+        """Show a field for each of these parameters of the chosen axis; choices are lists."""
         self._wanted = parameter_ids
         self._fill()
 
     def ask_for_target(self) -> QComboBox:
-        """Offer a second axis, the one that receives."""
+        """Show a field for the target axis and return it."""
         box = self._axis_list(self.axis())
         same = [
             n for n in range(box.count()) if n != box.currentIndex() and self._is_alike(str(box.itemData(n)))
@@ -87,7 +87,7 @@ class AxisDialog(QDialog):
             self._fields[parameter_id] = field
 
     def done(self, result: int) -> None:
-        """Leave the dialog; what was chosen can be read until the next event."""
+        """Close the dialog; its input can be read until the next event."""
         super().done(result)
         self.deleteLater()
 

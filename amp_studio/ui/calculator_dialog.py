@@ -14,7 +14,7 @@ from .workspace import Workspace
 
 
 class CalculatorDialog(QDialog):
-    """Works a formula out while its arguments are typed."""
+    """Evaluates a formula while its arguments are typed."""
 
     def __init__(
         self,
@@ -33,8 +33,8 @@ class CalculatorDialog(QDialog):
         own = workspace.file.schema.parameters[address[0]].formulas if address else ()
         self.formula = QComboBox()
         self.formula.addItems([*own, *(name for name in sorted(self._known) if name not in own)])
-        self.told, self.outcome = QLabel(), QLabel()
-        for label in (self.told, self.outcome):
+        self.description, self.outcome = QLabel(), QLabel()
+        for label in (self.description, self.outcome):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.use = QPushButton()
@@ -42,7 +42,7 @@ class CalculatorDialog(QDialog):
         self.fields: dict[str, QLineEdit] = {}
         self._form = QFormLayout(self)
         self._form.addRow("&Formula", self.formula)
-        self._form.addRow(self.told)
+        self._form.addRow(self.description)
         self._form.addRow("Result", self.outcome)
         self._form.addRow(self.use)
         self.formula.currentTextChanged.connect(self._choose)
@@ -54,7 +54,7 @@ class CalculatorDialog(QDialog):
             self._form.removeRow(field)
         self.fields.clear()
         calculator = self._known[self.formula.currentText()]
-        self.told.setText(calculator.told)
+        self.description.setText(calculator.told)
         for n, argument in enumerate(calculator.arguments):
             field = self.fields[argument.name] = QLineEdit()
             field.setPlaceholderText(argument.default or argument.example)

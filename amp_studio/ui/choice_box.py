@@ -28,8 +28,16 @@ class ChoiceBox(QComboBox):
             if choice.note:
                 self.setItemData(self.count() - 1, choice.note, Qt.ItemDataRole.ToolTipRole)
         value = workspace.file.get(address)
-        said = None if value is None else value.value
-        key = "" if said is None else "yes" if said is True else "no" if said is False else str(said)
+        current = None if value is None else value.value
+        key = (
+            ""
+            if current is None
+            else "yes"
+            if current is True
+            else "no"
+            if current is False
+            else str(current)
+        )
         keys = [c.key for c in choices]
         self.setPlaceholderText(key or "not set")
         self.setCurrentIndex(keys.index(key) if key in keys else -1)
@@ -54,14 +62,14 @@ class ChoiceBox(QComboBox):
         return True
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Select by letter; Enter belongs to the form around."""
+        """Select by letter; Enter is left to the form."""
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             event.ignore()
         elif not self._select(event):
             super().keyPressEvent(event)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Select by letter in the open list too, and notice when it closes: there are ways past ``hidePopup``."""
+        """Select by letter in the open list too, and notice when it closes, as not every way calls ``hidePopup``."""
         if event.type() == QEvent.Type.KeyPress and self._select(event):
             return True
         if event.type() == QEvent.Type.Hide:

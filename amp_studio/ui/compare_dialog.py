@@ -25,7 +25,7 @@ _DIFFERENCE = Qt.ItemDataRole.UserRole
 
 
 class DifferenceList(QTreeWidget):
-    """A row for each value that differs: where, how, and both sides."""
+    """One row for each value that differs: parameter, axis, kind of difference and both values."""
 
     def __init__(
         self, file: ParameterFile, found: Comparison, other: str, *, tick: bool, secrets: bool
@@ -76,12 +76,12 @@ class DifferenceList(QTreeWidget):
 def counts(found: Comparison, other: str) -> str:
     """Return the counts of a comparison in a sentence."""
     different = len(found.differences) - found.absent_in_a - found.absent_in_b
-    absent = f"{found.absent_in_a} absent in this file, {found.absent_in_b} absent in {other}"
-    return f"{different} different, {found.same} the same, {absent}."
+    not_set = f"{found.absent_in_a} not set in this file, {found.absent_in_b} not set in {other}"
+    return f"{different} different, {found.same} the same, {not_set}."
 
 
 class CompareDialog(QDialog):
-    """Shows what differs; ticked rows can be taken over as one step. Stays open beside the table."""
+    """Shows what differs; the values of ticked rows can be copied as one step. Stays open beside the table."""
 
     def __init__(
         self,
@@ -117,7 +117,7 @@ class CompareDialog(QDialog):
         self._fill()
 
     def _fill(self, *_: object) -> None:
-        """Show what differs now; an edit may have made some the same. Ticks stay."""
+        """Update the list after an edit; ticks are kept."""
         found = self._workspace.differences_to(self._values)
         ticked = {d.address for d in self.list.ticked()}
         fresh = DifferenceList(
@@ -139,10 +139,12 @@ class CompareDialog(QDialog):
         self.list.tick_all()
 
     def take(self) -> None:
-        """Take the ticked values into the open file as one step; what is out of range there stays marked."""
+        """Copy the ticked values to the open file as one step; a value that is out of range is marked as forced."""
         wanted = {d.address: d.b for d in self.list.ticked()}
         if wanted:
-            self._workspace.edit(f"Take values of {self._other}", wanted, force=f"as {self._other} has it")
+            self._workspace.edit(
+                f"Copy values from {self._other}", wanted, force=f"copied from {self._other}"
+            )
 
 
 class DownloadPreview(QDialog):
@@ -160,8 +162,8 @@ class DownloadPreview(QDialog):
         super().__init__(parent)
         self.setWindowTitle(title)
         self.resize(900, 500)
-        text = QLabel(f"{counts(found, 'the control')} The control takes the file as a whole; what is absent in this file is "
-                      "not sent. What it holds now is kept beside the file first.\n\nThe control must be in E-stop.")  # fmt: skip
+        text = QLabel(f"{counts(found, 'the control')} The download replaces all parameters in the control. Values that are not set in this file are "
+                      "not sent. The control's present parameters are saved beside the file first.\n\nThe control must be in E-stop.")  # fmt: skip
         text.setWordWrap(True)
         self.list = DifferenceList(file, found, "the control", tick=False, secrets=secrets)
         self.send, cancel = QPushButton(f"&{title}"), QPushButton("Cancel")

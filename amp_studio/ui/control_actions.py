@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from .workspace import Workspace
 
 STAGES = {
-    "keep": "Reading what the control holds, to keep it …",
+    "keep": "Saving the control's present parameters …",
     "download": "Sending the file …",
-    "commit": "The control checks the file and takes it over …",
+    "commit": "The control is checking and storing the parameters …",
     "restart": "Waiting for the control to restart …",
-    "verify": "Reading everything back and comparing …",
-    "upload": "Reading what the control holds …",
+    "verify": "Reading all parameters back and comparing …",
+    "upload": "Reading the parameters of the control …",
 }
 
 
@@ -61,7 +61,7 @@ class ControlActions:
         self.toolbar: list[QAction] = [download, verify, upload]
 
     def enable(self) -> None:
-        """Bring the actions up to date with the emulated control."""
+        """Enable the actions that fit the state of the emulated control."""
         running = self.emulated.is_running
         self.start_action.setEnabled(self.window.workspace is not None and not running)
         self.estop_action.setEnabled(running)
@@ -75,22 +75,24 @@ class ControlActions:
         if workspace is not None and not self.emulated.is_running:
             self.emulated.start(workspace.file.schema.family.family, workspace.file.machine)
             self.estop_action.setChecked(True)
-            self.window.say("Starting an emulated control …")
+            self.window.show_status("Starting an emulated control …")
             self.enable()
 
     def _ready(self, address: str) -> None:
-        self.window.say(f"Emulated control at {address}, in E-stop")
+        self.window.show_status(f"Emulated control at {address}, in E-stop")
         self.enable()
 
     def _ended(self, said: str) -> None:
-        self.window.say(f"The emulated control has ended: {said}" if said else "Emulated control stopped")
+        self.window.show_status(
+            f"The emulated control stopped: {said}" if said else "Emulated control stopped"
+        )
         self.enable()
 
     def _estop(self) -> None:
-        self.emulated.say("estop on" if self.estop_action.isChecked() else "estop off")
+        self.emulated.send("estop on" if self.estop_action.isChecked() else "estop off")
 
     def close(self) -> None:
-        """End what was started."""
+        """Stop the emulated control."""
         self.emulated.ended.disconnect(self._ended)
         self.emulated.stop(wait=True)
 
@@ -105,7 +107,9 @@ class ControlActions:
             settings.control(),
         )
         offered = list(dict.fromkeys(a for a in known if a)) or ["tcp://127.0.0.1:9600"]
-        label = "Address of the control (tcp://host:port or serial:/dev/ttyUSB0?baud=115200)"
+        label = (
+            "Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)"
+        )
         text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
         if not accepted or not text.strip():
             return None
@@ -118,7 +122,7 @@ class ControlActions:
         return workspace
 
     def download(self) -> None:
-        """Show what would change, then send: keep what the control held, restart, read back, compare."""
+        """Show what would change, then download: back up the control, send, restart, read back, compare."""
         workspace = self._workspace()
         if not self._is_ready(workspace):
             return
@@ -147,18 +151,18 @@ class ControlActions:
         return outcome
 
     def _is_ready(self, workspace: Workspace) -> bool:
-        """Ask about unsaved changes and errors; tells whether the file may go to a control."""
+        """Ask about unsaved changes and errors; returns whether the file may be downloaded."""
         if workspace.is_dirty and workspace.may_edit:
-            question = f"{workspace.path.name} has unsaved changes. Only what is saved is downloaded."
-            if ask(self.window, "Download", question, "&Save and go on", "Cancel") != "&Save and go on":
+            question = f"{workspace.path.name} has unsaved changes. A download sends the saved file."
+            if ask(self.window, "Download", question, "&Save and Continue", "Cancel") != "&Save and Continue":
                 return False
-            if not self.window.save_or_tell():
+            if not self.window.save():
                 return False
         errors = [f for f in workspace.findings if f.severity == "error"]
         if not errors:
             return True
-        count = "an error" if len(errors) == 1 else f"{len(errors)} errors, the first"
-        question = f"The file has {count}: {errors[0].message}\n\nDownload it all the same?"
+        count = "1 error" if len(errors) == 1 else f"{len(errors)} errors, the first"
+        question = f"The file has {count}: {errors[0].message}\n\nDownload it anyway?"
         answer = ask(
             self.window, "Download", question, "&Download", "Cancel", default=1, icon=QMessageBox.Icon.Warning
         )
@@ -197,7 +201,7 @@ class ControlActions:
             workspace.remember_control(held.values, f"{datetime.now(UTC).astimezone():%H:%M}")
 
     def verify(self) -> None:
-        """Compare the file with what the control holds."""
+        """Compare the file with the parameters of the control."""
         workspace = self._workspace()
         address = self.ask_address("Verify")
         if address is None:
@@ -212,11 +216,11 @@ class ControlActions:
             self.remember(workspace, held)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
-            tell(self.window, "Verify", found.summary(), icon)
+            show_message(self.window, "Verify", found.summary(), icon)
             return
         from .compare_dialog import CompareDialog
 
-        CompareDialog(workspace, held.values, "the control", self.window.go_to, self.window).show()
+        CompareDialog(workspace, present.values, "the control", self.window.go_to, self.window).show()
 
     def fetch(self, address: str, title: str, family: str = "") -> bytes:
         """Return what the control holds, byte for byte; with a family the control must be of it."""
@@ -241,7 +245,7 @@ class ControlActions:
         file = self._uploaded(address)
         for place, said in out_of_range(file):
             if not self._walk(file, place, said):
-                self.window.say("Upload given up; nothing was written")
+                self.window.show_status("Upload cancelled. No file was written.")
                 return
         self._save_upload(file)
 
@@ -251,30 +255,28 @@ class ControlActions:
 
         image = self.fetch(address, "Upload")
         if not image:
-            raise ValueError("The control holds nothing: there is nothing to upload.")
+            raise ValueError("The control contains no parameters: there is nothing to upload.")
         try:
             return decode_image(image)
         except ImageError as error:
             raise ValueError(
-                f"{error}.\n\n'amp-studio upload --from {address} -o NAME.img' keeps it byte for byte."
+                f"{error}.\n\nTo save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'."
             ) from None
 
     def _save_upload(self, file: ParameterFile) -> None:
-        """Save an upload under a name that is free; asks again when it cannot be written there."""
-        while (
-            path := self.window.files.ask_path("Save the upload under a new name", Path("from-control"))
-        ) is not None:
+        """Save an upload as a new file; asks for another name when it cannot be written."""
+        while (path := self.window.files.ask_path("Save upload as", Path("from-control"))) is not None:
             file.header.name = path.stem
             try:
                 self.window.files.write_new(path, partial(Document.create, file, path))
             except OSError as error:
-                tell(self.window, "Upload", f"{error}.\n\nChoose another name.")
+                show_message(self.window, "Upload", f"{error}.\n\nChoose another name.")
             else:
                 return
-        self.window.say("Upload given up; nothing was written")
+        self.window.show_status("Upload cancelled. No file was written.")
 
     def _walk(self, file: ParameterFile, place: Address, said: str) -> bool:
-        """Ask about one out-of-range value: continue checking, edit it, or quit. Tells whether to go on."""
+        """Ask about one out-of-range value: continue checking, edit it, or quit. Returns whether to continue."""
         go_on, edit, stop = "&Continue checking", "&Edit parameter", "&Quit checking"
         while True:
             answer = ask(

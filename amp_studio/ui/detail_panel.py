@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, 
 
 from amp_studio.files.held import held_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
+from amp_studio.report.wording import local_time, state_name
 from amp_studio.schema import (
     Address,
     Value,
@@ -28,7 +29,7 @@ from .workspace import Workspace
 
 
 class DetailPanel(QWidget):
-    """Shows one address; links lead to other parameters. Only the page in front is written."""
+    """Shows one address; links lead to other parameters. Only the visible page is filled."""
 
     linked = Signal(str)
     """A parameter id that was clicked."""
@@ -92,21 +93,27 @@ class DetailPanel(QWidget):
         place = html.escape(file.machine_schema.instance_label(address))
         value = self._shown(address, file.get(address))
         default = file.default(address)
-        told = f"default {self._shown(address, default)}" if default is not None else "no default printed"
+        default_text = (
+            f"default {self._shown(address, default)}" if default is not None else "no default printed"
+        )
         lines = [
             f"<h3>{title}</h3>",
-            f"<p><b>{value}</b> &nbsp; <small>{', '.join(t for t in (place, told) if t)}</small>",
+            f"<p><b>{value}</b> &nbsp; <small>{', '.join(t for t in (place, default_text) if t)}</small>",
         ]
         if (used := self._workspace.effective().get(address)) is not None:
-            lines.append(f"<br><b>{self._shown(address, used)}</b> <small>is what the control uses</small>")
-        if held := held_text(file, address):
-            lines.append(f"<br>{html.escape(held)} <small>as the control holds it</small>")
+            lines.append(
+                f"<br><b>{self._shown(address, used)}</b> <small>effective value in the control</small>"
+            )
+        if storage_text := held_text(file, address):
+            lines.append(f"<br>{html.escape(storage_text)} <small>as stored in the control</small>")
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
         lines.append("</p>")
         state = file.evaluation.state(address)
         if state.state != "in-force":
             page = f" (page {state.page})" if state.page else ""
-            lines.append(f"<p><i>{state.state.capitalize()}: {html.escape(state.why)}{page}.</i></p>")
+            lines.append(
+                f"<p><i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i></p>"
+            )
         allowed = self._allowed(address)
         if allowed:
             lines.append(f"<p>Allowed here: <b>{html.escape(allowed)}</b></p>")
@@ -117,7 +124,7 @@ class DetailPanel(QWidget):
         return "".join(lines)
 
     def _elsewhere(self, address: Address) -> list[str]:
-        """Return what the file on disk and the control hold where that is not what is shown: three values may differ."""
+        """Return the values on disk and in the control where they differ from the value shown."""
         workspace, value = self._workspace, self._workspace.file.get(address)
         found: list[tuple[str, Value | None]] = [("on disk", workspace.document.saved.get(address))]
         if workspace.control is not None:
@@ -180,13 +187,13 @@ class DetailPanel(QWidget):
                 f"<p>{mark} <b>{html.escape(rule.title)}</b> <small>({cited})</small><br>"
                 f"<code>{html.escape(rule.check)}</code>{when}<br><small>{names}</small></p>"
             )
-        return "".join(lines) or "<p>No rule reads this parameter.</p>"
+        return "".join(lines) or "<p>No rule uses this parameter.</p>"
 
     def _history(self, address: Address) -> str:
         entries = self._workspace.document.history(address)
         lines = [
-            f"<p><small>{entry.when[:16].replace('T', ' ')} {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
+            f"<p><small>{local_time(entry.when)} {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
             f"<br>{html.escape(entry.old or '—')} → {html.escape(entry.new or '—')}</p>"
             for entry in entries
         ]
-        return "".join(lines) or f"<p>No saved change of {html.escape(written(address))} yet.</p>"
+        return "".join(lines) or f"<p>No saved changes of {html.escape(written(address))} yet.</p>"

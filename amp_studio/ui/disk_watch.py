@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
-from .questions import ask, tell
+from .questions import ask, show_message
 from .settings import is_there
 from .workspace import Workspace
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .main_window import MainWindow
 
 SETTLE_MS = 250
-"""A program may write a file in several goes."""
+"""Milliseconds to wait, as a program may write a file in several steps."""
 
 
 class DiskWatch(QObject):
@@ -60,15 +60,12 @@ class DiskWatch(QObject):
             return
         self._refused = state  # asked once for each change
         if state == "removed":
-            tell(self._window, "File removed", f"{workspace.path.name} has been removed or renamed by another program.\n\n"
-                 "Your work is still open: save it under a new name.")  # fmt: skip
+            show_message(self._window, "File removed", f"{workspace.path.name} was removed or renamed by another program.\n\n"
+                 "Your work is still open. Save it under a new name.")  # fmt: skip
             return
-        lost = " Your unsaved changes would be lost." if workspace.is_dirty else ""
-        question = f"{workspace.path.name} has been changed by another program.\n\nLoad it again?{lost}"
-        if (
-            ask(self._window, "Changed on disk", question, "&Load again", "Keep what is open")
-            == "&Load again"
-        ):
+        lost = " Your unsaved changes will be lost." if workspace.is_dirty else ""
+        question = f"{workspace.path.name} was changed by another program.\n\nReload it?{lost}"
+        if ask(self._window, "Changed on disk", question, "&Reload", "Keep Open Version") == "&Reload":
             self._window.guarded(
                 lambda: self._window.files.open_path(workspace.path, ask_first=False), "Open"
             )

@@ -1,4 +1,4 @@
-"""The edit menu: undo, values by keyboard and by number, repairs."""
+"""The edit menu: undo, values by keyboard and by number, suggested fixes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import RULES_FILE, Finding, calculators, repair_all_safe, suppress
 
-from .questions import ask, tell
+from .questions import ask, show_message
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -31,31 +31,31 @@ class EditActions:
         edit = act("&Edit Value", self._edit, "F2", "edit")
         copy = act("&Copy Value", self._copy, keys.Copy, "file")
         paste = act("&Paste Value", self._paste, keys.Paste, "edit")
-        default = act("Put Back to &Default", self.to_default, "Ctrl+D", "edit")
-        unset = act("U&nset", self.unset, keys.Delete, "edit")
+        default = act("Set to &Default", self.to_default, "Ctrl+D", "edit")
+        clear = act("Clear Value (&Not Set)", self.clear, keys.Delete, "edit")
         every = act("Copy to All A&xes of the Type", self.to_all_axes, "Ctrl+Shift+A", "axes")
         quick = act("&Quick Edit by Number…", self.quick_edit, "F4", "edit")
         calculator = act("Ca&lculator…", self.calculator, "F3", "file")
         tables = act("&Tables of the Manual…", self.tables, "Shift+F3", "file")
         find = act("&Find Parameter", self._find, keys.Find, "file")
-        repair = act("Repa&ir Selected Finding", self._repair, "F8", "edit")
-        why = act("W&hy Is This Found", self._why, "Shift+F1", "file")
-        safe = act("Repair All &Safe Findings", self.repair_safe, "Shift+F8", "edit")
-        for action in (copy, paste, unset):  # a text field has its own
+        fix = act("F&ix Selected Finding", self._fix, "F8", "edit")
+        why = act("Ex&plain Selected Finding", self._why, "Shift+F1", "file")
+        safe = act("Apply All &Safe Fixes", self.fix_safe, "Shift+F8", "edit")
+        for action in (copy, paste, clear):  # a text field has its own
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
-        self.of_a_cell: list[QAction] = [edit, copy, paste, default, unset, every]
+        self.of_a_cell: list[QAction] = [edit, copy, paste, default, clear, every]
         menu = window.menuBar().addMenu("&Edit")
         for actions in (
             (self.undo, self.redo),
             self.of_a_cell,
             (quick, calculator, tables, find),
-            (repair, safe, why),
+            (fix, safe, why),
         ):
             menu.addActions(list(actions))
             menu.addSeparator()
 
     def show_state(self, workspace: Workspace | None) -> None:
-        """Say what undo and redo would do, and whether they can."""
+        """Update text and state of Undo and Redo."""
         for action, name in ((self.undo, "&Undo"), (self.redo, "&Redo")):
             stack = workspace.undo_stack if workspace and workspace.may_edit else None
             is_undo = action is self.undo
@@ -78,7 +78,7 @@ class EditActions:
     # -- one value -------------------------------------------------------------
 
     def commit(self, address: Address, text: str) -> bool:
-        """Take a text typed for an address; asks before a value out of range is forced. Tells whether it was taken."""
+        """Set a value from typed text; asks before a value out of range is forced. Returns whether it was set."""
         workspace = self._workspace()
         name = describe(workspace.file, address)
         try:
@@ -92,9 +92,9 @@ class EditActions:
             return self._ask_force(address, value, str(error))
         return True
 
-    def _ask_force(self, address: Address, value: Value | None, said: str) -> bool:
-        force = "&Force and mark it"
-        text = f"{said}.\n\nNothing was changed. A forced value stays marked in the file, the findings and the report."
+    def _ask_force(self, address: Address, value: Value | None, problem: str) -> bool:
+        force = "&Force and Mark"
+        text = f"{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
         icon = QMessageBox.Icon.Warning
         if ask(self.window, "Out of range", text, force, "Cancel", default=1, icon=icon) != force:
             return False
@@ -118,7 +118,7 @@ class EditActions:
         workspace, address = self._workspace(), self._here()
         if workspace.is_masked(address):
             name = describe(workspace.file, address)
-            raise ValueError(f"{name} is secret: it can be copied while Options, Show Secrets is on.")
+            raise ValueError(f"{name} is secret. To copy it, first switch on Options > Show Secrets.")
         if self.window.table is not None:
             QGuiApplication.clipboard().setText(self.window.table.typed_value(address))
 
@@ -128,17 +128,17 @@ class EditActions:
             self.commit(self._here(), text)
 
     def to_default(self) -> None:
-        """Put the selected value back to its printed default."""
+        """Set the selected value to its printed default."""
         workspace, address = self._workspace(), self._here()
         default, name = workspace.file.default(address), describe(workspace.file, address)
         if default is None:
-            raise ValueError(f"No default is printed for {name}; Delete leaves it unset.")
+            raise ValueError(f"No default is printed for {name}. Press Delete to clear the value.")
         workspace.edit(f"{name} to its default", {address: default})
 
-    def unset(self) -> None:
-        """Leave the selected value to the control."""
+    def clear(self) -> None:
+        """Clear the selected value: it is not set, and the control keeps its own."""
         workspace, address = self._workspace(), self._here()
-        workspace.edit(f"{describe(workspace.file, address)} unset", {address: None})
+        workspace.edit(f"{describe(workspace.file, address)} cleared", {address: None})
 
     def to_all_axes(self) -> None:
         """Copy the selected value to every fitted axis of the same type."""
@@ -180,15 +180,15 @@ class EditActions:
         if self.window.groups is not None:
             self.window.groups.focus_search()
 
-    # -- repairs ---------------------------------------------------------------
+    # -- findings ---------------------------------------------------------------
 
-    def _repair(self) -> None:
+    def _fix(self) -> None:
         finding = self.window.findings.current() if self.window.findings else None
         if finding is None or not finding.repairs:
             raise ValueError(
-                "The selected finding has no repair that could be made without knowing the machine."
+                "The selected finding has no suggested fix. Show it to see the parameters to check."
             )
-        self.repair(finding)
+        self.fix(finding)
 
     def _why(self) -> None:
         finding = self.window.findings.current() if self.window.findings else None
@@ -203,7 +203,7 @@ class EditActions:
         WhyDialog(self._workspace(), finding, self.window.go_to, self.window).show()
 
     def suppress(self, finding: Finding) -> None:
-        """Leave a finding as it is, with a reason and a name that are asked for."""
+        """Suppress a finding; asks for a reason and a name."""
         from .finding_dialogs import SuppressDialog
 
         workspace = self._workspace()
@@ -222,14 +222,18 @@ class EditActions:
             workspace.read_own_rules()
             self.window.say("; ".join([f"Kept in {path}", *notes]))
 
-    def repair(self, finding: Finding) -> None:
-        """Apply the repair of a finding as one step; only one that is offered now has been tried."""
+    def fix(self, finding: Finding) -> None:
+        """Apply the suggested fix of a finding as one step, if the finding still exists and its fix was tried."""
         if finding not in self._workspace().findings:
-            raise ValueError("This finding has changed or is gone: look at the findings again.")
-        self._workspace().edit("Repair", {r.address: r.value for r in finding.repairs})
+            raise ValueError(
+                "This finding has changed or no longer exists. Select it again in the list of findings."
+            )
+        self._workspace().edit("Fix", {r.address: r.value for r in finding.repairs})
 
-    def repair_safe(self) -> None:
-        """Apply every repair that cannot change motion, as one step."""
+    def fix_safe(self) -> None:
+        """Apply every suggested fix that cannot change motion, as one step."""
         workspace = self._workspace()
-        if not workspace.do("Repair all safe findings", lambda: repair_all_safe(workspace.validator)):
-            self.window.say("No finding has a repair that cannot change motion.")
+        if not workspace.do("Apply all safe fixes", lambda: repair_all_safe(workspace.validator)):
+            self.window.show_status(
+                "There is no safe fix: no finding has a suggested fix that cannot change motion."
+            )

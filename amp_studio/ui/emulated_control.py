@@ -1,4 +1,4 @@
-"""An emulated control to practise on, in a process of its own."""
+"""An emulated control to practise on, in a separate process."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ PATIENCE_MS = 2000
 
 
 class EmulatedControl(QObject):
-    """Starts and ends the process; its memory lies in a folder that goes with the program."""
+    """Starts and stops the process; its memory is in a folder that is removed when the program ends."""
 
     ready = Signal(str)
     """The address it listens on."""
     ended = Signal(str)
-    """What it said when it ended by itself; empty when it was told to."""
+    """Its last output when it ended by itself; empty when it was stopped."""
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
@@ -30,26 +30,26 @@ class EmulatedControl(QObject):
 
     @property
     def is_running(self) -> bool:
-        """Whether the process is there."""
+        """Whether the process is running."""
         return self._process.state() != QProcess.ProcessState.NotRunning
 
     def start(self, family: str, machine: str) -> None:
-        """Start it; ``ready`` tells the address. What it held when it was stopped is still there."""
+        """Start it; ``ready`` gives the address. Its memory is that of the last time it was stopped."""
         self._stopping = False
         state = Path(self._folder.path()) / f"{family}-{machine}"
         arguments = ["-m", "amp_studio.cli", "emulate", family, "--listen", "tcp://127.0.0.1:0", "--state", str(state),
                      "--machine", machine]  # fmt: skip
         self._process.start(sys.executable, arguments)
 
-    def say(self, command: str) -> None:
-        """Do something at its panel: ``estop on``, ``estop off``, ``restart``."""
+    def send(self, command: str) -> None:
+        """Send a command of its panel: ``estop on``, ``estop off``, ``restart``."""
         self._process.write(f"{command}\n".encode())
 
     def stop(self, wait: bool = False) -> None:
-        """End the process, or wait for its end as well; its memory stays until the program ends."""
+        """Stop the process, and wait for its end if asked; its memory is kept until the program ends."""
         self._stopping = True
         if self.is_running:
-            self.say("quit")
+            self.send("quit")
             QTimer.singleShot(PATIENCE_MS, self, self._kill)
             if wait and not self._process.waitForFinished(PATIENCE_MS):
                 self._kill()
@@ -72,7 +72,7 @@ class EmulatedControl(QObject):
 
     def _finished(self, *_: object) -> None:
         self.address = ""
-        said = (
+        lines = (
             bytes(self._process.readAllStandardError().data()).decode("utf-8", "replace").strip().splitlines()
         )
-        self.ended.emit("" if self._stopping else (said[-1] if said else "it ended by itself"))
+        self.ended.emit("" if self._stopping else (lines[-1] if lines else "it stopped unexpectedly"))

@@ -24,6 +24,7 @@ from amp_studio.files import (
     secret_values,
 )
 from amp_studio.files.lock import EditLock
+from amp_studio.report.wording import counted, local_time
 from amp_studio.schema import Address
 from amp_studio.validate import Validator, rules_beside
 
@@ -42,7 +43,7 @@ FILTER = "Parameter files (*.amp);;All files (*)"
 _RECENT = 8
 
 Checked = tuple[Document, Validator]
-"""A document, its validator, which has run, and what is wrong with the rules beside it."""
+"""A document, its validator (already run), and the errors in the rules file beside it."""
 
 
 class FileActions:
@@ -53,7 +54,7 @@ class FileActions:
         act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
         new = act("&New…", self.new, keys.New, "", icons.SP_FileIcon, "New")
         opened = act("&Open…", self.open, keys.Open, "", icons.SP_DialogOpenButton, "Open")
-        save = act("&Save", window.save_or_tell, keys.Save, "edit", icons.SP_DialogSaveButton)
+        save = act("&Save", window.save, keys.Save, "edit", icons.SP_DialogSaveButton)
         save_as = act("Save &As…", self.save_as, "Ctrl+Shift+S")
         close = act("&Close", self.close, keys.Close)
         report = act("&Report…", self.report, keys.Print, "file", icons.SP_FileDialogDetailedView, "Report")
@@ -80,7 +81,7 @@ class FileActions:
     # -- recent files ----------------------------------------------------------
 
     def recent(self) -> list[Path]:
-        """Return the files that were open last and are still there."""
+        """Return the recent files that still exist."""
         return [path for path in self.window.settings.recent()[:_RECENT] if is_there(path)]
 
     def _remember(self, path: Path) -> None:
@@ -117,14 +118,14 @@ class FileActions:
         if project and project.info.family == file.schema.family.family:
             path: Path | None = project.path(file.header.name)
             if path and path.exists():
-                raise FileExistsError(f"The project has a file '{path.stem}' already.")
+                raise FileExistsError(f"The project already has a file '{path.stem}'. Choose another name.")
         else:
             path = self.ask_path("New parameter file", Path(file.header.name or "machine"))
         if path:
             self.write_new(path, lambda: Document.create(file, path))
 
     def ask_path(self, title: str, near: Path) -> Path | None:
-        """Ask where to save; a name without an ending gets ours, and replacing a file is asked for."""
+        """Ask where to save; adds the file extension and asks before a file is replaced."""
         here = self.window.workspace.path.parent if self.window.workspace else Path()
         text, _ = QFileDialog.getSaveFileName(self.window, title, str(here / near.with_suffix(".amp")), FILTER,
                                               options=QFileDialog.Option.DontConfirmOverwrite)  # fmt: skip
@@ -132,13 +133,13 @@ class FileActions:
             return None
         path = Path(text)
         path = path if path.suffix else path.with_suffix(".amp")
-        question = f"{path.name} exists already. Replace it? What stands there becomes its backup."
+        question = f"{path.name} already exists. Replace it? The existing file becomes its backup."
         if path.exists() and ask(self.window, title, question, "&Replace", "Cancel", default=1) != "&Replace":
             return None
         return real_path(path) if path.exists() else path  # of a link it is the file that is replaced
 
     def write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
-        """Show the document that ``write`` makes; a file that stands there becomes its own backup first."""
+        """Show the document that ``write`` makes; an existing file is backed up first."""
 
         def work() -> Checked:
             if not path.exists():
@@ -178,8 +179,8 @@ class FileActions:
         try:
             opened = in_background(self.window, "Opening", lambda: _opened(Document.open, path))
         except InUse as error:
-            question = f"{error}.\n\nOpen it to look at it only?"
-            if ask(self.window, "File in use", question, "&Look at it", "Cancel") != "&Look at it":
+            question = f"{error}.\n\nOpen it read-only?"
+            if ask(self.window, "File in use", question, "&Open Read-Only", "Cancel") != "&Open Read-Only":
                 return
             opened = in_background(self.window, "Opening", lambda: _opened(Document.view, path))
         self._show(opened, here)
@@ -195,33 +196,31 @@ class FileActions:
             self._offer_unsaved(document)
 
     def _offer_unsaved(self, document: Document) -> None:
-        left = document.find_unsaved()
-        if left is None or not (left.changes or left.header):
+        unsaved = document.find_unsaved()
+        if unsaved is None or not (unsaved.changes or unsaved.header):
             return
-        note = "" if left.fits else "\n\nThe file has been changed since; check what you take."
-        changes = len(left.changes) + len(left.header)
-        count = "one change" if changes == 1 else f"{changes} changes"
-        text = (f"The program ended before {count} of {left.when[:16].replace('T', ' ')} ({left.who}) could be saved."
-                f"{note}\n\nTake the work back? It can be undone.")  # fmt: skip
-        answer = ask(
-            self.window, "Unsaved work found", text, "&Take it back", "&Throw it away", "Decide &later"
-        )
-        if answer == "&Take it back":
-            self._take(left)
-        elif answer == "&Throw it away":
+        note = "" if unsaved.fits else "\n\nThe file was changed since then. Check the recovered values."
+        changes = len(unsaved.changes) + len(unsaved.header)
+        count = counted(changes, "change")
+        text = (f"The program ended before {count} from {local_time(unsaved.when)} ({unsaved.who}) could be saved."
+                f"{note}\n\nRecover the unsaved work? You can undo this.")  # fmt: skip
+        answer = ask(self.window, "Unsaved work found", text, "&Recover", "&Discard", "Decide &Later")
+        if answer == "&Recover":
+            self._recover_unsaved(unsaved)
+        elif answer == "&Discard":
             document.discard_unsaved()
         else:
             self.window.show_nothing()  # the first edit would write over it
 
-    def _take(self, left: Unsaved) -> None:
+    def _recover_unsaved(self, unsaved: Unsaved) -> None:
         file = self._workspace().file
-        wanted = {c.address: c.new for c in left.changes}
+        changes = {c.address: c.new for c in unsaved.changes}
 
-        def take() -> None:
-            file.set_many(wanted, force="by the program that ended before it saved")
-            vars(file.header).update(left.header)
+        def recover() -> None:
+            file.set_many(changes, force="recovered from unsaved work")
+            vars(file.header).update(unsaved.header)
 
-        self._workspace().do("Unsaved work", take)
+        self._workspace().do("Recover unsaved work", recover)
 
     # -- the open file ---------------------------------------------------------
 
@@ -236,18 +235,18 @@ class FileActions:
             self.window.show_nothing()
 
     def save_as(self) -> None:
-        """Save under a new name; the original stays as it is on disk."""
+        """Save under a new name; the original file is not changed."""
         workspace, here = self._workspace(), self.window.selected()
         path = self.ask_path("Save as", workspace.path)
         if path is None:
             return
         if same_file(path, workspace.path):
-            self.window.save_or_tell()
+            self.window.save()
             return
         self.write_new(path, lambda: workspace.document.save_as(path), here)
 
     def compare(self) -> None:
-        """List the differences to another file."""
+        """List the differences from another file."""
         workspace = self._workspace()
         text, _ = QFileDialog.getOpenFileName(self.window, "Compare with", str(workspace.path.parent), FILTER)
         if text:
@@ -255,23 +254,25 @@ class FileActions:
 
             other = in_background(self.window, "Opening", lambda: open_file(Path(text)).file)
             if other.schema is not workspace.file.schema:
-                raise ValueError(f"{Path(text).name} is for {other.schema.family.name}")
+                raise ValueError(
+                    f"{Path(text).name} is a file for {other.schema.family.name}. Choose a file of the same control family."
+                )
             CompareDialog(workspace, other.values, Path(text).name, self.window.go_to, self.window).show()
 
     def recover(self) -> None:
-        """Put the backup of the open file in its place."""
+        """Replace the open file by its backup."""
         workspace = self._workspace()
         path = workspace.path
         if not backup_path(path).is_file():
-            raise FileNotFoundError(f"{path.name} has no backup yet: the first save makes one.")
-        lost = " Your unsaved changes are lost." if workspace.is_dirty else ""
-        question = f"Replace {path.name} by its backup? What stands there now becomes the backup.{lost}"
+            raise FileNotFoundError(f"{path.name} has no backup yet. The first save makes one.")
+        lost = " Your unsaved changes will be lost." if workspace.is_dirty else ""
+        question = f"Replace {path.name} by its backup? The present content becomes the backup.{lost}"
         if ask(self.window, "Recover backup", question, "&Replace", "Cancel", default=1) == "&Replace":
             in_background(self.window, "Recovering", lambda: recover_backup(path, workspace.document.digest))
             self.open_path(path, ask_first=False)
 
     def facts(self) -> None:
-        """Edit the name, revision, application and notes of the open file."""
+        """Edit name, revision, application and notes of the open file."""
         from .file_dialogs import FactsDialog
 
         workspace = self._workspace()
@@ -324,7 +325,7 @@ def _opened(how: Callable[[Path], Document], path: Path) -> Checked:
 
 
 def checked(document: Document) -> Validator:
-    """Return the validator of a document, which has run, with the builder's rules beside the file."""
+    """Return the validator of a document, already run, with the builder's rules beside the file."""
     validator = Validator(document.file, rules_beside(document.path, document.file.schema))
     validator.run()
     return validator

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import Header, ParameterFile, ProjectInfo, new_file
 from amp_studio.schema import family_ids, load_schema
 
-from .questions import tell
+from .questions import show_message
 
 Sort = Literal["axis", "number", "group"]
 
@@ -40,12 +40,12 @@ class _Form(QDialog):
         self.form = QFormLayout(self)
 
     def done(self, result: int) -> None:
-        """Leave the form; what was typed can be read until the next event."""
+        """Close the form; its input can be read until the next event."""
         super().done(result)
         self.deleteLater()
 
     def add_buttons(self) -> None:
-        """Close the form with its buttons."""
+        """Add OK and Cancel below the fields."""
         buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
         )
@@ -62,7 +62,7 @@ def _family_box() -> QComboBox:
 
 
 class NewFileDialog(_Form):
-    """Family, machine type, name and axes of a new file; offers the family that is worked with first."""
+    """Asks for family, machine type, name and axes of a new file; the family in use is selected."""
 
     def __init__(self, parent: QWidget | None = None, family: str = "") -> None:
         super().__init__("New parameter file", parent)
@@ -71,7 +71,7 @@ class NewFileDialog(_Form):
         self.machine = QComboBox()
         self.name = QLineEdit("MACHINE_1")
         self.axes = QLineEdit()
-        self.axes.setPlaceholderText("X, Y, Z, B, S — empty keeps the default axes")
+        self.axes.setPlaceholderText("X, Y, Z, B, S — leave empty for the default axes")
         for label, field in (
             ("&Control", self.family),
             ("&Machine type", self.machine),
@@ -91,24 +91,24 @@ class NewFileDialog(_Form):
         self.machine.setCurrentIndex(self.machine.findData(family.default_machine))
 
     def make(self) -> ParameterFile:
-        """Return the new file; raises ValueError for an axis name that is not offered."""
+        """Return the new file; raises ValueError for an unknown axis name."""
         axes = [a.strip() for a in self.axes.text().split(",") if a.strip()]
         return new_file(
             str(self.family.currentData()), str(self.machine.currentData()), axes, self.name.text().strip()
         )
 
     def accept(self) -> None:
-        """Close only when the file can be made."""
+        """Close the dialog when the file can be made."""
         try:
             self.make()
         except ValueError as error:
-            tell(self, "New parameter file", str(error))
+            show_message(self, "New parameter file", str(error))
             return
         super().accept()
 
 
 class FactsDialog(_Form):
-    """What a file says of itself."""
+    """Edits the header of a file."""
 
     def __init__(self, header: Header, parent: QWidget | None = None) -> None:
         super().__init__("Machine facts", parent)
@@ -131,7 +131,7 @@ class FactsDialog(_Form):
 
 
 class ReportDialog(_Form):
-    """Where to, in which order, and how much."""
+    """Asks for path, order and content of a report."""
 
     def __init__(
         self,
@@ -151,12 +151,12 @@ class ReportDialog(_Form):
             self.sort.addItem(name, key)
         self.sort.setCurrentIndex(2)
         self.changed = QCheckBox("Only values that &differ from the default")
-        self.secrets = QCheckBox("Passwords in &clear")
-        self.secrets.setToolTip("They are masked otherwise")
+        self.secrets = QCheckBox("Show passwords in &clear text")
+        self.secrets.setToolTip("Passwords are masked when this is off")
         self.secrets.setChecked(shows_secrets)
-        self.show_it = QCheckBox("O&pen it when it is written")
+        self.show_it = QCheckBox("O&pen the report when it is written")
         self.path = QLineEdit(str(path.with_suffix(".pdf").absolute()))
-        self.path.setToolTip("The ending says the format: .pdf, .html, .csv or .txt")
+        self.path.setToolTip("The file extension sets the format: .pdf, .html, .csv or .txt")
         browse = QPushButton("&Browse…")
         browse.setAutoDefault(False)
         browse.clicked.connect(self._browse)
@@ -189,7 +189,7 @@ class ReportDialog(_Form):
 
 
 class ProjectDialog(_Form):
-    """Project information, as asked when a project is made and changed later."""
+    """Asks for the project information of a new or existing project."""
 
     def __init__(self, info: ProjectInfo | None, parent: QWidget | None = None) -> None:
         super().__init__("Project information", parent)
@@ -200,7 +200,7 @@ class ProjectDialog(_Form):
         self.name.setValidator(QRegularExpressionValidator(QRegularExpression(r".{1,64}")))
         self.control = QLineEdit(info.control if info else "")
         self.control.setPlaceholderText("tcp://host:port or serial:/dev/ttyUSB0?baud=115200")
-        self.control.setToolTip("On Windows a serial port is written serial:COM3?baud=115200")
+        self.control.setToolTip("On Windows, for example: serial:COM3?baud=115200")
         self.control_name = QLineEdit(info.control_name if info else "CNC_1")
         self.revision = QLineEdit(info.revision if info else "")
         self.notes = QPlainTextEdit(info.notes if info else "")
@@ -235,9 +235,9 @@ class ProjectDialog(_Form):
         )  # fmt: skip
 
     def accept(self) -> None:
-        """Close only with a name."""
+        """Close the dialog when a name is given."""
         if self.name.text().strip():
             super().accept()
         else:
-            tell(self, "Project information", "A project needs a name.")
+            show_message(self, "Project information", "Type a name for the project.")
             self.name.setFocus()

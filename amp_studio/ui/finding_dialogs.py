@@ -1,4 +1,4 @@
-"""Dialogs about one finding: why it is there, and leaving it as it is."""
+"""Dialogs about one finding: its explanation, and its suppression."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .workspace import Workspace
 
 
 class WhyDialog(QDialog):
-    """The rule behind a finding with the values in it; parameters are links, and the window stays beside the table."""
+    """Shows the rule of a finding with its values; parameters are links. Stays open beside the table."""
 
     def __init__(
         self, workspace: Workspace, finding: Finding, go_to: Callable[[Address], object], parent: QWidget
@@ -55,13 +55,13 @@ class WhyDialog(QDialog):
             "",
         )
         for title, text, address in why_parts(file, finding, why):
-            told = html.escape(text)
+            cell = html.escape(text)
             if title in ("Applies where", "Demands", "With the values", "Comes to"):
-                told = f"<code>{told}</code>"
+                cell = f"<code>{cell}</code>"
             if address is not None:
-                told = f'<a href="seen:{len(self._linked)}">{told}</a>'
+                cell = f'<a href="seen:{len(self._linked)}">{cell}</a>'
                 self._linked.append(address)
-            lines.append(f"<tr><td><b>{'' if title == before else title}</b>&nbsp;</td><td>{told}</td></tr>")
+            lines.append(f"<tr><td><b>{'' if title == before else title}</b>&nbsp;</td><td>{cell}</td></tr>")
             before = title
         return "".join(lines) + "</table>"
 
@@ -70,18 +70,18 @@ class WhyDialog(QDialog):
 
 
 class SuppressDialog(QDialog):
-    """Asks who leaves a finding as it is, and why."""
+    """Asks who suppresses a finding, and why."""
 
     def __init__(self, finding: Finding, who: str, parent: QWidget) -> None:
         super().__init__(parent)
         self.setWindowTitle("Suppress a Finding")
         self.setMinimumWidth(520)
         self._finding = finding
-        told = QLabel(f"<b>{html.escape(finding.message)}</b><br>It will not be listed any more, but printed in reports "
-                      "with the reason and the name. It is kept in rules.yaml beside the file.")  # fmt: skip
-        told.setWordWrap(True)
+        effect = QLabel(f"<b>{html.escape(finding.message)}</b><br>The finding is no longer listed, but reports print it "
+                      "with the reason and the name. The suppression is saved in rules.yaml beside the file.")  # fmt: skip
+        effect.setWordWrap(True)
         self.reason, self.name = QLineEdit(), QLineEdit(who)
-        self.everywhere = QCheckBox("Also where the same is said of other parameters")
+        self.everywhere = QCheckBox("Also suppress the same finding of other parameters")
         self.everywhere.setEnabled(bool(finding.addresses))
         buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
@@ -91,7 +91,7 @@ class SuppressDialog(QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         form = QFormLayout(self)
-        form.addRow(told)
+        form.addRow(effect)
         form.addRow("&Reason", self.reason)
         form.addRow("&Name", self.name)
         form.addRow(self.everywhere)
@@ -104,5 +104,5 @@ class SuppressDialog(QDialog):
         self._ok.setEnabled(bool(self.reason.text().strip() and self.name.text().strip()))
 
     def params(self) -> tuple[str, ...]:
-        """Return the parameters it is about; none for every instance."""
+        """Return the parameters of the suppression; empty for all instances."""
         return () if self.everywhere.isChecked() else tuple(map(written, self._finding.addresses))

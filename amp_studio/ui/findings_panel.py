@@ -1,4 +1,4 @@
-"""The findings below the table: what is wrong, where, and a repair one keystroke away."""
+"""The findings below the table: what is wrong, where, and the suggested fix."""
 
 from __future__ import annotations
 
@@ -25,14 +25,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.report.wording import counted
 from amp_studio.schema import show_value
-from amp_studio.validate import Finding
+from amp_studio.validate import SEVERITIES, Finding
 
 from .theme import severity_icon, severity_ink
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
-_COLUMNS = ("Severity", "Parameters", "Finding", "Repair", "Page")
+_COLUMNS = ("Severity", "Parameters", "Finding", "Suggested fix", "Page")
 _WIDTHS = (88, 230, 480, 170, 52)
 
 
@@ -90,7 +91,7 @@ class FindingsTable(QAbstractTableModel):
 
 
 class _View(QTableView):
-    """The list itself: Enter shows, and the rows are as high as their words need at the present width."""
+    """The list: Enter shows the finding, and the row height fits the text."""
 
     entered_on = Signal()
 
@@ -101,7 +102,7 @@ class _View(QTableView):
         self._fit.timeout.connect(self._fit_rows)
 
     def fit(self) -> None:
-        """Give the rows their heights once the present event is done."""
+        """Update the row heights after the present event."""
         self._fit.start(0)
 
     def _fit_rows(self) -> None:
@@ -123,13 +124,13 @@ class FindingsPanel(QWidget):
     """The table of findings with its buttons."""
 
     activated = Signal(object)
-    """A finding whose parameter is wanted: double-clicked, or Enter."""
-    repaired = Signal(object)
-    """A finding whose repair is wanted."""
-    questioned = Signal(object)
-    """A finding whose explanation is wanted."""
-    suppressed = Signal(object)
-    """A finding that is to be left as it is."""
+    """A finding was double-clicked, or Enter was pressed."""
+    fix_requested = Signal(object)
+    """The suggested fix of a finding is to be applied."""
+    explanation_requested = Signal(object)
+    """A finding is to be explained."""
+    suppression_requested = Signal(object)
+    """A finding is to be suppressed."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -151,16 +152,16 @@ class FindingsPanel(QWidget):
         self.view.entered_on.connect(self._activate)
         self.view.selectionModel().currentRowChanged.connect(self._select)
         self.counts = QLabel()
-        self.show_button, self.repair_button = QPushButton("Sh&ow"), QPushButton("&Repair")
-        self.why_button, self.suppress_button = QPushButton("Wh&y"), QPushButton("Su&ppress…")
+        self.show_button, self.fix_button = QPushButton("Sh&ow"), QPushButton("Fi&x")
+        self.why_button, self.suppress_button = QPushButton("Ex&plain"), QPushButton("Supp&ress…")
         self.show_button.setToolTip("Show the first parameter of the selected finding (Enter)")
-        self.repair_button.setToolTip("Apply the repair of the selected finding (F8)")
-        self.why_button.setToolTip("Explain the selected finding: the rule with the values in it (Shift+F1)")
-        self.suppress_button.setToolTip("Leave the selected finding as it is, with a reason and a name")
+        self.fix_button.setToolTip("Apply the suggested fix of the selected finding (F8)")
+        self.why_button.setToolTip("Explain the selected finding: its rule and the values in it (Shift+F1)")
+        self.suppress_button.setToolTip("Accept the selected finding for good, with a reason and a name")
         self.show_button.clicked.connect(self._activate)
-        self.why_button.clicked.connect(lambda: self._ask(self.questioned))
-        self.suppress_button.clicked.connect(lambda: self._ask(self.suppressed))
-        self.repair_button.clicked.connect(self.repair)
+        self.why_button.clicked.connect(lambda: self._ask(self.explanation_requested))
+        self.suppress_button.clicked.connect(lambda: self._ask(self.suppression_requested))
+        self.fix_button.clicked.connect(self.fix)
         buttons = QHBoxLayout()
         buttons.setContentsMargins(6, 0, 6, 4)
         for widget in (
@@ -168,7 +169,7 @@ class FindingsPanel(QWidget):
             None,
             self.show_button,
             self.why_button,
-            self.repair_button,
+            self.fix_button,
             self.suppress_button,
         ):
             buttons.addStretch() if widget is None else buttons.addWidget(widget)
@@ -182,14 +183,12 @@ class FindingsPanel(QWidget):
         self._after_reset()
 
     def _after_reset(self) -> None:
-        """Keep the finding that was selected, or its place in the list."""
-        found = {s: self._workspace.count(s) for s in ("error", "warning", "advice")}
-        told = [f"{n or 'no'} {what}{'' if n == 1 else 's'}" for what, n in list(found.items())[:2]]
-        told.append(f"{found['advice'] or 'no'} advice")
+        """Select the same finding again, or the first one."""
+        counts = [counted(self._workspace.count(s), s, none="no") for s in SEVERITIES]
         left = self._workspace.validator.suppressed
         if left:
-            told.append(f"{len(left)} suppressed")
-        self.counts.setText(", ".join(told))
+            counts.append(f"{len(left)} suppressed")
+        self.counts.setText(", ".join(counts))
         self.counts.setToolTip(
             "\n".join(
                 f"{s.finding.message} Suppressed by {s.suppression.by}: {s.suppression.reason}" for s in left
@@ -215,11 +214,11 @@ class FindingsPanel(QWidget):
             else None
         )
 
-    def repair(self) -> None:
-        """Ask for the repair of the selected finding."""
+    def fix(self) -> None:
+        """Ask to apply the suggested fix of the selected finding."""
         finding = self.current()
         if finding and finding.repairs:
-            self.repaired.emit(finding)
+            self.fix_requested.emit(finding)
 
     def _ask(self, signal: SignalInstance) -> None:
         finding = self.current()
@@ -236,4 +235,4 @@ class FindingsPanel(QWidget):
         self.show_button.setEnabled(bool(finding and finding.addresses))
         self.why_button.setEnabled(finding is not None)
         self.suppress_button.setEnabled(finding is not None and not finding.rule.startswith("rules."))
-        self.repair_button.setEnabled(bool(finding and finding.repairs and self._workspace.may_edit))
+        self.fix_button.setEnabled(bool(finding and finding.repairs and self._workspace.may_edit))

@@ -20,16 +20,16 @@ if TYPE_CHECKING:
     from .main_window import MainWindow
 
 _SHOWN = 8
-"""So many faults of an import are listed in a question."""
+"""Number of errors of an import that a question lists."""
 
 
 class FormatActions:
-    """Makes a parameter file of a text, and a text of the open file."""
+    """Imports a text file as a parameter file, and exports the open file as text."""
 
     def __init__(self, window: MainWindow) -> None:
         self.window = window
-        self._told: list[str] = []
-        """What a person should know of the text that was read last."""
+        self._notes: list[str] = []
+        """Notes about the text that was read last."""
         self.actions = [
             window.action("&Import…", self.read),
             window.action("Ex&port…", self.write, None, "file"),
@@ -54,8 +54,8 @@ class FormatActions:
         if path is not None:
             file.header.name = path.stem
             self.window.files.write_new(path, lambda: Document.create(file, path))
-            if self._told:
-                self.window.say("; ".join(self._told))
+            if self._notes:
+                self.window.show_status("; ".join(self._notes))
 
     def _understood(self, path: Path) -> ParameterFile | None:
         """Return what a text holds; asks for the family, and whether to keep what is not understood."""
@@ -91,15 +91,15 @@ class FormatActions:
         except FormatError:
             raise error from None
         listed = "\n".join(list(file.unknown)[:_SHOWN])
-        question = f"{error}.\n\nKeep what is not understood, to be written back at an export?\n{listed}"
-        wanted = ask(self.window, "Import", question, "&Keep it", "Cancel", default=1)
-        return file if wanted == "&Keep it" else None
+        question = f"{error}.\n\nKeep the lines that are not recognised, so that an export writes them back?\n{listed}"
+        wanted = ask(self.window, "Import", question, "&Keep Them", "Cancel", default=1)
+        return file if wanted == "&Keep Them" else None
 
     def _import(self, path: Path, family: str | None, keep: bool) -> ParameterFile:
         from amp_studio.formats import import_file
 
-        self._told.clear()
-        read = lambda: import_file(path, family, keep_unknown=keep, tell=self._told.append)  # noqa: E731  # one line to hand over
+        self._notes.clear()
+        read = lambda: import_file(path, family, keep_unknown=keep, tell=self._notes.append)  # noqa: E731  # one line to hand over
         return in_background(self.window, "Importing", read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
@@ -109,10 +109,13 @@ class FormatActions:
         if not faults:
             return True
         more = f"\nand {len(faults) - _SHOWN} more" if len(faults) > _SHOWN else ""
-        listed = "\n".join(said for _, said in faults[:_SHOWN])
+        listed = "\n".join(problem for _, problem in faults[:_SHOWN])
         count = "One value is" if len(faults) == 1 else f"{len(faults)} values are"
-        question = f"{count} not allowed:\n{listed}{more}\n\nTake them, marked as forced?"
-        if ask(self.window, "Import", question, "&Take them", "Cancel", default=1) != "&Take them":
+        question = f"{count} not allowed:\n{listed}{more}\n\nImport them and mark them as forced?"
+        if (
+            ask(self.window, "Import", question, "&Import and Mark", "Cancel", default=1)
+            != "&Import and Mark"
+        ):
             return False
         file.forced.update({address: f"on {now()} by an import" for address, _ in faults})
         return True

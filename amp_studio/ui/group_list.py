@@ -16,7 +16,7 @@ _ALL, _CHANGED, _FINDINGS = "*", "changed", "findings"
 
 
 class _Search(QLineEdit):
-    """A search field from which Down and Enter lead on."""
+    """A search field; Down and Enter move to the results."""
 
     left = Signal()
 
@@ -35,7 +35,7 @@ class GroupList(QWidget):
     chosen = Signal(str, list)
     """Title and parameters."""
     left = Signal()
-    """Enter in the search field: what was found is wanted."""
+    """Enter was pressed in the search field."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -43,7 +43,7 @@ class GroupList(QWidget):
         self.search = _Search()
         self.search.setPlaceholderText("Search  (Ctrl+F)")
         self.search.setClearButtonEnabled(True)
-        self.search.setToolTip("Numbers, names and words of the help; every word must be found")
+        self.search.setToolTip("Search numbers, names and help texts; every word must be found")
         self.search.setAccessibleName("Search parameters")
         self.search.textChanged.connect(self.choose)
         self.search.left.connect(self.left)
@@ -60,7 +60,7 @@ class GroupList(QWidget):
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
         self._steps: dict[str, set[str]] = {}
-        """Key of a step of a guide -> the parameters that are set in it."""
+        """Key of a step of a guide -> the parameters to set in it."""
         self._machine, self._texts = workspace.file.machine, _search_texts(workspace)
         self._fill()
         self.tree.currentItemChanged.connect(self._choose_group)
@@ -97,8 +97,8 @@ class GroupList(QWidget):
             self._steps |= {key: set(step.params) for key, step in zip(keys, guide.steps, strict=True)}
             item = self._add(None, guide.title, keys)
             for n, (key, step) in enumerate(zip(keys, guide.steps, strict=True), 1):
-                told = f"{step.title}, page {step.page}" + (f": {step.what}" if step.what else "")
-                self._add(item, f"{n}  {step.title}", [key]).setToolTip(0, told)
+                tip = f"{step.title}, page {step.page}" + (f": {step.what}" if step.what else "")
+                self._add(item, f"{n}  {step.title}", [key]).setToolTip(0, tip)
         header = self.tree.header()
         header.setStretchLastSection(False)
         header.setMinimumSectionSize(8)
@@ -138,7 +138,7 @@ class GroupList(QWidget):
                 item.setToolTip(column, f"{count} {severity}{'' if count == 1 else 's'}" if count else "")
 
     def _follow(self, addresses: list[object]) -> None:
-        """Bring counts up to date, and a list that depends on values, once the present edit is done."""
+        """Update the counts, and a list that depends on values, after the present edit."""
         if self._workspace.file.machine != self._machine:  # another machine type has other numbers
             self._machine, self._texts = self._workspace.file.machine, _search_texts(self._workspace)
         self.update_counts()
@@ -156,7 +156,7 @@ class GroupList(QWidget):
         self.choose()
 
     def choose(self, *_: object) -> None:
-        """Tell again what is chosen."""
+        """Emit the present choice again."""
         words = self.search.text().casefold().split()
         item = self.tree.currentItem()
         if words:
@@ -165,7 +165,7 @@ class GroupList(QWidget):
             self.chosen.emit(item.toolTip(0), self._parameters(item.data(0, _KEYS)))
 
     def found(self, words: list[str]) -> list[Parameter]:
-        """Return the parameters whose numbers, name, id or help hold every word; by number and name first."""
+        """Return the parameters whose numbers, name, id or help contain every word; matches of number and name first."""
         schema = self._workspace.file.schema
         heads, rest = [], []
         for parameter in schema.parameters.values():
@@ -198,7 +198,7 @@ class GroupList(QWidget):
         return next(g for g in self._workspace.file.schema.guides if g.id == guide).steps[int(n) - 1].params
 
     def choose_group_of(self, parameter_id: str) -> None:
-        """Select the group a parameter stands in."""
+        """Select the group of a parameter."""
         wanted = self._workspace.file.schema.group_of[parameter_id].key
         for item in self._items:
             if item.data(0, _KEYS) == [wanted]:
@@ -208,13 +208,13 @@ class GroupList(QWidget):
 
 
 def _search_texts(workspace: Workspace) -> dict[str, tuple[str, str]]:
-    """Return two lower-case texts a parameter, made once: how it is called, and all that is said of it."""
+    """Return two lower-case texts for each parameter: its numbers, id and name, and all of its help."""
     schema, machine = workspace.file.schema, workspace.file.machine
     texts = {}
     for parameter in schema.parameters.values():
         numbers = " ".join(schema.on(machine).numbers(parameter).values())
         choices = " ".join(c.label for c in parameter.choices or ())
-        told = f"{parameter.help.what} {parameter.help.find} {parameter.help.wrong}"
+        help_text = f"{parameter.help.what} {parameter.help.find} {parameter.help.wrong}"
         head = f"{numbers} {parameter.id} {parameter.name}".casefold()
-        texts[parameter.id] = (head, f"{head} {choices} {told}".casefold())
+        texts[parameter.id] = (head, f"{head} {choices} {help_text}".casefold())
     return texts

@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMessageBox, QStyle, QVBoxLayout, QWidget
 
 from amp_studio.files import ChangedOnDisk, describe
+from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Parameter
 from amp_studio.validate import Finding
 
@@ -24,7 +25,7 @@ from .findings_panel import FindingsPanel
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .project_actions import ProjectActions
-from .questions import ask, tell
+from .questions import ask, show_message
 from .settings import Settings
 from .task import Task, in_background
 from .theme import program_icon, standard_icon
@@ -50,9 +51,7 @@ class MainWindow(QMainWindow):
         super().__init__()
         self.setWindowIcon(program_icon())
         room = self.screen().availableSize()
-        self.resize(
-            min(1360, room.width()), min(850, room.height() - 40)
-        )  # the frame needs its place as well
+        self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
         self.workspace: Workspace | None = None
         self.table: ParameterTable | None = None
         self.table_view: ValueTable | None = None
@@ -96,7 +95,7 @@ class MainWindow(QMainWindow):
         icon: QStyle.StandardPixmap | None = None,
         short: str = "",
     ) -> QAction:
-        """Return a menu action that shows every refusal in one sentence instead of failing."""
+        """Return a menu action that shows an error of ``act`` as a message."""
         action = QAction(text, self)
         if shortcut is not None:
             action.setShortcut(QKeySequence(shortcut))
@@ -113,7 +112,7 @@ class MainWindow(QMainWindow):
         return action
 
     def guarded(self, act: Callable[[], object], title: str = "AMP Studio") -> object:
-        """Run an action; what it refuses is told in one sentence, and nothing is changed."""
+        """Run an action and return its result; an error is shown as a message, and the result is None."""
         if self.table_view is not None and not self.table_view.finish():
             return None
         try:
@@ -141,11 +140,11 @@ class MainWindow(QMainWindow):
     def _about(self) -> None:
         from amp_studio import __version__
 
-        tell(self, "About AMP Studio", f"AMP Studio {__version__}\n\nThe numbered parameters of machine controls: "
-             "edited, checked, printed, exchanged, and seen in motion before iron moves.", QMessageBox.Icon.Information)  # fmt: skip
+        show_message(self, "About AMP Studio", f"AMP Studio {__version__}\n\nThe numbered parameters of machine controls: "
+             "edit, check, print, exchange and simulate them.", QMessageBox.Icon.Information)  # fmt: skip
 
     def palette_of_commands(self) -> None:
-        """Open the command palette and run what is chosen in it."""
+        """Open the command palette and run the chosen command."""
         from .palette import CommandPalette
 
         chosen = CommandPalette(self.menuBar(), self).ask()
@@ -164,7 +163,7 @@ class MainWindow(QMainWindow):
         self.enable()
 
     def show_workspace(self, workspace: Workspace) -> None:
-        """Show a file in place of the one before, which is closed."""
+        """Close the present file and show another one."""
         self._clear()
         self.workspace = workspace
         self.table = ParameterTable(workspace)
@@ -190,12 +189,12 @@ class MainWindow(QMainWindow):
         self.groups.chosen.connect(self._show_parameters)
         self.groups.left.connect(self.table_view.setFocus)
         self.table_view.selected.connect(self._show_address)
-        self.table.modelReset.connect(self._tell_title)
+        self.table.modelReset.connect(self._update_title)
         self.detail.linked.connect(self.follow)
         self.findings.activated.connect(self._show_finding)
-        self.findings.repaired.connect(self._repair)
-        self.findings.questioned.connect(self._why)
-        self.findings.suppressed.connect(self._suppress)
+        self.findings.fix_requested.connect(self._fix)
+        self.findings.explanation_requested.connect(self._why)
+        self.findings.suppression_requested.connect(self._suppress)
         workspace.changed.connect(self.enable)
         workspace.undo_stack.indexChanged.connect(
             self.enable
@@ -230,7 +229,7 @@ class MainWindow(QMainWindow):
         self.resizeDocks([dock], [size], Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal)
 
     def show_panel(self, title: str) -> None:
-        """Show a panel that may have been closed, and put the keyboard into it."""
+        """Show a panel that may be closed, and give it the keyboard focus."""
         for dock in self.findChildren(QDockWidget):
             if dock.objectName() == title:
                 dock.show()
@@ -243,15 +242,15 @@ class MainWindow(QMainWindow):
         assert self.table is not None
         self._list_title = title
         if parameters == self.table.asked:
-            self._tell_title()
+            self._update_title()
         else:
             self.table.show_parameters(parameters)
 
-    def _tell_title(self) -> None:
+    def _update_title(self) -> None:
         assert self.table is not None
         count, hidden = len(self.table.rows), self.table.hidden_rows
-        more = f", {hidden} more do not exist for this configuration (Ctrl+H shows them)" if hidden else ""
-        what = "1 parameter" if count == 1 else f"{count or 'no'} parameters"
+        more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
+        what = counted(count, "parameter", none="no")
         self.list_title.setText(f"<b>{self._list_title}</b> — {what}{more}")
 
     def selected(self) -> Address | None:
@@ -267,7 +266,7 @@ class MainWindow(QMainWindow):
         self.value_status.setText("   ".join(t for t in (describe(file, address), place, address[0]) if t))
 
     def go_to(self, address: Address) -> None:
-        """Show and select an address, in its group when the table does not show it now."""
+        """Select an address; shows its group when the table does not contain it."""
         if self.table is None or self.table_view is None or self.groups is None or self.workspace is None:
             return
         if not self.table.index_of(address).isValid():
@@ -281,17 +280,21 @@ class MainWindow(QMainWindow):
             self.table_view.setCurrentIndex(index)
             self.table_view.scrollTo(index)
         else:
-            self.say(f"{describe(self.workspace.file, address)} does not exist on this machine type")
+            self.show_status(
+                f"{describe(self.workspace.file, address)} is not available on this machine type"
+            )
 
     def follow(self, parameter_id: str) -> None:
-        """Go to a parameter that a link names, in the selected axis where it has it."""
+        """Go to a parameter, in the selected axis if it exists there."""
         assert self.workspace is not None
         file, here = self.workspace.file, self.selected()
         instances = file.machine_schema.instances(file.schema.parameters[parameter_id])
         if instances:
             self.go_to((parameter_id, here[1] if here and here[1] in instances else instances[0]))
         else:
-            self.say(f"{file.schema.parameters[parameter_id].name} does not exist on this machine type")
+            self.show_status(
+                f"{file.schema.parameters[parameter_id].name} is not available on this machine type"
+            )
 
     def _show_finding(self, finding: Finding) -> None:
         if finding.addresses and self.table_view is not None:
@@ -299,22 +302,22 @@ class MainWindow(QMainWindow):
             self.table_view.setFocus()
 
     def _why(self, finding: Finding) -> None:
-        self.guarded(lambda: self.edits.why(finding), "Why")
+        self.guarded(lambda: self.edits.why(finding), "Explain")
 
     def _suppress(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.suppress(finding), "Suppress")
 
-    def _repair(self, finding: Finding) -> None:
-        self.guarded(lambda: self.edits.repair(finding), "Repair")
+    def _fix(self, finding: Finding) -> None:
+        self.guarded(lambda: self.edits.fix(finding), "Fix")
 
     # -- state of the window ---------------------------------------------------
 
-    def say(self, text: str) -> None:
-        """Say something that need not be answered."""
+    def show_status(self, text: str) -> None:
+        """Show a short message in the status bar."""
         self.statusBar().showMessage(text, 10_000)
 
     def enable(self, *_: object) -> None:
-        """Bring actions, title and status bar up to date."""
+        """Update actions, title and status bar."""
         workspace = self.workspace
         may_edit = workspace is not None and workspace.may_edit
         has_axes = workspace is not None and workspace.file.schema.family.axes is not None
@@ -334,40 +337,42 @@ class MainWindow(QMainWindow):
         project = self.projects.name_of(workspace.path)
         place = f"{project} — " if project else ""
         self.setWindowTitle(
-            f"{workspace.path.name}[*]{'' if may_edit else ' [read only]'} — {place}AMP Studio"
+            f"{workspace.path.name}[*]{'' if may_edit else ' [read-only]'} — {place}AMP Studio"
         )
         self.setWindowModified(workspace.is_dirty)
         file = workspace.file
-        counts = [counted(workspace.count(s), s) for s in ("error", "warning")]
+        counts = [counted(workspace.count(s), s, none="no") for s in ("error", "warning")]
         saved = "not saved" if workspace.is_dirty else "saved"
         units = "as entered" if workspace.as_entered else file.header.units
-        parts = (file.schema.family.name, file.machine, units, *counts, saved if may_edit else "read only")
+        parts = (file.schema.family.name, file.machine, units, *counts, saved if may_edit else "read-only")
         self.file_status.setText("   ".join(parts))
 
     # -- leaving ---------------------------------------------------------------
 
-    def save_or_tell(self) -> bool:
-        """Save; a file changed on disk or a full disk is told, and the work stays open. Tells whether it was saved."""
+    def save(self) -> bool:
+        """Save and return whether it was saved; an error is shown, and the work stays open."""
         assert self.workspace is not None
         try:
             self.workspace.save(lambda work: in_background(self, "Saving", work))
         except ChangedOnDisk as error:
-            tell(self, "Not saved", f"{error}.\n\nSave your work under a new name, or load the file again.")
+            show_message(
+                self, "Not saved", f"{error}.\n\nSave your work under a new name, or reload the file."
+            )
             return False
         except OSError as error:
-            tell(self, "Not saved", f"{error}.\n\nYour work is still open.")
+            show_message(self, "Not saved", f"{error}.\n\nYour work is still open.")
             return False
         if self.workspace.document.notes:
-            self.say("; ".join(self.workspace.document.notes))
+            self.show_status("; ".join(self.workspace.document.notes))
         return True
 
     def may_leave(self) -> bool:
-        """Ask what becomes of unsaved work; tells whether the file may be closed."""
+        """Ask about unsaved work; returns whether the file may be closed."""
         if self.workspace is None or not self.workspace.is_dirty or not self.workspace.may_edit:
             return True
         question = f"Save the changes to {self.workspace.path.name}?"
         answer = ask(self, "Unsaved changes", question, "&Save", "&Discard", "Cancel")
-        return self.save_or_tell() if answer == "&Save" else answer == "&Discard"
+        return self.save() if answer == "&Save" else answer == "&Discard"
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if (self.table_view is not None and not self.table_view.finish()) or not self.may_leave():
@@ -381,10 +386,5 @@ class MainWindow(QMainWindow):
         event.accept()
 
     def open_first(self, path: Path) -> None:
-        """Open a file given on the command line or on the welcome page."""
+        """Open a file from the command line or the welcome page."""
         self.guarded(lambda: self.files.open_path(path), "Open")
-
-
-def counted(number: int, what: str) -> str:
-    """Return ``1 error``, ``2 errors``, ``no errors``."""
-    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"

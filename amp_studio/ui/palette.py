@@ -22,7 +22,7 @@ _ACTION = Qt.ItemDataRole.UserRole
 
 
 def commands(menu: QMenuBar | QMenu, path: str = "") -> Iterator[tuple[str, QAction]]:
-    """Yield every command of a menu with its path: ``File › Save``; menus that fill themselves are filled first."""
+    """Yield every command of a menu with its path: ``File › Save``; dynamic menus are filled first."""
     for action in menu.actions():
         name = action.text().replace("&&", "\0").replace("&", "").replace("\0", "&").rstrip("…")
         inner = action.menu()
@@ -34,7 +34,7 @@ def commands(menu: QMenuBar | QMenu, path: str = "") -> Iterator[tuple[str, QAct
 
 
 class CommandPalette(QDialog):
-    """Lists the actions that can be done now."""
+    """Lists the actions that are enabled now."""
 
     def __init__(self, menu: QMenuBar, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -61,7 +61,7 @@ class CommandPalette(QDialog):
         self._fill("")
 
     def ask(self) -> QAction | None:
-        """Return the action that is chosen, or None; it is not run yet, so that the palette is gone by then."""
+        """Return the chosen action, or None; the caller runs it when the palette is closed."""
         self.exec()
         self.deleteLater()
         return self.chosen
@@ -88,7 +88,7 @@ class CommandPalette(QDialog):
             self.accept()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Move in the list while the cursor stays in the search field."""
+        """Move in the list while the focus stays in the search field."""
         step = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_PageUp: -10, Qt.Key.Key_PageDown: 10}.get(
             Qt.Key(event.key())
         )

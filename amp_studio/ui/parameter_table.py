@@ -1,7 +1,7 @@
-"""The model of the table in the middle: a row a parameter, a column an axis.
+"""The model of the parameter table: one row for each parameter, one column for each axis.
 
-What has several instances that are no axes (gears, macro calls, processes) has a row for each of them, and so have the
-points of a table that an axis has.
+A parameter with several instances that are not axes (gears, macro calls, processes) has one row for each, and so have the
+points of a table of an axis.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelInd
 from PySide6.QtGui import QBrush, QFont
 
 from amp_studio.files import axis_title, fitted_axes
+from amp_studio.report.wording import state_name
 from amp_studio.schema import (
     Address,
     Parameter,
@@ -31,44 +32,44 @@ from .workspace import Workspace
 Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
 CONTROL = ""
-"""The column of what belongs to no axis; every other column is an axis."""
+"""The column of values that belong to no axis; every other column is an axis."""
 
-_LONG = 14  # characters that surely fit into a cell
+_LONG = 14  # number of characters that fit into a cell
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
-    """One row: a parameter, or one part of it, with its axes; or one instance of what belongs to no axis."""
+class TableRow:
+    """One row: a parameter (or one part of it) with its axes, or one instance that belongs to no axis."""
 
     parameter: Parameter
     cells: dict[str, Address]
     """Column -> address."""
     instance: str = ""
-    """Which instance, or which part of it; empty where the columns tell, and for the only one."""
+    """The instance or part; empty where the columns show it and where there is only one."""
 
 
 class ParameterTable(QAbstractTableModel):
-    """Parameters of one group or search, in the light of the open file. Numbers and names are the row heads."""
+    """The parameters of one group or search with the values of the open file. Numbers and names are the row heads."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self.workspace = workspace
-        self.rows: list[Row] = []
+        self.rows: list[TableRow] = []
         self.columns: list[str] = []
         self.all_axes = False
         self.hidden_too = False
-        """Show also what does not exist for this configuration."""
+        """Whether hidden parameters are shown too."""
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
         family = workspace.file.schema.family
         every = workspace.file.schema.parameters.values()
         self._commands = any((p.effect or family.effect).level == "command" for p in every)
         self._heads: dict[int, str] = {}
-        """Row -> its head, as it was made for the rows that are shown."""
+        """TableRow -> its head, for the rows that are shown."""
         self._machine = ""
-        self._layouts: dict[str, list[Row]] = {}
+        self._layouts: dict[str, list[TableRow]] = {}
         self._worst: dict[Address, str] = {}
         self._effective: dict[Address, Value] = {}
         self._bold, self._italic, self._both = (
@@ -80,7 +81,7 @@ class ParameterTable(QAbstractTableModel):
     # -- what is shown ---------------------------------------------------------
 
     def show_parameters(self, parameters: list[Parameter]) -> None:
-        """Show these rows, with the columns they need."""
+        """Show these parameters, with the columns they need."""
         self.beginResetModel()
         self.asked = parameters
         self.columns = self._columns()
@@ -89,11 +90,11 @@ class ParameterTable(QAbstractTableModel):
         self.endResetModel()
 
     def show_again(self) -> None:
-        """Show the same parameters anew, after an option changed."""
+        """Show the same parameters again after an option has changed."""
         self.show_parameters(self.asked)
 
-    def _layout(self, parameter: Parameter) -> list[Row]:
-        """Return the rows of a parameter, as this machine type has them."""
+    def _layout(self, parameter: Parameter) -> list[TableRow]:
+        """Return the rows of a parameter on this machine type."""
         schema, machine = self.workspace.file.schema, self.workspace.file.machine
         if machine != self._machine:
             self._machine, self._layouts = machine, {}
@@ -105,9 +106,9 @@ class ParameterTable(QAbstractTableModel):
                 parts: dict[str, dict[str, Address]] = {}
                 for i in instances:
                     parts.setdefault(i.partition(".")[2], {})[whole_of(i)] = (parameter.id, i)
-                found = [Row(parameter, cells, part) for part, cells in parts.items()]
+                found = [TableRow(parameter, cells, part) for part, cells in parts.items()]
             else:
-                found = [Row(parameter, {CONTROL: (parameter.id, i)}, i) for i in instances]
+                found = [TableRow(parameter, {CONTROL: (parameter.id, i)}, i) for i in instances]
             self._layouts[parameter.id] = found
         return found
 
@@ -119,8 +120,8 @@ class ParameterTable(QAbstractTableModel):
             needed = {c: None for c in needed if c == CONTROL or c in fitted}
         return sorted(needed, key=lambda column: column != CONTROL)
 
-    def _rows(self, columns: list[str]) -> list[Row]:
-        """Return the rows that have at least one value that exists for this configuration."""
+    def _rows(self, columns: list[str]) -> list[TableRow]:
+        """Return the rows with at least one value that is not hidden."""
         known = [row for p in self.asked for row in self._layout(p)]
         if self.hidden_too:
             shown = known
@@ -134,8 +135,8 @@ class ParameterTable(QAbstractTableModel):
         return self.workspace.file.evaluation.state(address).state != "hidden"
 
     @property
-    def tells_commands(self) -> bool:
-        """Whether a last column tells which command makes the control read a value."""
+    def shows_commands(self) -> bool:
+        """Whether the last column shows the command that makes the control read a value."""
         return bool(self.columns) and self._commands
 
     def command(self, row: int) -> str:
@@ -168,9 +169,9 @@ class ParameterTable(QAbstractTableModel):
     # -- values as they are shown ----------------------------------------------
 
     def cell_text(self, address: Address) -> str:
-        """Return what stands in a cell: the value, or a point where it does not exist for this configuration.
+        """Return the text of a cell: the value, or a dot where it is hidden.
 
-        Where the control uses another value than the file's, that stands behind an arrow.
+        An effective value that differs from the value in the file follows after an arrow.
         """
         if not self.hidden_too and not self._exists(address):
             return "·"
@@ -186,14 +187,14 @@ class ParameterTable(QAbstractTableModel):
         return show_value(parameter, self._in_units(address, value), secrets=self.workspace.secrets)
 
     def typed_value(self, address: Address) -> str:
-        """Return a value as it is offered for editing; a masked one is typed anew."""
+        """Return a value as text for editing; empty for a masked one."""
         if self.workspace.is_masked(address):
             return ""
         parameter = self.workspace.file.schema.parameters[address[0]]
         return write_value(parameter, self._in_units(address, self.workspace.file.get(address)))
 
     def _in_units(self, address: Address, value: Value | None) -> Value | None:
-        """Return a value in the unit in which it is shown; one that is in this unit already is not touched."""
+        """Return a value in the unit in which it is shown; a value in this unit is returned unchanged."""
         if value is None or isinstance(value.value, (str, bool)) or not value.unit:
             return value
         unit = self.workspace.typed_unit(address)
@@ -210,7 +211,7 @@ class ParameterTable(QAbstractTableModel):
         return 0 if parent.isValid() else len(self.rows)
 
     def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
-        return 0 if parent.isValid() else len(self.columns) + self.tells_commands
+        return 0 if parent.isValid() else len(self.columns) + self.shows_commands
 
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
@@ -241,7 +242,7 @@ class ParameterTable(QAbstractTableModel):
         return None
 
     def head(self, row: int) -> str:
-        """Return what stands at the left of a row: its number and its name."""
+        """Return the head of a row: its number and its name."""
         found = self._heads.get(row)
         if found is None:
             number = self.number(row).ljust(5, FIGURE_SPACE)
@@ -249,12 +250,12 @@ class ParameterTable(QAbstractTableModel):
         return found
 
     def row_name(self, row: int) -> str:
-        """Return the name of a row: that of the parameter, and of the instance where it is one of several."""
+        """Return the name of a row: the parameter, and the instance if there are several."""
         shown, file = self.rows[row], self.workspace.file
         first = next(iter(shown.cells.values()))
         place = file.machine_schema.instance_label(first) if shown.instance else ""
         if CONTROL not in shown.cells:
-            place = place.rpartition(", ")[2]  # the column tells which axis
+            place = place.rpartition(", ")[2]  # the column is the axis
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
@@ -310,10 +311,11 @@ class ParameterTable(QAbstractTableModel):
         lines += [f.message for f in self.workspace.findings_of(address) if f.rule != "schema.unset"]
         if state.state != "in-force":
             lines.append(
-                f"{state.state.capitalize()}: {state.why}" + (f" (page {state.page})" if state.page else "")
+                f"{state_name(state.state).capitalize()}: {state.why}"
+                + (f" (page {state.page})" if state.page else "")
             )
         if address in self._effective:
-            lines.append(f"The control uses {self._shown(address, self._effective[address])}")
+            lines.append(f"Effective value in the control: {self._shown(address, self._effective[address])}")
         if address in file.forced:
             lines.append(f"Forced {file.forced[address]}")
         value = file.get(address)
@@ -340,7 +342,7 @@ class ParameterTable(QAbstractTableModel):
         if columns != self.columns or self._rows(columns) != self.rows:
             self.show_again()
         elif self.rows and self.columns:
-            self._heads.clear()  # a number is that of the first value that exists
+            self._heads.clear()  # the number of a row is that of its first value that exists
             last = self.index(len(self.rows) - 1, len(self.columns) - 1)
             self.dataChanged.emit(self.index(0, 0), last)
             self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, last.column())

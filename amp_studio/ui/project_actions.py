@@ -44,7 +44,7 @@ class ProjectActions:
         ])  # fmt: skip
 
     def notice(self, folder: Path) -> None:
-        """Take the project of a folder, if it is one, because one of its files was opened."""
+        """Use the project of a folder, if it is one, because one of its files was opened."""
         if (folder / "project.yaml").exists() and (self.project is None or self.project.folder != folder):
             with contextlib.suppress(
                 ParameterFileError
@@ -58,21 +58,21 @@ class ProjectActions:
 
     def _the_project(self) -> Project:
         if self.project is None:
-            raise ValueError("Open a project first (Project > Open Project).")
+            raise ValueError("Open a project first: Project > Open Project.")
         return self.project
 
     def _show(self, project: Project) -> None:
         self.project = project
         self.window.enable()
         files = len(project.files())
-        self.window.say(
-            f"Project {project.info.name}: {files or 'no'} file{'' if files == 1 else 's'} in {project.folder}"
+        self.window.show_status(
+            f"Project {project.info.name}: {counted(files, 'file', none='no')} in {project.folder}"
         )
 
     # -- the project -----------------------------------------------------------
 
     def new(self) -> None:
-        """Make a project folder."""
+        """Create a project folder."""
         from .file_dialogs import ProjectDialog
 
         dialog = ProjectDialog(None, self.window)
@@ -106,7 +106,7 @@ class ProjectActions:
 
     def _choose(self, title: str, paths: list[Path]) -> Path | None:
         if not paths:
-            raise ValueError("The project has no such files.")
+            raise ValueError("The project has no files of this kind.")
         names, workspace = [p.stem for p in paths], self.window.workspace
         here = names.index(workspace.path.stem) if workspace and workspace.path in paths else 0
         name, accepted = QInputDialog.getItem(self.window, title, "File", names, here, False)
@@ -117,7 +117,7 @@ class ProjectActions:
         return text.strip() if accepted else ""
 
     def _let_go(self, path: Path) -> bool:
-        """Close a file if it is the open one, its unsaved work being asked for; tells whether it may be moved."""
+        """Close a file if it is open, asking about unsaved work; returns whether it may be moved."""
         workspace = self.window.workspace
         if workspace is None or not same_file(workspace.path, path) or not workspace.may_edit:
             return True
@@ -133,7 +133,7 @@ class ProjectActions:
             self.window.files.open_path(path)
 
     def check(self) -> None:
-        """Check every file of the project as it is on disk, and list what is found."""
+        """Check every file of the project as it is on disk, and list the findings."""
         from .project_check import ProjectCheckDialog, check_files
 
         paths = self._the_project().files()
@@ -147,7 +147,7 @@ class ProjectActions:
         ProjectCheckDialog(checking.run(PATIENCE_MS), self._show_at, self.window).show()
 
     def _show_at(self, path: Path, address: Address | None) -> None:
-        """Show a place in a file of the project, opening the file if it is another one."""
+        """Select an address in a file of the project; opens the file if necessary."""
 
         def show() -> None:
             workspace = self.window.workspace
@@ -195,19 +195,15 @@ class ProjectActions:
         """Delete a file of the project; it can be recovered."""
         project = self._the_project()
         path = self._choose("Delete", project.files())
-        question = (
-            f"Delete {path.name}? Its content stays as its backup, so that it can be recovered."
-            if path
-            else ""
-        )
+        question = f"Delete {path.name}? It is kept as a backup and can be recovered." if path else ""
         if path is None or ask(self.window, "Delete", question, "&Delete", "Cancel", default=1) != "&Delete":
             return
         if self._let_go(path):
             project.delete(path)
-            self.window.say(f"{path.name} deleted")
+            self.window.show_status(f"{path.name} deleted")
 
     def recover(self) -> None:
-        """Bring a deleted or older file back."""
+        """Recover a deleted file or an older version."""
         project = self._the_project()
         path = self._choose("Recover", project.backups())
         if path and self._let_go(path):

@@ -1,4 +1,4 @@
-"""All files of a project checked at once: a branch for each, with what is found in it."""
+"""Checks all files of a project and lists the findings of each."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _GOES_TO = Qt.ItemDataRole.UserRole
 
 @dataclass(frozen=True)
 class CheckedFile:
-    """What is found in a file as it is on disk."""
+    """The findings of one file as it is on disk."""
 
     path: Path
     findings: tuple[Finding, ...] = ()
     labels: tuple[str, ...] = ()
-    """The parameter each finding is about."""
+    """The name of the parameter of each finding."""
     fault: str = ""
-    """Why it cannot be read."""
+    """Why the file cannot be read; empty when it was read."""
 
     def count(self, severity: str) -> int:
         """Return how many findings of a severity there are."""
@@ -38,7 +38,7 @@ class CheckedFile:
 
 
 def check_files(paths: list[Path], progress: Progress, cancelled: threading.Event) -> list[CheckedFile]:
-    """Check files with the rules beside them; those that were checked until somebody cancelled."""
+    """Return the findings of files, with the rules beside them; after a cancel only those of the files checked so far."""
     checked = []
     for n, path in enumerate(paths):
         if cancelled.is_set():
@@ -59,7 +59,7 @@ def _checked(path: Path) -> CheckedFile:
 
 
 class ProjectCheckDialog(QDialog):
-    """Lists what was found; a double click or Enter opens the file at the finding. Stays open beside the table."""
+    """Lists the findings; a double click or Enter opens the file at the finding. Stays open beside the table."""
 
     def __init__(
         self, checked: list[CheckedFile], show: Callable[[Path, Address | None], None], parent: QWidget | None
@@ -68,15 +68,14 @@ class ProjectCheckDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle("Check All Files")
         self.resize(900, 500)
-        totals = [f"{n} {s}{'s' if s != 'advice' and n != 1 else ''}"
-                  for s in SEVERITIES for n in [sum(c.count(s) for c in checked)]]  # fmt: skip
+        totals = [counted(sum(c.count(s) for c in checked), s, none="no") for s in SEVERITIES]
         unread = sum(bool(c.fault) for c in checked)
         self.text = QLabel(
-            f"{len(checked)} files as they are on disk: {', '.join(totals)}"
+            f"{counted(len(checked), 'file')} as saved on disk: {', '.join(totals)}"
             + (f"; {unread} cannot be read" if unread else "")
         )
         self.tree = QTreeWidget()
-        self.tree.setHeaderLabels(["File", "Errors", "Warnings", "Advice", "Finding"])
+        self.tree.setHeaderLabels(["File", "Errors", "Warnings", "Recommendations", "Finding"])
         self.tree.setUniformRowHeights(True)
         self.tree.addTopLevelItems([_branch(c) for c in checked])
         for column in range(4):
@@ -89,7 +88,7 @@ class ProjectCheckDialog(QDialog):
 
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     worst = next((s for s in SEVERITIES if checked.count(s)), None)
-    first = checked.fault or (checked.findings[0].message if checked.findings else "nothing found")
+    first = checked.fault or (checked.findings[0].message if checked.findings else "no findings")
     item = QTreeWidgetItem([checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first])  # fmt: skip
     if checked.fault or worst:
         item.setIcon(0, severity_icon("error" if checked.fault else str(worst)))

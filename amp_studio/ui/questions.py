@@ -7,15 +7,15 @@ from PySide6.QtWidgets import QMessageBox, QPushButton, QWidget
 Icon = QMessageBox.Icon
 
 
-def tell(parent: QWidget | None, title: str, text: str, icon: Icon = Icon.Warning) -> None:
-    """Say something and wait until it is read."""
+def show_message(parent: QWidget | None, title: str, text: str, icon: Icon = Icon.Warning) -> None:
+    """Show a message and wait until it is closed."""
     QMessageBox(icon, title, text, QMessageBox.StandardButton.Ok, parent).exec()
 
 
 def ask(
     parent: QWidget | None, title: str, text: str, *answers: str, default: int = 0, icon: Icon = Icon.Question
 ) -> str:
-    """Return the answer that was clicked; Escape is the last one."""
+    """Return the text of the clicked button; Escape is the last one."""
     box = QMessageBox(icon, title, text, parent=parent)
     roles = QMessageBox.ButtonRole
     buttons: list[QPushButton] = []

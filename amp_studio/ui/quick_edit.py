@@ -16,7 +16,7 @@ from .value_delegate import allowed_text
 
 
 class QuickEdit(QDialog):
-    """Stays open from parameter to parameter; Enter goes on, Escape ends."""
+    """Asks for one parameter after the other; Enter continues, Escape closes."""
 
     def __init__(
         self,
@@ -33,7 +33,7 @@ class QuickEdit(QDialog):
         self._address: Address | None = None
         self.number = QLineEdit()
         self.number.setPlaceholderText("1300, or home.calibration@1")
-        self.name = QLabel("Enter takes the number, then the value; Escape ends.")
+        self.name = QLabel("Type a number and press Enter, then a value and press Enter. Escape closes.")
         self.name.setWordWrap(True)
         self.name.setMinimumHeight(3 * self.name.fontMetrics().height())
         self.name.setAlignment(Qt.AlignmentFlag.AlignTop)
@@ -44,7 +44,7 @@ class QuickEdit(QDialog):
         table.workspace.closed.connect(self.close)
 
     def look_up(self) -> None:
-        """Look up the number and offer its value."""
+        """Find the parameter with this number and show its value."""
         try:
             found = meant(self._workspace.file.evaluation, self.number.text())
         except UnknownParameterError as error:
@@ -81,11 +81,11 @@ class QuickEdit(QDialog):
             line.selectAll()
             self.editor = line
         self._form.addRow("&Value", self.editor)
-        self.editor.show()  # the layout would show it later, and what is not to be seen takes no focus
+        self.editor.show()  # the layout would show it later, and a hidden widget gets no focus
         self.editor.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter goes on: from the number to its value, from the value to the next number."""
+        """Enter moves from the number to its value, and from the value to the next number."""
         if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             super().keyPressEvent(event)
         elif self.number.hasFocus():
@@ -94,17 +94,17 @@ class QuickEdit(QDialog):
             self.enter()
 
     def enter(self) -> None:
-        """Take the value and ask for the next number; one that is refused stays to be mended."""
+        """Set the value and ask for the next number; a refused value stays for correction."""
         if self._address is None or self.editor is None:
             return
         if isinstance(self.editor, ChoiceBox):
             text = self.editor.currentData()
-        else:  # what was only looked at, perhaps rounded in another unit, is not written
+        else:  # a value that was only shown, perhaps rounded in another unit, is not written
             text = self.editor.text() if self.editor.isModified() else None
         if text is None or self._commit(self._address, str(text)):
             self._offer(None)
             self.name.setText(
-                f"{self.name.text().splitlines()[0]}: taken. Enter takes the next number, Escape ends."
+                f"{self.name.text().splitlines()[0]}: value set. Type the next number, or press Escape to close."
             )
             self.number.setFocus()
             self.number.selectAll()

@@ -1,4 +1,4 @@
-"""What the program remembers from one start to the next; whatever stands there, the program starts."""
+"""The stored settings of the program; it also starts when they are damaged."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 _LEAST = 320, 200
-"""Width and height in pixels of a window that can be worked with."""
+"""Least useful width and height of the window in pixels."""
 
 
 class Settings:
-    """The settings of one user; an entry that cannot be used counts as none."""
+    """The settings of one user; an unusable entry is ignored."""
 
     def __init__(self) -> None:
         self._stored = QSettings("AMP Studio", "AMP Studio")
@@ -22,7 +22,7 @@ class Settings:
     # -- texts ---------------------------------------------------------------------
 
     def recent(self) -> list[Path]:
-        """Return the files that were open last, whether they are still there or not."""
+        """Return the recent files, also those that no longer exist."""
         kept = self._value("recent")
         return [
             Path(path)
@@ -31,22 +31,22 @@ class Settings:
         ]
 
     def keep_recent(self, paths: Iterable[Path]) -> None:
-        """Remember the files that were open last, the newest first."""
+        """Store the recent files, the newest first."""
         self._stored.setValue("recent", [str(path) for path in paths])
 
     def control(self) -> str:
-        """Return where the control was last reached, or nothing."""
+        """Return the address of the last control, or an empty text."""
         kept = self._value("control")
         return kept if isinstance(kept, str) else ""
 
     def keep_control(self, place: str) -> None:
-        """Remember where the control was reached."""
+        """Store the address of the control."""
         self._stored.setValue("control", place)
 
     # -- windows -------------------------------------------------------------------
 
     def place(self, window: QMainWindow) -> None:
-        """Put the window where it was, as far as that is on a screen of today."""
+        """Restore position and size of the window on a screen that exists now."""
         before = window.geometry()
         kept = self._value("geometry")
         if isinstance(kept, QByteArray) and not window.restoreGeometry(kept):
@@ -55,11 +55,11 @@ class Settings:
             window.setGeometry(on_screen(window.geometry(), _screens()))
 
     def keep_place(self, window: QMainWindow) -> None:
-        """Remember where the window is."""
+        """Store position and size of the window."""
         self._stored.setValue("geometry", window.saveGeometry())
 
     def arrange(self, window: QMainWindow) -> None:
-        """Arrange the panels as they were; one that floats where no screen is comes back into the window."""
+        """Restore the arrangement of the panels; a floating panel outside all screens is docked again."""
         kept = self._value("layout")
         if not isinstance(kept, QByteArray) or not window.restoreState(kept):
             return
@@ -69,18 +69,18 @@ class Settings:
                 panel.setFloating(False)
 
     def keep_arrangement(self, window: QMainWindow) -> None:
-        """Remember how the panels are arranged."""
+        """Store the arrangement of the panels."""
         self._stored.setValue("layout", window.saveState())
 
     def _value(self, key: str) -> object:
         try:
             return self._stored.value(key)
-        except (TypeError, ValueError, RuntimeError):  # a stored kind that Python has no class for
+        except (TypeError, ValueError, RuntimeError):  # a stored type that Python has no class for
             return None
 
 
 def is_there(path: Path) -> bool:
-    """Return whether a path names a file; one that cannot be looked at counts as gone."""
+    """Return whether a path is an existing, accessible file."""
     try:
         return path.is_file()
     except (OSError, ValueError):
@@ -88,7 +88,7 @@ def is_there(path: Path) -> bool:
 
 
 def on_screen(place: QRect, screens: list[QRect]) -> QRect:
-    """Return the nearest place on the screen that shows most of it, no larger than that screen."""
+    """Return the nearest rectangle on the screen that shows most of it, not larger than that screen."""
 
     def shown(screen: QRect) -> int:
         common = screen.intersected(place)

@@ -1,4 +1,4 @@
-"""The curves of a step: position, following error, velocity with torque, one above the other."""
+"""The curves of a step: position, following error, velocity with torque."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from amp_studio.sim import Trace
 from .theme import is_dark
 
 _POINTS = 6000
-"""More than a screen is wide; a longer trace is thinned out."""
+"""Most points to draw, more than a screen is wide; a longer trace is thinned out."""
 _PANELS = (("command_position", "position"), ("following_error",), ("command_velocity", "velocity"))
 
 
 class StepPlot(pg.GraphicsLayoutWidget):
-    """Three plots over one time axis."""
+    """Three plots with a common time axis."""
 
     def __init__(self) -> None:
         dark = is_dark()
@@ -31,7 +31,9 @@ class StepPlot(pg.GraphicsLayoutWidget):
             else ("#1a5fb4", "#c64600", "#208050", "#813d9c")
         )
         self.panels = [self.addPlot(row=n, col=0) for n in range(len(_PANELS))]
-        for panel, legend in zip(self.panels, ((-8, -8), None, (-8, 8)), strict=True):  # where no curve is
+        for panel, legend in zip(
+            self.panels, ((-8, -8), None, (-8, 8)), strict=True
+        ):  # where there is no curve
             panel.showGrid(x=True, y=True, alpha=0.25)
             if legend:
                 panel.addLegend(offset=legend)
@@ -41,7 +43,7 @@ class StepPlot(pg.GraphicsLayoutWidget):
         self.panels[-1].setLabel("bottom", "time", "s")
 
     def draw(self, trace: Trace) -> None:
-        """Draw a trace in place of the one before."""
+        """Draw a trace and remove the previous one."""
         time = trace.columns["time_s"]
         step = max(1, len(time) // _POINTS)
         self.panels[0].setXRange(0.0, float(time[-1]) if len(time) else 1.0, padding=0.02)
@@ -59,7 +61,7 @@ class StepPlot(pg.GraphicsLayoutWidget):
         self._draw_torque(trace, time, step)
 
     def _draw_limits(self, trace: Trace) -> None:
-        """Draw the levels that the following error comes near; levels that would lie on each other share a line."""
+        """Draw the limits near the following error; limits that would overlap share a line."""
         reached = float(np.max(np.abs(trace.columns["following_error"]), initial=0.0))
         near = [
             (v, f"{n.replace('_', ' ')} {v:.5g} {u}")
@@ -87,7 +89,7 @@ class StepPlot(pg.GraphicsLayoutWidget):
         )  # room for the highest line's text
 
     def _draw_torque(self, trace: Trace, time: np.ndarray, step: int) -> None:
-        """Draw the torque over the velocity, scaled to its height; the legend says what full height is."""
+        """Draw the torque over the velocity, scaled to its height; the legend gives the scale."""
         torque, velocity = trace.columns.get("torque_percent"), trace.columns.get("velocity")
         if torque is None or velocity is None or not len(torque):
             return

@@ -43,7 +43,7 @@ _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
 
 class StepView(QWidget):
-    """Simulates with the values as they are edited now, and again after every edit."""
+    """Simulates with the present values, and again after every edit."""
 
     def __init__(
         self,
@@ -66,8 +66,8 @@ class StepView(QWidget):
             self.mode.addItem(name, key)
         self.run_button, self.save_button = QPushButton("&Run"), QPushButton("&Save…")
         self.save_button.setEnabled(False)
-        self.told = QLabel()
-        self.told.setWordWrap(True)
+        self.summary = QLabel()
+        self.summary.setWordWrap(True)
         self.plot, self.figures = StepPlot(), QTextBrowser()
         self.figures.setOpenLinks(False)
         self.figures.anchorClicked.connect(self._follow)
@@ -91,8 +91,8 @@ class StepView(QWidget):
         self.axis.setCurrentIndex(max(self.axis.findData(wanted), 0))
         self.axis.blockSignals(False)
         length, velocity = self._units()
-        self.distance.setPlaceholderText(f"{shown(length)}, as long as needed")
-        self.feedrate.setPlaceholderText(f"{shown(velocity)}, the rapid feedrate")
+        self.distance.setPlaceholderText(f"{shown(length)}, empty for automatic")
+        self.feedrate.setPlaceholderText(f"{shown(velocity)}, empty for rapid")
 
     def _arrange(self) -> None:
         form = QFormLayout()
@@ -120,13 +120,13 @@ class StepView(QWidget):
         middle.setStretchFactor(0, 1)
         middle.setSizes([760, 320])
         outer = QVBoxLayout(self)
-        outer.addWidget(self.told)
+        outer.addWidget(self.summary)
         outer.addWidget(middle, 1)
 
     # -- running ---------------------------------------------------------------
 
     def _units(self) -> tuple[str, str]:
-        """Return the units in which distance and feedrate of the chosen axis are typed."""
+        """Return the units of distance and feedrate for the chosen axis."""
         file, axis = self._workspace.file, self.axis.currentData()
         family = file.schema.family
         system = family.units.get(file.header.units, {})
@@ -142,24 +142,26 @@ class StepView(QWidget):
                 number, rest = read_number(field.text())
                 named = unit_named(rest) if rest else unit
                 if dimension(named) != dimension(unit):
-                    raise ValueError(f"{name} of this axis is given in {shown(unit)}, not in {shown(named)}.")
+                    raise ValueError(
+                        f"Give the {name.lower()} of this axis in {shown(unit)}, not in {shown(named)}."
+                    )
                 settings[key] = canonical(number, named)
         if self.mode.currentData():
             settings["move.mode"] = str(self.mode.currentData())
         return settings
 
     def _after_edit(self, _: list[Address]) -> None:
-        """Follow the file: another axis may be fitted now, and every value may count."""
+        """Update the axes and simulate again."""
         self._fill_axes(str(self.axis.currentData()))
         self.run()
 
     def run(self, *_: object) -> None:
-        """Simulate in a thread of its own; a run asked for meanwhile follows."""
+        """Simulate in a separate thread; a run requested meanwhile follows."""
         if self._task is not None:
             self._again = True
             return
         if self.axis.count() == 0:
-            self.told.setText("No axis is fitted.")
+            self.summary.setText("No axis is fitted. Choose an axis type with Axis > Configure Axis Type.")
             return
         self._fill_axes(str(self.axis.currentData()))
         try:
@@ -172,7 +174,7 @@ class StepView(QWidget):
         def work(_: Progress, __: threading.Event) -> Trace:
             return simulate(file, "step", axis, settings)
 
-        self.told.setText("Simulating …")
+        self.summary.setText("Simulating …")
         self._task = Task(work)
         self._task.done.connect(self._draw)
         self._task.failed.connect(self._fail)
@@ -186,18 +188,18 @@ class StepView(QWidget):
             self.run()
 
     def _fail(self, error: Exception) -> None:
-        self.told.setText(
+        self.summary.setText(
             f'<span style="color:{severity_ink("error").name()}">{html.escape(str(error))}</span>'
         )
 
     def _draw(self, trace: Trace) -> None:
         self.trace = trace
         self.save_button.setEnabled(True)
-        self.told.setText(f"{html.escape(trace.model)}.")
+        self.summary.setText(f"{html.escape(trace.model)}.")
         self.plot.draw(trace)
-        self.figures.setHtml(self._told(trace))
+        self.figures.setHtml(self._summary(trace))
 
-    def _told(self, trace: Trace) -> str:
+    def _summary(self, trace: Trace) -> str:
         rows = "".join(
             f"<tr><td>{name.replace('_', ' ')}&nbsp;&nbsp;</td>"
             f"<td align=right><b>{'–' if v is None else f'{v:.6g}'}</b> {shown(unit)}</td></tr>"
@@ -206,11 +208,13 @@ class StepView(QWidget):
         ink = severity_ink("error").name()
         alarms = "".join(f'<p style="color:{ink}"><b>{a.code}</b> at {a.time_s:.4g} s: {html.escape(a.message)}</p>'
                          for a in trace.alarms)  # fmt: skip
-        advice = "".join(f"<li>{self._link(a.parameter)} = {write_number(a.value)} {shown(a.unit)}: {html.escape(a.why)}</li>"
-                         for a in trace.advice)  # fmt: skip
+        recommended = "".join(f"<li>{self._link(a.parameter)} = {write_number(a.value)} {shown(a.unit)}: {html.escape(a.why)}</li>"
+                         for a in trace.recommendations)  # fmt: skip
         assumed = "".join(f"<li>{html.escape(text)}</li>" for text in trace.assumptions)
-        advice = f"<h4>Advice</h4><ul>{advice}</ul>" if advice else ""
-        return f"{alarms}<table cellpadding=1>{rows}</table>{advice}<h4>Assumptions</h4><ul>{assumed}</ul>"
+        recommended = f"<h4>Recommendations</h4><ul>{recommended}</ul>" if recommended else ""
+        return (
+            f"{alarms}<table cellpadding=1>{rows}</table>{recommended}<h4>Assumptions</h4><ul>{assumed}</ul>"
+        )
 
     def _link(self, parameter: str) -> str:
         found = self._workspace.file.schema.parameters.get(parameter)
@@ -246,7 +250,7 @@ class StepView(QWidget):
             self.told.setText(html.escape("; ".join([f"{path} written", *notes])))
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Let a run that is on its way end by itself, unheard."""
+        """Ignore the result of a run that has not finished."""
         if self._task is not None:
             self._task.done.disconnect(self._draw)
             self._task.failed.disconnect(self._fail)

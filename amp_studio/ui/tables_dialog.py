@@ -1,4 +1,4 @@
-"""The manual's printed tables: alarms with cause and cure, motors, ports, G-codes; each leads to its parameters."""
+"""The manual's printed tables: alarms with cause and remedy, motors, ports, G-codes; each links to its parameters."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .workspace import Workspace
 
 
 class TablesDialog(QDialog):
-    """All tables of the family; those of the selected parameter stand first."""
+    """All tables of the family; those of the selected parameter come first."""
 
     linked = Signal(str)
     """A parameter id that was clicked."""
@@ -37,7 +37,7 @@ class TablesDialog(QDialog):
         own = address[0] if address else ""
         self._tables = sorted(self._schema.tables.values(), key=lambda table: own not in table.params)
         self.search = QLineEdit()
-        self.search.setPlaceholderText("Search in all tables: an alarm, a motor, a number")
+        self.search.setPlaceholderText("Search all tables, for example an alarm, a motor or a number")
         self.search.setClearButtonEnabled(True)
         self.list, self.page = QListWidget(), QTextBrowser()
         self.list.setMaximumWidth(330)
@@ -56,7 +56,7 @@ class TablesDialog(QDialog):
         self._list()
 
     def _list(self, *_: object) -> None:
-        """List the tables that have every word that is looked for somewhere."""
+        """List the tables that contain every search word."""
         words = self.search.text().casefold().split()
         self.list.clear()
         for table in self._tables:
@@ -69,7 +69,7 @@ class TablesDialog(QDialog):
                 self.list.addItem(item)
         self.list.setCurrentRow(0)
         if not self.list.count():
-            self.page.setPlainText("No table has this.")
+            self.page.setPlainText("No table contains these words.")
 
     def _show(self, item: QListWidgetItem | None, *_: object) -> None:
         if item is not None:

@@ -1,4 +1,4 @@
-"""Work that takes longer than a blink, in a thread of its own, with progress and cancel."""
+"""Long work in a separate thread, with progress and cancel."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ Work = Callable[[Progress, threading.Event], Any]
 Result = TypeVar("Result")
 
 PATIENCE_MS = 300
-"""How long a short piece of work may last before the window says what it waits for."""
+"""Milliseconds that work may last before a progress dialog is shown."""
 
 STOPPING = "Stopping at the next safe point …"
 
 
 class Task(QThread):
-    """Runs ``work(progress, cancel)`` and gives its result or its error as a signal.
+    """Runs ``work(progress, cancel)`` and emits its result or its error.
 
-    A task outlives the widget that started it: the program waits for all of them at its end.
+    A task may outlive the widget that started it: the program waits for all tasks at its end.
     """
 
     progressed = Signal(str, int, int)
@@ -48,7 +48,7 @@ class Task(QThread):
 
     @classmethod
     def end_all(cls) -> None:
-        """Cancel what still runs and wait for its end."""
+        """Cancel all running tasks and wait for their end."""
         for task in list(cls.running):
             task.cancelled.set()
             task.wait()
@@ -57,16 +57,16 @@ class Task(QThread):
     def run(self) -> None:
         try:
             result = self._work(self.progressed.emit, self.cancelled)
-        except Exception as error:  # every error of the work belongs to whoever asked for it
+        except Exception as error:  # every error of the work is raised in the caller
             self.failed.emit(error)
         else:
             self.done.emit(result)
 
 
 class ProgressDialog(QDialog):
-    """Shows a task: what it does, the per cent, and a cancel button where the work can be cancelled.
+    """Shows a task: its stage, the percentage, and a cancel button if the work can be cancelled.
 
-    ``stages`` gives the sentence for each stage the work names; another stage is shown by its own name.
+    ``stages`` maps stage names to texts; other stages are shown by their name.
     """
 
     def __init__(
@@ -105,7 +105,7 @@ class ProgressDialog(QDialog):
         self.task.finished.connect(self._ended)
 
     def run(self, patience: int = 0) -> Any:
-        """Run the task to its end; returns its result or raises its error. Shows itself after ``patience`` ms."""
+        """Run the task; returns its result or raises its error. The dialog appears after ``patience`` ms."""
         self.task.begin()
         if patience:
             self._wait_quietly(patience)
@@ -118,7 +118,7 @@ class ProgressDialog(QDialog):
         return self._result
 
     def _wait_quietly(self, patience: int) -> None:
-        """Keep painting for a moment, but keep keys and clicks for afterwards."""
+        """Keep painting for a moment; keys and clicks are handled afterwards."""
         loop = QEventLoop()
         timer = QTimer()
         timer.setSingleShot(True)
@@ -138,7 +138,7 @@ class ProgressDialog(QDialog):
         self.bar.setValue(done)
 
     def _silence(self, seconds: int) -> None:
-        """Nobody has answered for so long; 0 when somebody answers again."""
+        """Show for how long there was no answer; 0 when there is one again."""
         waiting = f"\nNo answer for {seconds} s, trying again …" if seconds else ""
         doing = STOPPING if self.task.cancelled.is_set() else self._stage
         self.text.setText(doing + waiting)
@@ -154,7 +154,7 @@ class ProgressDialog(QDialog):
         self.accept()
 
     def reject(self) -> None:
-        """Escape and the window's close button cancel the task; the dialog closes when it has ended."""
+        """Escape and the close button cancel the task; the dialog closes when the task has ended."""
         if self._cancellable:
             self.task.cancelled.set()
             self.text.setText(STOPPING)
@@ -162,7 +162,7 @@ class ProgressDialog(QDialog):
 
 
 def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:
-    """Return what ``work`` gives, worked out in a thread while the window stays alive; raises what it raises."""
+    """Return the result of ``work``, run in a thread while the window stays responsive; raises its errors."""
 
     def run(_: Progress, __: threading.Event) -> Result:
         return work()

@@ -1,4 +1,4 @@
-"""Colours, icons and number widths, for light and dark desktops alike."""
+"""Colours, icons and number widths for light and dark desktops."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPainter, QPalette, QP
 from PySide6.QtWidgets import QApplication, QStyle
 
 FIGURE_SPACE = "\u2007"
-"""A blank as wide as a digit, so that numbers of different length stand in one column."""
+"""A space as wide as a digit, to align numbers of different length."""
 
 
 def is_dark() -> bool:
-    """Tell whether the desktop uses a dark palette."""
+    """Return whether the desktop uses a dark palette."""
     return QGuiApplication.palette().color(QPalette.ColorRole.Window).lightness() < 128
 
 
@@ -37,12 +37,12 @@ def severity_icon(severity: str) -> QIcon:
 
 
 def state_colour() -> QColor:
-    """Return the text colour of a parameter that is out of force."""
+    """Return the text colour of an inactive parameter."""
     return QColor("#a0a0a0" if is_dark() else "#6e6e6e")
 
 
 def standard_icon(icon: QStyle.StandardPixmap) -> QIcon:
-    """Return one of the style's own icons; a black one is drawn in the text colour on a dark desktop."""
+    """Return a standard icon of the style; a black one is drawn in the text colour on a dark desktop."""
     found = QApplication.style().standardIcon(icon)
     return _in_ink(found) if is_dark() else found
 

@@ -31,7 +31,7 @@ def limits_of(workspace: Workspace, address: Address) -> Limits | None:
 
 
 def allowed_text(workspace: Workspace, address: Address) -> str:
-    """Return what may be typed for an address: ``0 to 214.1 mm``, or the unit alone; empty for a choice."""
+    """Return the allowed values of an address: ``0 to 214.1 mm``, or the unit alone; empty for a choice."""
     if workspace.file.schema.parameters[address[0]].choices:
         return ""
     found = limits_of(workspace, address)
@@ -39,7 +39,7 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
 
 
 class ValueDelegate(QStyledItemDelegate):
-    """Edits a cell by handing the text to ``commit(address, text)``; the model itself is never written."""
+    """Edits a cell and passes the text to ``commit(address, text)``; the model itself is never written."""
 
     def __init__(self, workspace: Workspace, commit: Callable[[Address, str], bool], parent: QObject) -> None:
         super().__init__(parent)
@@ -64,7 +64,7 @@ class ValueDelegate(QStyledItemDelegate):
         field.setPlaceholderText(allowed)
         if allowed:
             field.setToolTip(f"Allowed here: {allowed}")
-            QTimer.singleShot(0, field, lambda: _tell_below(field))
+            QTimer.singleShot(0, field, lambda: _show_tip_below(field))
         return field
 
     def _choose(self) -> None:
@@ -74,7 +74,7 @@ class ValueDelegate(QStyledItemDelegate):
         self.closeEditor.emit(box)
 
     def _leave(self) -> None:
-        """Close the editor with its list; a choice that was made is on its way before that."""
+        """Close the editor with its list; a choice is committed before that."""
         box = self.sender()
         assert isinstance(box, ChoiceBox)
         QTimer.singleShot(0, box, lambda: self.closeEditor.emit(box))
@@ -89,14 +89,14 @@ class ValueDelegate(QStyledItemDelegate):
             editor.selectAll()
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
-        """Give a list the width its longest choice needs, a field that of its text."""
+        """Make a list as wide as its longest choice, and a field as wide as its text."""
         rectangle = option.rect
         wanted = editor.sizeHint().width() if isinstance(editor, ChoiceBox) else 130
         rectangle.setWidth(max(rectangle.width(), wanted))
         editor.setGeometry(rectangle)
 
     def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: Index) -> None:
-        """Commit once: a question that the commit asks takes the focus from the editor, which would commit again."""
+        """Commit once: a question of the commit takes the focus from the editor, which would commit again."""
         address: Address = index.data(AddressRole)
         if self._asking or address is None:
             return
@@ -122,6 +122,6 @@ class ValueDelegate(QStyledItemDelegate):
         return super().eventFilter(editor, event)
 
 
-def _tell_below(field: QLineEdit) -> None:
+def _show_tip_below(field: QLineEdit) -> None:
     if field.isVisible():
         QToolTip.showText(field.mapToGlobal(QPoint(0, field.height() - 12)), field.toolTip(), field)

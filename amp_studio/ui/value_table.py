@@ -1,4 +1,4 @@
-"""The table's view: names that stay while the axes scroll, editing with one key, one cell selected."""
+"""The view of the table: fixed names while the axes scroll, editing with one key, one selected cell."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from .parameter_table import AddressRole, ParameterTable
 from .value_delegate import ValueDelegate
 
 _NAMES = (256, 330)
-"""Least width of the names in a narrow table, and in one that is wider than four times the larger."""
+"""Least width of the names in a narrow table, and in one wider than four times the larger of these."""
 _MEASURED = 12
-"""So many of the longest texts of a column are measured."""
+"""Number of the longest texts of a column that are measured."""
 _MARGIN = 24
-"""Left for the scroll bar and the frame."""
+"""Room for the scroll bar and the frame."""
 _NARROWEST, _WIDEST = 92, 240
 _CHOICES = (200, 160, 118)
-"""Widths that long choices may take, by the room there is."""
+"""Widths that long choices may have, depending on the room."""
 
 
 class ValueTable(QTableView):
-    """Shows a ``ParameterTable``; the cell that was selected stays selected whatever the model does."""
+    """Shows a ``ParameterTable``; the selected cell stays selected when the model changes."""
 
     selected = Signal(object)
     """The address of the current cell."""
@@ -65,7 +65,7 @@ class ValueTable(QTableView):
         heads.sectionResized.connect(self._note_drag)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.addActions(list(actions))
-        self.selectionModel().currentChanged.connect(self._tell)
+        self.selectionModel().currentChanged.connect(self._emit_selected)
         model.modelReset.connect(self._after_reset)
 
     def address(self) -> Address | None:
@@ -73,14 +73,14 @@ class ValueTable(QTableView):
         found: Address | None = self.currentIndex().data(AddressRole)
         return found
 
-    def _tell(self, index: QModelIndex) -> None:
+    def _emit_selected(self, index: QModelIndex) -> None:
         address = index.data(AddressRole)
         if address is not None:
             self.last = address
             self.selected.emit(address)
 
     def finish(self) -> bool:
-        """Take what stands in an open editor; tells whether it was taken, or there was none."""
+        """Commit an open editor; returns False when its value was refused."""
         editor: QWidget | None = self.indexWidget(self.currentIndex())
         if editor is None:
             return True
@@ -97,7 +97,7 @@ class ValueTable(QTableView):
         return False
 
     def _mend(self, address: Address, text: str) -> None:
-        """Open the editor again on a text that was refused."""
+        """Open the editor again with a refused text."""
         index = self._table.index_of(address)
         if index.isValid() and not self._table.rows[index.row()].parameter.choices:
             self.setCurrentIndex(index)
@@ -120,7 +120,7 @@ class ValueTable(QTableView):
         self.setCurrentIndex(index)
 
     def _fit_columns(self) -> None:
-        """Make each column as wide as its values and its head need; where they do not all fit, long choices are cut off."""
+        """Make each column as wide as its values and head; when they do not all fit, long choices are cut off."""
         if self._is_dragged:
             return
         self._is_fitting = True
@@ -130,7 +130,7 @@ class ValueTable(QTableView):
             if sum(widths) <= self.viewport().width():
                 break
             widths = [max(figures, min(most, choices)) for figures, choices in wanted]
-        if self._table.tells_commands:
+        if self._table.shows_commands:
             texts = map(self._table.command, range(len(self._table.rows)))
             widths.append(round(max(_NARROWEST, _widest(QFontMetrics(self.font()), texts) + 16)))
         for column, width in enumerate(widths):
@@ -139,14 +139,14 @@ class ValueTable(QTableView):
         self._is_fitting = False
 
     def _fit_names(self, values: int) -> None:
-        """Give the names what they need, as far as the values leave room: the gear stands at their end."""
+        """Make the names as wide as they need, as far as the values leave room: the gear is at their end."""
         metrics = QFontMetrics(self.verticalHeader().font())
         wanted = round(_widest(metrics, map(self._table.head, range(len(self._table.rows))))) + 16
         least = _NAMES[self.width() > 4 * _NAMES[1]]
         self.verticalHeader().setFixedWidth(max(least, min(wanted, self.width() - values - _MARGIN)))
 
     def _wanted(self, column: int) -> tuple[int, int]:
-        """Return the widths that the figures with the head, and the choices of a column need."""
+        """Return the width of the numbers and head of a column, and that of its choices."""
         table, texts = self._table, QFontMetrics(self.font())
         head = QFontMetrics(self.horizontalHeader().font()).horizontalAdvance(
             table.column_title(table.columns[column])
@@ -162,7 +162,7 @@ class ValueTable(QTableView):
         )  # bold is wider
 
     def _note_drag(self, *_: object) -> None:
-        """Leave the widths alone once a person has set one, until another list is shown."""
+        """Keep the widths when the user has set one, until another list is shown."""
         self._is_dragged = self._is_dragged or not self._is_fitting
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -181,5 +181,5 @@ class ValueTable(QTableView):
 
 
 def _widest(metrics: QFontMetrics, texts: Iterable[str]) -> float:
-    """Return the width of the widest text; only the longest are measured, which is what takes time."""
+    """Return the width of the widest text; only the longest are measured, as measuring is slow."""
     return max(map(metrics.horizontalAdvance, nlargest(_MEASURED, texts, len)), default=0)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class ViewActions:
-    """What is shown, and in which units; nothing here changes a value but the control type."""
+    """What is shown, and in which units; only the control type changes values."""
 
     def __init__(self, window: MainWindow) -> None:
         self.window = window
@@ -33,7 +33,7 @@ class ViewActions:
         self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")
         self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
         self.secrets = self._option("Show Se&crets", self._show_secrets)
-        self.secrets.setToolTip("Show passwords in clear, and write them so in exports")
+        self.secrets.setToolTip("Show passwords in clear text, also in exports")
         self.step_action = act(
             "&Step Response…", self._step, "F9", "file", icons.SP_MediaPlay, "Step Response"
         )
@@ -57,7 +57,7 @@ class ViewActions:
         return action
 
     def follow(self, workspace: Workspace) -> None:
-        """Fill the menus for a newly opened file, and show it as the options say."""
+        """Fill the menus for a newly opened file, and apply the options to it."""
         for group in self._groups:
             group.deleteLater()  # with its actions
         family, file = workspace.file.schema.family, workspace.file
@@ -71,7 +71,7 @@ class ViewActions:
         self._groups[1].setEnabled(workspace.may_edit)
         workspace.changed.connect(self._check)
         self.secrets.setVisible(any(p.secret for p in file.schema.parameters.values()))
-        self.secrets.setChecked(workspace.secrets)  # asked for anew with each file
+        self.secrets.setChecked(workspace.secrets)  # off again for each file
         if self.as_entered.isChecked():
             workspace.show_in(None)
         self._show_columns()
@@ -93,7 +93,7 @@ class ViewActions:
         return group
 
     def _check(self, *_: object) -> None:
-        """Mark what holds now; an undo may have changed it."""
+        """Check the present options; an undo may have changed them."""
         workspace = self.window.workspace
         if workspace is None:
             return

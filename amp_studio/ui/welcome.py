@@ -1,4 +1,4 @@
-"""What the window shows while no file is open."""
+"""The page shown while no file is open."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .theme import program_icon
 
 
 class WelcomePage(QWidget):
-    """The first commands as buttons, and the files that were open last."""
+    """The first commands as buttons, and the recent files."""
 
     def __init__(
         self, actions: Iterable[QAction], recent: list[Path], show: Callable[[Path], object]
@@ -55,7 +55,7 @@ class WelcomePage(QWidget):
         if recent:
             column.addWidget(QLabel("Recent files (Enter opens)"))
             column.addWidget(self.list, 3)
-        column.addWidget(QLabel("Every command is found by its name with Ctrl+Shift+P."))
+        column.addWidget(QLabel("Press Ctrl+Shift+P to find any command by its name."))
         column.addStretch(1)
         inner = QWidget()
         inner.setMaximumWidth(560)

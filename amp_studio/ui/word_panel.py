@@ -1,4 +1,4 @@
-"""A packed word taken apart: a tick for each bit, a list or a number for each field. The word can still be typed."""
+"""The bits and fields of a packed word: a check box for each bit, a list or a number for each field."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ from amp_studio.schema.model import Bit
 from .workspace import Workspace
 
 _SHORT = 12
-"""Labels up to so many letters stand in several columns."""
+"""Labels up to this length are shown in several columns."""
 _ROWS = 9
-"""So many rows of ticks are shown without scrolling."""
+"""Number of check boxes shown without scrolling."""
 _TICK = 40
 _LEAST_LETTERS = 15
 
 
 class WordPanel(QScrollArea):
-    """Shows the bits and fields of one address; hidden for a parameter that has none."""
+    """Shows the bits and fields of one address; hidden for a parameter without them."""
 
     def __init__(
         self, workspace: Workspace, commit: Callable[[Address, str], bool], parent: QWidget | None = None
@@ -80,7 +80,7 @@ class WordPanel(QScrollArea):
         self.show()
 
     def refresh(self) -> None:
-        """Show the present value."""
+        """Update the view from the present value."""
         if self._address is None:
             return
         self._is_filling = True
@@ -119,7 +119,7 @@ class WordPanel(QScrollArea):
         self._is_filling = False
 
     def _add_tick(self, bit: Bit) -> None:
-        named = re.search(rf"(?<![\d.]){bit.bit}(?![\d.])", bit.label)  # "Axis 7" says itself which bit it is
+        named = re.search(rf"(?<![\d.]){bit.bit}(?![\d.])", bit.label)  # "Axis 7" already names the bit
         item = QListWidgetItem(bit.label if named else f"{bit.bit}  {bit.label}")
         item.setData(Qt.ItemDataRole.UserRole, bit.bit)
         item.setToolTip(f"bit {bit.bit}")
@@ -151,7 +151,7 @@ class WordPanel(QScrollArea):
         self.fields[bit.bit] = editor
 
     def _arrange(self) -> None:
-        """Give short labels several columns, and the list the height its rows need."""
+        """Arrange short labels in several columns, and set the height of the list."""
         count, metrics = self.ticks.count(), QFontMetrics(self.ticks.font())
         self.ticks.setVisible(count > 0)
         widest = max((metrics.horizontalAdvance(self.ticks.item(n).text()) for n in range(count)), default=0)

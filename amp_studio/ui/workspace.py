@@ -1,6 +1,6 @@
 """The open file as the desktop program sees it: document, findings, undo, unsaved work.
 
-Every view listens to this object and asks it; none keeps values of its own.
+Every view reads from this object and listens to it; no view stores values.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from amp_studio.schema import Address, Value, read_value
 from amp_studio.validate import Finding, Validator, rules_beside
 
 JOURNAL_MS = 500
-"""Nothing that was entered more than a second before a kill is lost; writing the journal takes its time too."""
+"""Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""
 _KEPT_APART = ("units", "signature", "extra")
-"""Header entries that undo does not touch: how values are shown, and what the program writes itself."""
+"""Header entries that undo does not change: display settings, and what the program writes itself."""
 
 
 @dataclass(frozen=True)
 class _Marks:
-    """What a file holds beside its values: forced marks and the header."""
+    """The forced marks and the header of a file."""
 
     forced: dict[Address, str]
     header: dict[str, object]
@@ -44,7 +44,7 @@ class _Marks:
 
 
 class _Edit(QUndoCommand):
-    """One step of the undo stack: a few values replaced together, with the marks that go with them."""
+    """One step of the undo stack: values changed together, with their forced marks."""
 
     def __init__(
         self, workspace: Workspace, text: str, changes: list[Change], before: _Marks, after: _Marks
@@ -58,18 +58,18 @@ class _Edit(QUndoCommand):
             self._first = False
         else:
             self._apply(self._changes, self._after)
-        self._tell()
+        self._notify()
 
     def undo(self) -> None:
         self._apply([c.reversed() for c in reversed(self._changes)], self._before)
-        self._tell()
+        self._notify()
 
     def _apply(self, changes: list[Change], marks: _Marks) -> None:
         for change in changes:
             self._workspace.file.apply(change)
         marks.put_back(self._workspace.file)
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         marked = self._before.forced.items() ^ self._after.forced.items()
         addresses = [c.address for c in self._changes] + [a for a, _ in marked]
         self._workspace.after_edit(list(dict.fromkeys(addresses)))
@@ -79,23 +79,23 @@ class Workspace(QObject):
     """One open document with its validator and undo stack."""
 
     changed = Signal(list)
-    """Addresses whose values changed (none: anything may have); findings and states are already up to date."""
+    """Addresses whose values changed (empty: any of them); findings and states are already up to date."""
     saved = Signal()
     closed = Signal()
 
     def __init__(self, document: Document, validator: Validator | None = None) -> None:
-        """Take a document; a ``validator`` that is given has run already."""
+        """Open a workspace on a document; a given ``validator`` has already run."""
         super().__init__()
         self.document = document
         self.undo_stack = QUndoStack(self)
         self.validator = validator or Validator(document.file)
         self.findings: tuple[Finding, ...] = validator.findings() if validator else self.validator.run()
         self.as_entered = False
-        """Show every value in its unit of entry instead of the file's unit system."""
+        """Whether each value is shown in its unit of entry instead of the file's unit system."""
         self.secrets = False
-        """Show passwords and the like in clear."""
+        """Whether secrets are shown in clear text."""
         self.control: tuple[dict[Address, Value], str] | None = None
-        """What the control held when it was last read, and when that was."""
+        """The values of the control when it was last read, and the time of that."""
         self.is_saving = False
         self._saved = (_Marks.of(document.file), document.file.header.units)
         self._journal = QTimer(self)
@@ -114,17 +114,17 @@ class Workspace(QObject):
 
     @property
     def may_edit(self) -> bool:
-        """Whether this program holds the file; otherwise it may only look."""
+        """Whether this program has the lock of the file; without it the file is read-only."""
         return self.document.is_locked
 
     # -- editing ---------------------------------------------------------------
 
     def is_masked(self, address: Address) -> bool:
-        """Tell whether the value of an address is a secret that nobody asked to see."""
+        """Return whether the value of an address is a secret that is masked."""
         return self.file.schema.parameters[address[0]].secret and not self.secrets
 
     def show_secrets(self, secrets: bool) -> None:
-        """Show secrets in clear, or mask them again."""
+        """Show secrets in clear text, or mask them again."""
         self.secrets = secrets
         self.changed.emit([])
 
@@ -133,7 +133,7 @@ class Workspace(QObject):
         return self.do(text, lambda: self.file.set_many(wanted, force))
 
     def do(self, text: str, operation: Callable[[], object]) -> bool:
-        """Run an operation on the file as one undoable step; tells whether it changed anything.
+        """Run an operation on the file as one undoable step; returns whether it changed anything.
 
         An operation that raises leaves the file as it was.
         """
@@ -155,9 +155,11 @@ class Workspace(QObject):
         return True
 
     def after_edit(self, addresses: list[Address]) -> None:
-        """Bring findings up to date and tell the views."""
+        """Update the findings and notify the views."""
         self.findings = self.validator.update(addresses)
-        if not self._journal.isActive():  # not put off by the next edit: who types on loses no more than this
+        if (
+            not self._journal.isActive()
+        ):  # not restarted by the next edit, so that continued typing loses no more than this
             self._journal.start(JOURNAL_MS)
         self.changed.emit(addresses)
 
@@ -166,11 +168,11 @@ class Workspace(QObject):
         self.as_entered = units is None
         if units is not None:
             self.file.header.units = units
-        self.findings = self.validator.run()  # messages name figures in these units
+        self.findings = self.validator.run()  # messages give numbers in these units
         self.changed.emit([])
 
     def read_own_rules(self) -> None:
-        """Check with the builder's rules as they lie beside the file now."""
+        """Check again with the present rules file beside the parameter file."""
         self.validator = Validator(self.file, rules_beside(self.path, self.file.schema))
         self.findings = self.validator.run()
         self.changed.emit([])
@@ -179,7 +181,7 @@ class Workspace(QObject):
 
     @property
     def is_dirty(self) -> bool:
-        """Whether there is anything to save."""
+        """Whether there are unsaved changes."""
         return self.document.is_dirty or self._saved != (_Marks.of(self.file), self.file.header.units)
 
     def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
@@ -197,11 +199,11 @@ class Workspace(QObject):
         self.saved.emit()
 
     def disk_state(self) -> str | None:
-        """Return None while the file on disk is the one that was opened, ``removed``, or the digest it has now."""
+        """Return None while the file on disk is unchanged, else ``removed`` or its present digest."""
         try:
             digest = digest_of(self.path)
         except OSError:
-            return None  # a network drive that is away for a moment
+            return None  # a network drive may be unavailable for a moment
         return None if digest == self.document.digest else digest or "removed"
 
     def _keep_unsaved(self) -> None:
@@ -212,7 +214,7 @@ class Workspace(QObject):
                 self._journal.start(10_000)  # a full disk may have room again later
 
     def close(self) -> None:
-        """Give up the file."""
+        """Close the file."""
         self._journal.stop()
         self.document.close()
         self.closed.emit()
@@ -220,11 +222,11 @@ class Workspace(QObject):
     # -- asking ----------------------------------------------------------------
 
     def findings_of(self, address: Address) -> tuple[Finding, ...]:
-        """Return the findings that are about one address."""
+        """Return the findings about one address."""
         return tuple(f for f in self.findings if address in f.addresses)
 
     def effective(self) -> dict[Address, Value]:
-        """Return the values that the control really uses, where they are others than the file's."""
+        """Return the effective values where they differ from the values of the file."""
         return {s.address: s.value for f in reversed(self.findings) for s in f.effective}
 
     def count(self, severity: str) -> int:
@@ -232,7 +234,7 @@ class Workspace(QObject):
         return sum(f.severity == severity for f in self.findings)
 
     def typed_unit(self, address: Address) -> str:
-        """Return the unit that a bare number has when it is typed: the one in which the value is shown."""
+        """Return the unit of a number typed without one: the unit in which the value is shown."""
         value = self.file.get(address)
         if self.as_entered and value is not None and value.unit:
             return value.unit
@@ -245,10 +247,10 @@ class Workspace(QObject):
         return read_value(self.file.schema.parameters[address[0]], text, self.typed_unit(address))
 
     def remember_control(self, values: dict[Address, Value], when: str) -> None:
-        """Keep what the control was found to hold, to be shown beside the file's values."""
+        """Store the values of the control, to be shown beside the values of the file."""
         self.control = (dict(values), when)
         self.changed.emit([])
 
     def differences_to(self, values: Mapping[Address, Value]) -> Comparison:
-        """Return the comparison of the file as edited with other values."""
+        """Return the comparison of the edited file with other values."""
         return compare(self.file.schema, self.file.values, values)

@@ -167,10 +167,10 @@ def test_no_line_of_any_page_is_wider_than_a_terminal(amp) -> None:
 
 def test_a_choice_a_rule_and_a_contradiction_are_shown(amp) -> None:
     said = amp("show", "9pc", "1020", "--machine", "mill")
-    for part in ("(a) True, stored as 1", "Software Overtravel Used", "The manual contradicts itself"):
+    for part in ("(a) True, stored as 1", "Software Overtravel Used", "Contradiction in the manual"):
         assert part in said.out
     assert "Velocity Loop Feedback Port\n---" not in said.out, "1020 belongs to the other one"
-    assert "Rules it takes part in" in amp("show", "9pc", "1730").out
+    assert "Rules that use it" in amp("show", "9pc", "1730").out
 
 
 def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:

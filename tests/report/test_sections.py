@@ -10,19 +10,19 @@ import pytest
 
 from amp_studio.files import ParameterFile, content_of, digest_of, fitted_axes, new_file, save_file
 from amp_studio.report import SORTS, build_report
-from amp_studio.report.model import Grid, Listing, Row, Sort
+from amp_studio.report.model import Grid, Listing, ReportRow, Sort
 from amp_studio.report.sections import number_key
 from amp_studio.schema import Value
 
 
-def row_with(number: str) -> Row:
-    return Row(
+def row_with(number: str) -> ReportRow:
+    return ReportRow(
         id="a.b", instance="", number=number, name="", group="", place="", is_set=False, value="", unit="", shown_unit="",
         detail="", default="", plain_default="", is_changed=False, state="in-force", why="", state_mark="", forced="",
     )  # fmt: skip
 
 
-def rows_by_anchor(file: ParameterFile) -> dict[str, Row]:
+def rows_by_anchor(file: ParameterFile) -> dict[str, ReportRow]:
     return {r.anchor: r for r in build_report(file, sort="number").rows()}
 
 

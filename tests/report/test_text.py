@@ -12,18 +12,18 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, build_report, write_report
-from amp_studio.report.model import Listing, Note, Report, Row, Section, Sort
+from amp_studio.report.model import Listing, Note, Report, ReportRow, Section, Sort
 from amp_studio.report.pdf import typst_literal, typst_source
 from amp_studio.report.text import render_text
 
 
-def row(number: str, name: str, value: str, **more: object) -> Row:
+def row(number: str, name: str, value: str, **more: object) -> ReportRow:
     known: dict[str, object] = {
         "id": name, "instance": "", "number": number, "name": name, "group": "Home", "place": "", "is_set": True, "value": value,
         "unit": "mm", "shown_unit": "mm", "detail": "", "default": "0", "plain_default": "0", "is_changed": False,
         "state": "in-force", "why": "", "state_mark": "", "forced": "",
     }  # fmt: skip
-    return Row(**(known | more))  # type: ignore[arg-type]
+    return ReportRow(**(known | more))  # type: ignore[arg-type]
 
 
 SMALL = Report(

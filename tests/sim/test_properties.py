@@ -72,7 +72,7 @@ def test_motion_is_finite_bounded_and_its_alarms_are_true(servo: AxisServo, move
     error = np.abs(trace.columns["following_error"][:: servo.substeps])
     assert (error[:-1] <= servo.excess_error).all()
     assert bool(trace.alarms) == bool(error[-1] > servo.excess_error)
-    assert all(math.isfinite(advice.value) and advice.why for advice in trace.advice)
+    assert all(math.isfinite(advice.value) and advice.why for advice in trace.recommendations)
     assert trace_summary(trace)["trace"]["rows"] == len(torque)
 
 

@@ -200,7 +200,7 @@ def test_errors_are_asked_about_before_a_download(
     window = open_window(path)
     person.answers("Cancel")
     action(window, "Download to Control").trigger()
-    assert "Download it all the same?" in person.asked[0]
+    assert "Download it anyway?" in person.asked[0]
 
 
 def test_only_what_is_saved_is_downloaded(window: MainWindow, person: Person, path: Path) -> None:

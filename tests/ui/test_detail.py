@@ -31,7 +31,7 @@ def test_facts_rules_and_history(window: MainWindow) -> None:
     assert "No saved change of servo.excess_error@1 yet" in page(window, "History")
 
     window.edits.commit(EXCESS, "3 mm")
-    assert window.save_or_tell()
+    assert window.save()
     assert "11 mm → 3 mm" in page(window, "History")
     assert "studio" in page(window, "History")
 

@@ -159,7 +159,7 @@ def test_out_of_range_asks_and_nothing_is_the_answer(
 def test_forcing_takes_the_value_and_marks_it(
     window: MainWindow, file: ParameterFile, workspace: Workspace, person
 ) -> None:
-    person.answers("Force and mark it")
+    person.answers("Force and Mark")
 
     assert window.edits.commit(CALIBRATION, "99999999")
 
@@ -189,7 +189,7 @@ def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, 
     window.edits.to_default()
     assert file.get(EXCESS) == file.default(EXCESS)
 
-    window.edits.unset()
+    window.edits.clear()
     assert file.get(EXCESS) is None
 
     no_default = next(
@@ -244,7 +244,7 @@ def test_one_key_repairs_the_selected_finding_and_undo_takes_it_back(
     window.findings.view.selectRow(row)
     before = dict(workspace.file.values)
 
-    window.edits._repair()
+    window.edits._fix()
 
     assert all(workspace.file.get(r.address) == r.value for r in finding.repairs)
     assert finding not in workspace.findings

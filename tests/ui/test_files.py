@@ -42,7 +42,7 @@ def test_save_writes_the_file_and_keeps_the_one_before(
 
 def test_undo_after_a_save_is_unsaved_again(window: MainWindow) -> None:
     edit(window)
-    assert window.save_or_tell()
+    assert window.save()
     window.edits.undo.trigger()
     assert window.isWindowModified()
     window.edits.redo.trigger()
@@ -57,9 +57,9 @@ def test_a_file_changed_on_disk_is_not_overwritten(
     path.write_bytes(path.read_bytes() + b"# touched\n")
     touched = path.read_bytes()
 
-    assert not window.save_or_tell()
+    assert not window.save()
 
-    assert "has been changed by another program" in person.reads()
+    assert "was changed by another program" in person.reads()
     assert path.read_bytes() == touched
     assert window.workspace.file.get(EXCESS) == EDITED
 
@@ -69,7 +69,7 @@ def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
     window: MainWindow, path: Path, person: Person, qtbot, replace: bool
 ) -> None:
     window.go_to(("home.calibration", "2"))
-    person.answers("Load again")
+    person.answers("Reload")
     changed = open_file(path).file
     changed.set(EXCESS, EDITED)
     if replace:
@@ -92,7 +92,7 @@ def test_a_file_that_was_broken_on_disk_leaves_the_work_open(
     window: MainWindow, path: Path, person: Person, qtbot
 ) -> None:
     edit(window)
-    person.answers("Load again")
+    person.answers("Reload")
     path.write_bytes(b"amp_studio: 1\n")
 
     qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
@@ -107,7 +107,7 @@ def test_a_removed_file_is_told_and_can_be_saved_elsewhere(
 ) -> None:
     path.unlink()
     qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
-    assert "has been removed" in person.reads()
+    assert "was removed" in person.reads()
     person.chooses(path.with_name("again"))
     window.files.save_as()
     assert on_disk(path.with_name("again.amp")).get(EXCESS) == Value(11.0, "mm")
@@ -115,7 +115,7 @@ def test_a_removed_file_is_told_and_can_be_saved_elsewhere(
 
 def test_our_own_save_is_no_change_by_another_program(window: MainWindow, person: Person, qtbot) -> None:
     edit(window)
-    assert window.save_or_tell()
+    assert window.save()
     qtbot.wait(600)
     assert person.asked == []
 
@@ -129,7 +129,7 @@ def test_a_full_disk_leaves_the_work_open(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", fail)
-    assert not window.save_or_tell()
+    assert not window.save()
     monkeypatch.undo()
 
     assert "No space left on device" in person.told.pop()
@@ -228,11 +228,11 @@ def test_recover_backup_asks_and_says_what_is_lost(
     assert "has no backup yet" in person.reads()
 
     edit(window)
-    assert window.save_or_tell()
+    assert window.save()
     window.edits.commit(EXCESS, "4 mm")
     person.answers("Cancel", "Replace")
     window.files.recover()
-    assert "Your unsaved changes are lost" in person.asked[-1]
+    assert "Your unsaved changes will be lost" in person.asked[-1]
     assert window.workspace.file.get(EXCESS) == Value(4.0, "mm")
     window.files.recover()
 

@@ -57,19 +57,19 @@ def test_enter_shows_the_parameter_of_a_finding(wrong: MainWindow) -> None:
     assert wrong.table_view.hasFocus()
 
 
-def test_the_repair_button_repairs_and_only_where_there_is_a_repair(path, bare: bytes, open_window) -> None:
+def test_the_fix_button_repairs_and_only_where_there_is_a_repair(path, bare: bytes, open_window) -> None:
     path.write_bytes(bare)
     wrong = open_window(path)
     findings = wrong.workspace.findings
     able = next(n for n, f in enumerate(findings) if f.repairs)
     unable = next(n for n, f in enumerate(findings) if not f.repairs)
     wrong.findings.view.selectRow(unable)
-    assert not wrong.findings.repair_button.isEnabled()
+    assert not wrong.findings.fix_button.isEnabled()
 
     wrong.findings.view.selectRow(able)
-    assert wrong.findings.repair_button.isEnabled()
+    assert wrong.findings.fix_button.isEnabled()
     repair = findings[able].repairs[0]
-    wrong.findings.repair_button.click()
+    wrong.findings.fix_button.click()
     assert wrong.workspace.file.get(repair.address) == repair.value
 
 
@@ -78,8 +78,8 @@ def test_a_finding_without_a_repair_says_so(path, bare: bytes, open_window, pers
     wrong = open_window(path)
     unable = next(n for n, f in enumerate(wrong.workspace.findings) if not f.repairs)
     wrong.findings.view.selectRow(unable)
-    wrong.guarded(wrong.edits._repair)
-    assert "has no repair" in person.reads()
+    wrong.guarded(wrong.edits._fix)
+    assert "has no suggested fix" in person.reads()
 
 
 def test_rows_are_as_high_as_their_words_need(wrong: MainWindow, qtbot) -> None:
@@ -156,7 +156,7 @@ def test_safe_repairs_are_one_step_that_can_be_undone(window: MainWindow) -> Non
     window.workspace.edit("wrong", {patched: Value(2)}, force="on a day")
     steps = window.workspace.undo_stack.count()
 
-    window.edits.repair_safe()
+    window.edits.fix_safe()
 
     assert window.workspace.undo_stack.count() == steps + 1
     assert not [f for f in window.workspace.findings if f.rule == rule.id]

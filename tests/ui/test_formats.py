@@ -51,7 +51,7 @@ def test_what_is_not_understood_is_kept_only_where_that_is_wanted(
     assert "line 4, column 1" in person.asked[-1]
 
     person.chooses(sheet, tmp_path / "odd.amp")
-    person.answers("Keep it")
+    person.answers("Keep Them")
     action(window, "Import").trigger()
     assert open_file(tmp_path / "odd.amp").file.unknown == {"99999": "5"}
 
@@ -69,7 +69,7 @@ def test_values_that_are_not_allowed_are_taken_only_where_that_is_wanted(
 
     person.chooses(table, tmp_path / "far.amp")
     person.types(NINEPC)
-    person.answers("Take them")
+    person.answers("Import and Mark")
     action(window, "Import").trigger()
     file = open_file(tmp_path / "far.amp").file
     assert file.get(CALIBRATION) == Value(9999999.0, "mm")

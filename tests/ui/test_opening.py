@@ -90,12 +90,12 @@ def test_unsaved_changes_are_asked_about_before_another_file(
 
 def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, person: Person, other_program) -> None:
     other_program()
-    person.answers("Look at it")
+    person.answers("Open Read-Only")
 
     window = open_window(path)
 
     assert "is open in another program" in person.asked[0]
-    assert "[read only]" in window.windowTitle()
+    assert "[read-only]" in window.windowTitle()
     assert not action(window, "Save").isEnabled()
     assert not action(window, "Delete Axis").isEnabled()
     assert not action(window, "Unset").isEnabled()
@@ -121,7 +121,7 @@ def test_the_work_of_a_killed_program_is_offered_and_can_be_undone(
     killed = other_program("edit")
     killed.send_signal(signal.SIGKILL)
     killed.wait()
-    person.answers("Take it back")
+    person.answers("Recover")
 
     window = open_window(path)
 
@@ -139,7 +139,7 @@ def test_the_work_of_a_killed_program_can_be_thrown_away_or_left(
     killed = other_program("edit")
     killed.kill()
     killed.wait()
-    person.answers("Decide later", "Throw it away")
+    person.answers("Decide Later", "Discard")
 
     window = open_window(path)
     assert window.workspace is None
@@ -157,7 +157,7 @@ def test_unsaved_work_is_kept_beside_the_file_while_one_types(window: MainWindow
     window.edits.commit(EXCESS, "4 mm")
     assert window.workspace._journal.remainingTime() <= deadline
     qtbot.waitUntil(journal.exists, timeout=WAIT_MS)
-    assert window.save_or_tell()
+    assert window.save()
     assert not journal.exists()
 
 
@@ -171,7 +171,7 @@ def test_notes_and_name_of_a_killed_program_are_offered_too(open_window, path: P
     document.file.header.notes, document.file.header.name = "new belt", "the other mill"
     document.keep_unsaved()
     document._lock.release()  # as the system does when the program is killed
-    person.answers("Take it back")
+    person.answers("Recover")
 
     window = open_window(path)
 
@@ -179,5 +179,5 @@ def test_notes_and_name_of_a_killed_program_are_offered_too(open_window, path: P
     header = window.workspace.file.header
     assert (header.notes, header.name) == ("new belt", "the other mill")
     assert window.workspace.is_dirty
-    assert window.save_or_tell()
+    assert window.save()
     assert (on_disk(path).header.notes, on_disk(path).header.name) == ("new belt", "the other mill")

@@ -63,7 +63,10 @@ def test_what_it_does_not_have_is_off_or_told(wide: MainWindow) -> None:
     wide.view.switch.trigger()
     assert wide.workspace.file.header.units == "metric"
     wide.view.step_action.trigger()
-    assert wide.findChild(StepView).told.text() == "No axis is fitted."
+    assert (
+        wide.findChild(StepView).summary.text()
+        == "No axis is fitted. Choose an axis type with Axis > Configure Axis Type."
+    )
 
 
 def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:

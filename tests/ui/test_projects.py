@@ -164,7 +164,7 @@ def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, 
 def test_a_project_needs_a_name(open_window, person: Person) -> None:
     dialog = file_dialogs.ProjectDialog(None, open_window())
     dialog.accept()
-    assert "needs a name" in person.reads()
+    assert "Type a name for the project" in person.reads()
     assert not dialog.result()
 
 

@@ -44,7 +44,7 @@ def test_an_unknown_ending_is_told_and_nothing_is_written(
 ) -> None:
     accept(ReportDialog, lambda d: d.path.setText(str(tmp_path / "report.doc")))
     action(window, "Report").trigger()
-    assert "as its ending says" in person.reads()
+    assert "unknown report format" in person.reads()
     assert not (tmp_path / "report.doc").exists()
 
 

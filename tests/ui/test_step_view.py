@@ -88,7 +88,7 @@ def test_distance_and_feedrate_take_units_and_a_decimal_comma(
 def test_a_wrong_unit_is_told_in_place(view: StepView, qtbot: QtBot) -> None:
     view.distance.setText("90 deg")
     view.run()
-    assert "Distance of this axis is given in mm, not in °" in view.told.text()
+    assert "Give the distance of this axis in mm, not in °" in view.summary.text()
     view.axis.setCurrentIndex(view.axis.findData("4"))  # rotary
     settled(view, qtbot)
     assert view.trace.axis == "4"
@@ -106,7 +106,7 @@ def test_an_axis_that_is_deleted_is_no_longer_offered(
 def test_what_cannot_be_simulated_is_told_in_place(view: StepView, window: MainWindow, qtbot: QtBot) -> None:
     window.workspace.edit("gain", {("servo.initial_gain", "2"): None})
     settled(view, qtbot)
-    assert "Gain" in view.told.text() or "gain" in view.told.text()
+    assert "Gain" in view.summary.text() or "gain" in view.summary.text()
 
 
 @pytest.mark.parametrize("ending", ["svg", "csv", "png"])

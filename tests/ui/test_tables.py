@@ -45,4 +45,4 @@ def test_a_word_of_a_cell_finds_its_table_and_a_link_leads_to_the_parameter(wind
 def test_what_no_table_has_is_said(window: MainWindow) -> None:
     dialog = tables(window)
     dialog.search.setText("no such thing")
-    assert (listed(dialog), dialog.page.toPlainText()) == ([], "No table has this.")
+    assert (listed(dialog), dialog.page.toPlainText()) == ([], "No table contains these words.")

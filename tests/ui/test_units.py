@@ -45,7 +45,7 @@ def test_the_unit_system_belongs_to_the_file_and_is_saved_with_it(
 ) -> None:
     window.view.switch.trigger()
     assert workspace.is_dirty
-    assert window.save_or_tell()
+    assert window.save()
     assert b"units: inch" in path.read_bytes()
     assert not workspace.is_dirty
 

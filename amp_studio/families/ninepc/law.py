@@ -1,13 +1,13 @@
-"""The servo axis of an Allen-Bradley 9/PC: which parameters it takes its figures from, and what they mean.
+"""The servo axis of an Allen-Bradley 9/PC: the parameters it uses, and their meaning.
 
-The only place of the simulator that knows ids of the 9/PC. Pages are those of the 9/PC AMP manual.
+The only module of the simulator with ids of the 9/PC. Pages are those of the 9/PC AMP manual.
 
 The unit of the velocity loop gains is an inference; the manual prints none. It bounds Velocity Proportional
 Gain by 3277 to 10923 times the position gain (7-54) and Velocity Integral Gain by 1092 times it (7-56), and
-says that the constants convert to inverse milliseconds, in which the position gain is 60 / gain (7-25). 65536
+states that the constants convert to inverse milliseconds, in which the position gain is 60 / gain (7-25). 65536
 / 3277 = 20, 65536 / 10923 = 6 and 65536 / 1092 = 60: read as value / 65536 per ms, the bounds say that the
 velocity loop shall be 3 to 10 times as fast as the position loop, and its integral slower than the position
-loop, at every gain. That is how a cascade is laid out in textbooks, and 65536 is the full scale of the 16-bit
+loop, at every gain. This is the textbook design of a cascade, and 65536 is the full scale of the 16-bit
 value. The integral is taken in series with the proportional gain, a* = kp (e + ki sum(e)): then the 5 to 10
 times between both gains at the end of the tuning procedure (appendix A, from A-8 on) are a damping of 1.1 to
 1.6; added in parallel, per ms, they would be one of 0.25 to 0.65.
@@ -32,7 +32,7 @@ RATE = 1000.0 / PER_MS
 DEFAULT_ACCELERATION = 1989.66667
 """mm/s2: the printed default of Maximum Servo Acceleration (1021, Patch AMP values from 37-3 on)."""
 ANALOG_RATIO = 10923.0 * 60.0 / PER_MS
-"""Velocity loop rate over position loop rate at the quick end of the printed bounds: 10."""
+"""Ratio of velocity loop rate to position loop rate at the upper end of the printed bounds: 10."""
 
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
 FEEDBACK, COUNTS, PITCH = "servo.position_feedback_type", "servo.position_counts", "servo.lead_screw_pitch"
@@ -54,7 +54,7 @@ MODEL_SETTINGS = {
     COULOMB: "dry friction (% of rated torque)",
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
 }
-"""Figures that are no parameters of the control and can be given by hand."""
+"""Settings of the model that are not parameters of the control."""
 
 _LARGEST = {"mm": 214.1, "deg": 214.0}
 """Upper bound of the limits of following error (7-20 to 7-24)."""
@@ -99,12 +99,12 @@ _NO_LOOP = {
 }
 
 
-def axis_servo(read: Readings, motor_gains: MotorGains | None = None) -> AxisServo:
+def axis_servo(read: AxisParameters, motor_gains: MotorGains | None = None) -> AxisServo:
     """Return the servo of one axis from its parameters.
 
     ``motor_gains`` looks up the standard motor tables (Tables 7.B and 7.C); without it the gains of the file
-    are used and an assumption says so. Raises SimulationError for an axis whose loop the control does not
-    close, and for a parameter that is needed and not set.
+    are used, with an assumption. Raises SimulationError for an axis whose loop the control does not
+    close, and for a required parameter that is not set.
     """
     unit, loop, zfe = _kind(read)
     notes: list[str] = []
@@ -146,40 +146,40 @@ def axis_servo(read: Readings, motor_gains: MotorGains | None = None) -> AxisSer
     )
 
 
-def _kind(read: Readings) -> tuple[str, str, bool]:
-    """Return (unit, loop type, zero following error), or refuse an axis that cannot be simulated."""
+def _kind(read: AxisParameters) -> tuple[str, str, bool]:
+    """Return (unit, loop type, zero following error); raises SimulationError for an unsupported axis."""
     axis, kind = read.axis, read.choice("axis.type")
     if kind == "unfitted":
-        raise SimulationError(f"axis {axis} is unfitted", "axis.type")
+        raise SimulationError(f"Axis {axis} is unfitted. Choose another axis", "axis.type")
     if kind == "spindle":
         raise SimulationError(
-            f"axis {axis} is a spindle; its gains belong to the spindle gears and are not simulated",
+            f"Axis {axis} is a spindle. Spindles are not simulated",
             "axis.type",
         )
     loop = read.choice(LOOP)
     if loop == "sercos":
         raise SimulationError(
-            f"axis {axis} has a third-party SERCOS drive: the drive closes both loops with settings of its"
-            " own, and they are not in this file",
+            f"Axis {axis} has a third-party SERCOS drive. This drive closes both loops with settings"
+            " that are not in this file",
             LOOP,
         )
     if loop not in ("digital", "analog") or read.value(HARDWARE) == "none":
-        raise SimulationError(f"axis {axis} has no servo: choose its hardware and its loop type first", LOOP)
+        raise SimulationError(f"Axis {axis} has no servo. First set its servo hardware and loop type", LOOP)
     position = read.choice(POSITION_LOOP)
     if position not in ("closed", "zfe"):
-        what = _NO_LOOP.get(position, f"'{position}' is no closed position loop")
-        raise SimulationError(f"axis {axis} cannot be simulated: {what}", POSITION_LOOP)
+        what = _NO_LOOP.get(position, f"loop type '{position}' has no closed position loop")
+        raise SimulationError(f"Axis {axis} cannot be simulated: {what}", POSITION_LOOP)
     return ("deg" if kind == "rotary" else "mm"), loop, position == "zfe"
 
 
-def _feedback(read: Readings, unit: str, figures: dict[str, float], notes: list[str]) -> Source:
-    """Counts and travel of one cycle (7-33, 7-38, 7-40); a scale with coded markers has its own (7-33, B-2).
+def _feedback(read: AxisParameters, unit: str, figures: dict[str, float], notes: list[str]) -> Source:
+    """Set counts and travel of one cycle (7-33, 7-38, 7-40; coded markers of a scale: 7-33, B-2).
 
     Returns the source of the travel.
     """
     device = read.choice(FEEDBACK)
     if device == "none":
-        raise SimulationError(f"axis {read.axis} has no position feedback", FEEDBACK)
+        raise SimulationError(f"Axis {read.axis} has no position feedback", FEEDBACK)
     figures["feedback_counts"] = read.number(COUNTS)
     own = read.optional(OWN_TRAVEL)
     if device == "dcm":
@@ -193,7 +193,7 @@ def _feedback(read: Readings, unit: str, figures: dict[str, float], notes: list[
     if own is None and unit == "deg":
         notes.append(
             "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the"
-            f" gears of this rotary axis is taken as 360 deg; give {OWN_TRAVEL} where it is another."
+            f" gears of this rotary axis is assumed to be 360 deg; set {OWN_TRAVEL} for another value."
         )
     if "travel" in figures:
         return Source(OWN_TRAVEL)
@@ -202,9 +202,13 @@ def _feedback(read: Readings, unit: str, figures: dict[str, float], notes: list[
 
 
 def _digital(
-    read: Readings, unit: str, figures: dict[str, float], notes: list[str], motor_gains: MotorGains | None
+    read: AxisParameters,
+    unit: str,
+    figures: dict[str, float],
+    notes: list[str],
+    motor_gains: MotorGains | None,
 ) -> None:
-    """The velocity loop closed by the 1394 drive."""
+    """Set the figures of a velocity loop that is closed by the 1394 drive."""
     proportional, integral = read.number(PROPORTIONAL), read.number(INTEGRAL)
     motor = read.value(MOTOR)
     by_hand = read.given(PROPORTIONAL) or read.given(INTEGRAL)
@@ -213,15 +217,15 @@ def _digital(
         if gains:
             proportional, integral = gains
             notes.append(
-                f"Standard Motor Table Values is Yes: {proportional!r} and {integral!r} of Tables 7.B and 7.C"
-                " stand in for the velocity loop gains of the file (7-6)."
+                f"Standard Motor Table Values is Yes: {shown(proportional, digits=6)} and {shown(integral, digits=6)} of Tables 7.B and 7.C"
+                " replace the velocity loop gains of the file (7-6)."
             )
         else:
             notes.append(
                 "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its"
                 " tables (7-6); the gains of the file are simulated instead."
             )
-        notes.append("The control may replace the torque limits of a standard motor by its own (7-61).")
+        notes.append("The control may replace the torque limits for a standard motor (7-61).")
     figures["velocity_rate"], figures["integral_rate"] = proportional * RATE, integral * RATE
     for name in ("integrator_discharge", "torque_limit_positive", "torque_limit_negative"):
         figures[name] = read.number(_DIGITAL[name].parameter)
@@ -233,19 +237,19 @@ def _digital(
     figures["acceleration_at_rated"] = DEFAULT_ACCELERATION if own is None else own
     if own is None:
         notes.append(
-            f"ASSUMED: {DEFAULT_ACCELERATION!r} {unit}/s2 at 100 % of rated torque. It is the printed default"
+            f"ASSUMED: {shown(DEFAULT_ACCELERATION)} {unit}/s2 at 100 % of rated torque. It is the printed default"
             " of Maximum Servo Acceleration (Patch AMP values, 37-3), a figure for peak current (7-67) that a"
-            f" digital axis does not have; every statement on torque hangs on it. Give {OWN_ACCELERATION}:"
+            f" digital axis does not have; all torque results depend on it. Set {OWN_ACCELERATION}:"
             " rated torque / inertia, at the axis."
         )
 
 
-def _analog(read: Readings, figures: dict[str, float], notes: list[str]) -> None:
-    """The velocity loop closed in another make of drive, with settings that are not in the file (7-2)."""
+def _analog(read: AxisParameters, figures: dict[str, float], notes: list[str]) -> None:
+    """Set the figures of a velocity loop that is closed in an analog drive, with settings that are not in the file (7-2)."""
     figures["velocity_rate"] = ANALOG_RATIO * figures["position_gain"] * 1000.0 / 60.0
     notes.append(
         "ASSUMED: the drive closes the velocity loop itself (7-2), ten times as fast as the position loop and"
-        " without an integral share, the quick end of the bounds of 7-54."
+        " without an integral part, the upper end of the bounds of 7-54."
     )
     peak = _peak(read)
     figures["torque_limit_positive"] = figures["torque_limit_negative"] = peak
@@ -254,13 +258,13 @@ def _analog(read: Readings, figures: dict[str, float], notes: list[str]) -> None
         figures["acceleration_at_rated"] = read.number(MAX_ACCELERATION) * 100.0 / peak
         notes.append(
             "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of"
-            " RMS (7-60) leads from it to rated torque and is the torque limit."
+            " RMS (7-60) converts it to rated torque and is the torque limit."
         )
     else:
         figures["acceleration_at_rated"] = own
 
 
-def _peak(read: Readings) -> float:
+def _peak(read: AxisParameters) -> float:
     choice = read.choice(PEAK)
     digits = choice.lstrip("p")
     if not digits.isdigit() or int(digits) == 0:
@@ -268,56 +272,56 @@ def _peak(read: Readings) -> float:
     return float(digits)
 
 
-def _exponential(read: Readings, notes: list[str]) -> tuple[float | None, float | None]:
-    """Return (time constant in ms, system scan time in ms) of exponential positioning, None where not set."""
+def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, float | None]:
+    """Return (time constant in ms, system scan time in ms) of exponential positioning, None if not set."""
     delay, fine = read.optional(DELAY, everywhere=True), read.optional(SCAN, everywhere=True)
     scans = read.optional(SCANS, everywhere=True)
     if delay is None or fine is None:
         return None, None
     scan = fine * (1.0 if scans is None else scans)
     notes.append(
-        "One coarse iteration of Programmed Delay Constant (10-17) is taken as Fine Foreground Scan Time"
-        f" times Fine Scans per Logic Scan (33-19), {scan!r} ms."
+        "One coarse iteration of Programmed Delay Constant (10-17) is assumed to be Fine Foreground Scan Time"
+        f" times Fine Scans per Logic Scan (33-19), {scan:g} ms."
     )
     if not (math.isfinite(scan) and scan > 0.0):
-        raise SimulationError(f"{SCAN} times {SCANS} is {scan!r} ms; it must be above 0", SCAN)
+        raise SimulationError(f"{SCAN} times {SCANS} is {scan:g} ms; it must be above 0", SCAN)
     return delay * scan, scan
 
 
 _CLOSED = (
     (
-        "The velocity command is proportional to the following error (7-14, 7-25); what lies beyond the gain"
-        " break point counts only gain break ratio times (7-22, 7-27), a broken line without a jump (the"
+        "The velocity command is proportional to the following error (7-14, 7-25); the part beyond the gain"
+        " break point counts only gain break ratio times (7-22, 7-27), without a step (the"
         " figure of 7-23 was not legible)."
     ),
 )
 _ZFE = (
     (
-        "Feed Forward Percent of the command velocity is added to what the following error asks for (7-15,"
+        "Feed Forward Percent of the command velocity is added to the velocity command (7-15,"
         " 7-28); the gain break is not used (7-22, 7-27)."
     ),
 )
 _ALWAYS = (
     "The position loop runs at the SERCOS cycle, the servo update rate (7-4).",
     (
-        "The PI velocity loop forms an acceleration command (7-54, 7-56); its sum empties Discharge Rate"
-        " times faster than it fills (7-58)."
+        "The PI velocity loop forms an acceleration command (7-54, 7-56); its integral discharges Discharge Rate"
+        " times faster than it charges (7-58)."
     ),
-    "Max % rated torque (+) and (-) cut the torque by its sign, not by the direction of travel (7-61, 7-62).",
+    "Max % rated torque (+) and (-) limit the torque by its sign, not by the direction of travel (7-61, 7-62).",
     (
         "Torque filter, torque offset, friction compensation, reversal error and S-curve ramps are not"
         " simulated."
     ),
     (
-        "A linear ramp of 0 is no ramp (10-8), a deceleration of 0 is that of the acceleration (10-10);"
+        "A linear ramp of 0 means no ramp (10-8), a deceleration of 0 means the acceleration (10-10);"
         " Velocity Step for Acc/Dec is not used."
     ),
-    "Excess error and feedrate suppression are watched once a servo cycle (7-20, 7-21).",
+    "Excess error and feedrate suppression are checked once in each servo cycle (7-20, 7-21).",
 )
 
 
 def standard_gains(tables: Mapping[str, Table]) -> MotorGains | None:
-    """Return a look-up into Tables 7.B and 7.C (pages 7-55, 7-56) by motor and inertia ratio keys."""
+    """Return a look-up in Tables 7.B and 7.C (pages 7-55, 7-56) by motor and inertia ratio keys."""
     proportional, integral = tables.get("7.B"), tables.get("7.C")
     if proportional is None or integral is None:
         return None

@@ -1,4 +1,4 @@
-"""Advice is a number in the parameter's own unit, and it helps: run again with it, and it is gone."""
+"""Recommendation is a number in the parameter's own unit, and it helps: run again with it, and it is gone."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from amp_studio.sim import SCENARIOS, Advice, Trace
+from amp_studio.sim import SCENARIOS, Recommendation, Trace
 
 Values = dict[str, float | str | bool | None]
 File = Callable[..., Callable[[str, str], float | str | bool | None]]
@@ -16,14 +16,14 @@ def run(ninepc: File, values: Values | None = None) -> Trace:
     return SCENARIOS["step"].run(ninepc(values), "1", {}, "9pc", None)
 
 
-def given(trace: Trace) -> dict[str, Advice]:
-    return {advice.parameter: advice for advice in trace.advice}
+def given(trace: Trace) -> dict[str, Recommendation]:
+    return {advice.parameter: advice for advice in trace.recommendations}
 
 
 def test_a_well_set_axis_gets_no_advice(ninepc: File) -> None:
     trace = run(ninepc)
     assert trace.alarms == ()
-    assert trace.advice == ()
+    assert trace.recommendations == ()
 
 
 @pytest.mark.parametrize("excess", [5.0, 203.2])
@@ -60,7 +60,7 @@ def test_the_limits_below_the_excess_error_go_down_with_it(ninepc: File) -> None
         advice["servo.excess_error"].value,
     )
     assert band < low < middle <= high
-    assert run(ninepc, {p: a.value for p, a in advice.items()}).advice == ()
+    assert run(ninepc, {p: a.value for p, a in advice.items()}).recommendations == ()
 
 
 def test_suppression_tells_what_it_cost(ninepc: File) -> None:
@@ -83,7 +83,7 @@ def test_a_ramp_steeper_than_the_torque_is_brought_down_to_what_there_is(ninepc:
     advice = given(run(ninepc, weak))["accdec.linear_acceleration"]
     # 80 % of 20 % of 1989.66667 mm/s2.
     assert advice.value == 318.0
-    assert "torque stood at its limit" in advice.why
+    assert "torque was at its limit" in advice.why
     better = run(ninepc, {**weak, "accdec.linear_acceleration": advice.value})
     assert better.result["time_at_torque_limit"][0] == 0.0
 
