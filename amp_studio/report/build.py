@@ -104,9 +104,9 @@ def _facts(
 
 
 def _checksum(file: ParameterFile, source: Path | None, secrets: bool) -> tuple[str, str]:
-    """Return the short checksum of the file whose values these are, and say so where it is not the one on disk.
+    """Return title and short checksum of the file on disk, with a note where its values differ from the report.
 
-    Whoever has the report can try all passwords against a checksum, so secrets that are not printed are not in it either.
+    With the report, somebody could try all passwords against a checksum, so it excludes secrets that are not printed.
     """
     title = "SHA-256 of the file"
     if not secrets and without_secrets(file) is not file:
@@ -120,7 +120,7 @@ def _checksum(file: ParameterFile, source: Path | None, secrets: bool) -> tuple[
     on_disk = opened.file if secrets else without_secrets(opened.file)
     digest = opened.digest[:_SHORT] if on_disk is opened.file else _digest(on_disk)
     if on_disk.values != file.values:
-        return title, digest + " – but with other values: this report shows unsaved changes"
+        return title, digest + " – but this report contains unsaved changes"
     return title, digest
 
 

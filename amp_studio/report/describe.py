@@ -128,7 +128,7 @@ def _help(parameter: Parameter) -> str:
 
 
 def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
-    """Return a finding as ``validate --json`` gives it."""
+    """Return a finding in the form of ``validate --json``."""
     here = file.machine_schema
     return {
         "rule": finding.rule, "severity": finding.severity,

@@ -25,6 +25,7 @@ from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, Range
 from amp_studio.validate import formulas
 
 from .printed_table import table_lines, tables_of
+from .wording import severity_name, state_name
 
 _WIDTH = 100
 _INDENT = "  "

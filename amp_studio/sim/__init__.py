@@ -1,16 +1,16 @@
 """The simulation: how an axis moves with its parameters, before the machine moves.
 
-`bind.axis_servo` takes the data of an axis from a parameter file (any callable that answers by parameter id),
-`step.run_step` moves it, `write` puts the trace into files. `SCENARIOS` holds one entry a scenario, each a
-single call from file to trace. Ids of a control family stand in that family's own law, and nowhere else. Every modelling assumption is written where it is made, comes back with each trace, and is
-collected in docs/simulation.md.
+`bind.axis_servo` reads the data of an axis from a parameter file (any callable that returns values by parameter id),
+`step.run_step` simulates a move, `write` writes the trace to files. `SCENARIOS` contains one entry for each scenario, a
+single call from file to trace. Ids of a control family are in that family's law only. Every modelling assumption is\ndocumented where it is made, is part of each trace, and is
+listed in docs/simulation.md.
 """
 
 from __future__ import annotations
 
+from .axis_parameters import MotorGains, ParameterValue, ReadParameter
 from .bind import axis_servo
 from .law import Law, law_of, simulated_families
-from .reading import MotorGains, Value, ValueOf
 from .scenarios import SCENARIOS, Scenario
 from .servo import AxisServo, SimulationError, Source
 from .simulate import simulate

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from .axis_parameters import AxisParameters, MotorGains, ParameterValue, ReadParameter
 from .law import law_of
-from .reading import MotorGains, Readings, Value, ValueOf
 from .servo import AxisServo
 
 
@@ -19,13 +19,13 @@ def axis_servo(
 ) -> AxisServo:
     """Return the servo of an axis.
 
-    ``value(parameter id, instance)`` answers in canonical units and choice keys, None where nothing is set.
+    ``value(parameter id, instance)`` returns canonical units and choice keys, None for a value that is not set.
     ``overrides`` are values by parameter id (or by a name of the law's settings) that go before those of the
-    file; one that plays no part is refused. ``motor_gains`` looks up printed motor tables. Raises
+    file; an override that is not used is refused. ``motor_gains`` looks up printed motor tables. Raises
     SimulationError naming the parameter.
     """
     law = law_of(family)
-    read = Readings(value, axis, overrides or {})
+    read = AxisParameters(value, axis, overrides or {})
     servo = law.bind(read, motor_gains)
     read.refuse_unused()
     return servo

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from amp_studio.schema import Table
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 
-from .reading import MotorGains, Readings
+from .axis_parameters import AxisParameters, MotorGains
 from .servo import AxisServo, SimulationError
 
-Binding = Callable[[Readings, MotorGains | None], AxisServo]
+Binding = Callable[[AxisParameters, MotorGains | None], AxisServo]
 
 
 def _no_gains(_tables: Mapping[str, Table]) -> MotorGains | None:

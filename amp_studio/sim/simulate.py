@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.nearest import unknown_name
 
+from .axis_parameters import ParameterValue
 from .law import law_of
-from .reading import Value
 from .scenarios import SCENARIOS
 from .servo import SimulationError
 from .trace import Trace
@@ -36,7 +36,7 @@ def simulate(
 
     family = file.schema.family.family
 
-    def value(parameter_id: str, instance: str) -> Value:
+    def value(parameter_id: str, instance: str) -> ParameterValue:
         return file.evaluation.canonical((parameter_id, instance))
 
     return SCENARIOS[scenario].run(

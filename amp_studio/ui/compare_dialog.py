@@ -43,7 +43,7 @@ class DifferenceList(QTreeWidget):
             item = QTreeWidgetItem([
                 schema.on(machine).label(difference.address),
                 schema.on(machine).instance_label(difference.address),
-                "absent here" if difference.a is None else "absent there" if difference.b is None else "different",
+                "not in this file" if difference.a is None else "only in this file" if difference.b is None else "different",
                 *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
                   for v in (difference.a, difference.b)),
             ])  # fmt: skip
@@ -99,8 +99,8 @@ class CompareDialog(QDialog):
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.list = DifferenceList(workspace.file, Comparison((), 0), other, tick=True, secrets=False)
-        self.every = QPushButton("Tick &all")
-        self.take_button = QPushButton("&Take the ticked values into this file")
+        self.every = QPushButton("Select &All")
+        self.take_button = QPushButton("&Copy Selected Values to This File")
         close = QPushButton("&Close")
         buttons = QHBoxLayout()
         for button, act in ((self.every, self._tick_all), (self.take_button, self.take), (close, self.close)):

@@ -17,7 +17,7 @@ from amp_studio.files.lock import now
 from amp_studio.schema import Address, InvalidValueError, write_value
 
 from .emulated_control import EmulatedControl
-from .questions import ask, tell
+from .questions import ask, show_message
 from .restore import restore
 from .task import Progress, ProgressDialog
 
@@ -82,9 +82,9 @@ class ControlActions:
         self.window.show_status(f"Emulated control at {address}, in E-stop")
         self.enable()
 
-    def _ended(self, said: str) -> None:
+    def _ended(self, output: str) -> None:
         self.window.show_status(
-            f"The emulated control stopped: {said}" if said else "Emulated control stopped"
+            f"The emulated control stopped: {output}" if output else "Emulated control stopped"
         )
         self.enable()
 
@@ -99,7 +99,7 @@ class ControlActions:
     # -- exchange --------------------------------------------------------------
 
     def ask_address(self, title: str) -> str | None:
-        """Ask for the control's address; the emulated control's, the project's and the last one are offered."""
+        """Ask for the address of the control; suggests the emulated control, that of the project and the last one."""
         project, settings = self.window.projects.project, self.window.settings
         known = (
             self.emulated.address,
@@ -143,11 +143,11 @@ class ControlActions:
             self.remember(workspace, file)
 
     def exchange(self, title: str, work: Callable[[Progress, threading.Event], Outcome]) -> Outcome:
-        """Run what replaces the control's file, tell how it ended and return that."""
+        """Run a download or restore, show its outcome and return it."""
         hint = "Waiting for the control …"
         outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()
         icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
-        tell(self.window, title, outcome.text, icon)
+        show_message(self.window, title, outcome.text, icon)
         return outcome
 
     def _is_ready(self, workspace: Workspace) -> bool:
@@ -169,7 +169,7 @@ class ControlActions:
         return answer == "&Download"
 
     def _preview(self, workspace: Workspace, address: str) -> str | None:
-        """Show what the download would change in the control; returns the digest of what may be replaced, or None."""
+        """Show what the download would change in the control; returns the digest of the image to replace, or None."""
         from amp_studio.transfer.client.parameters import sha256
         from amp_studio.transfer.image import ImageError, decode_image
 
@@ -180,15 +180,15 @@ class ControlActions:
         if not image:
             return approved
         try:
-            held = decode_image(image)
-            if held.schema is not workspace.file.schema:
-                raise ImageError(f"the control holds a file for {held.schema.family.name}")
+            present = decode_image(image)
+            if present.schema is not workspace.file.schema:
+                raise ImageError(f"The control contains parameters for {present.schema.family.name}")
         except ImageError as error:
-            question = f"{error}.\n\nWhat the control holds is kept as it is. Download all the same?"
+            question = f"{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
             return approved if answer == "&Download" else None
-        self.remember(workspace, held)
-        found = workspace.differences_to(held.values)
+        self.remember(workspace, present)
+        found = workspace.differences_to(present.values)
         if (
             not found.differences
             or DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets).exec()
@@ -196,9 +196,9 @@ class ControlActions:
             return approved
         return None
 
-    def remember(self, workspace: Workspace, held: ParameterFile) -> None:
-        if held.schema is workspace.file.schema:
-            workspace.remember_control(held.values, f"{datetime.now(UTC).astimezone():%H:%M}")
+    def remember(self, workspace: Workspace, present: ParameterFile) -> None:
+        if present.schema is workspace.file.schema:
+            workspace.remember_control(present.values, f"{datetime.now(UTC).astimezone():%H:%M}")
 
     def verify(self) -> None:
         """Compare the file with the parameters of the control."""
@@ -212,8 +212,8 @@ class ControlActions:
         image = self.fetch(address, "Verify", workspace.file.schema.family.family)
         found = verify_images(encode_image(workspace.file), image)
         if not found.unreadable:
-            held = decode_image(image)
-            self.remember(workspace, held)
+            present = decode_image(image)
+            self.remember(workspace, present)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
             show_message(self.window, "Verify", found.summary(), icon)
@@ -223,7 +223,7 @@ class ControlActions:
         CompareDialog(workspace, present.values, "the control", self.window.go_to, self.window).show()
 
     def fetch(self, address: str, title: str, family: str = "") -> bytes:
-        """Return what the control holds, byte for byte; with a family the control must be of it."""
+        """Return what the control holds, byte for byte; raises an error for a control of another family."""
 
         def work(progress: Progress, cancel: threading.Event) -> bytes:
             from amp_studio.transfer.client.parameters import fetch_image
@@ -234,7 +234,7 @@ class ControlActions:
         return image
 
     def upload(self) -> None:
-        """Fetch the control's file, walk through what is out of range in it, and save it under a new name."""
+        """Read the parameters of the control, ask about each value out of range, and save them as a new file."""
         from amp_studio.files.out_of_range import out_of_range
 
         if not self.window.may_leave():
@@ -243,14 +243,14 @@ class ControlActions:
         if address is None:
             return
         file = self._uploaded(address)
-        for place, said in out_of_range(file):
-            if not self._walk(file, place, said):
+        for place, problem in out_of_range(file):
+            if not self._walk(file, place, problem):
                 self.window.show_status("Upload cancelled. No file was written.")
                 return
         self._save_upload(file)
 
     def _uploaded(self, address: str) -> ParameterFile:
-        """Return the control's file; raises ValueError where it has none that can be read."""
+        """Return the parameters of the control as a file; raises ValueError when they cannot be read."""
         from amp_studio.transfer.image import ImageError, decode_image
 
         image = self.fetch(address, "Upload")
@@ -275,12 +275,12 @@ class ControlActions:
                 return
         self.window.show_status("Upload cancelled. No file was written.")
 
-    def _walk(self, file: ParameterFile, place: Address, said: str) -> bool:
+    def _walk(self, file: ParameterFile, place: Address, problem: str) -> bool:
         """Ask about one out-of-range value: continue checking, edit it, or quit. Returns whether to continue."""
         go_on, edit, stop = "&Continue checking", "&Edit parameter", "&Quit checking"
         while True:
             answer = ask(
-                self.window, "Out of range", f"{said}.", go_on, edit, stop, icon=QMessageBox.Icon.Warning
+                self.window, "Out of range", f"{problem}.", go_on, edit, stop, icon=QMessageBox.Icon.Warning
             )
             if answer == stop:
                 return False
@@ -290,10 +290,10 @@ class ControlActions:
             parameter = file.schema.parameters[place[0]]
             old = "" if parameter.secret else write_value(parameter, file.get(place))
             echo = QLineEdit.EchoMode.Password if parameter.secret else QLineEdit.EchoMode.Normal
-            text, accepted = QInputDialog.getText(self.window, "Edit parameter", said, echo, old)
+            text, accepted = QInputDialog.getText(self.window, "Edit parameter", problem, echo, old)
             try:
                 if accepted:
                     file.set_many({place: file.read(place, text)})
                     return True
             except (InvalidValueError, RangeError) as error:
-                tell(self.window, "Edit parameter", f"{error}.")
+                show_message(self.window, "Edit parameter", f"{error}.")

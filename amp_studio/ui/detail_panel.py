@@ -147,7 +147,9 @@ class DetailPanel(QWidget):
             return f"no bounds printed, in {shown(unit)}" if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = found.text() + "".join(f" (set by {file.machine_schema.label(s)})" for s in sources)
-        return text + (" — degrees are not printed; the metric figures are used" if found.borrowed else "")
+        return text + (
+            " — no range in degrees is printed; the metric numbers are used" if found.borrowed else ""
+        )
 
     # -- pages -----------------------------------------------------------------
 

@@ -84,7 +84,7 @@ class EditActions:
         try:
             value = workspace.read(address, text)
         except InvalidValueError as error:
-            tell(self.window, "Not taken", f"{name}: {error}.\n\nNothing was changed.")
+            show_message(self.window, "Value not accepted", f"{name}: {error}.\n\nNothing was changed.")
             return False
         try:
             workspace.edit(name, {address: value})
@@ -220,7 +220,7 @@ class EditActions:
                 tell=notes.append,
             )
             workspace.read_own_rules()
-            self.window.say("; ".join([f"Kept in {path}", *notes]))
+            self.window.show_status("; ".join([f"Suppression saved in {path}", *notes]))
 
     def fix(self, finding: Finding) -> None:
         """Apply the suggested fix of a finding as one step, if the finding still exists and its fix was tried."""

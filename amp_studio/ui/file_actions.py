@@ -314,7 +314,7 @@ class FileActions:
             )
 
         ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()
-        self.window.say("; ".join([f"{path} written", *notes]))
+        self.window.show_status("; ".join([f"{path} written", *notes]))
         if show:
             QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
 

@@ -36,8 +36,8 @@ class FormatActions:
         ]
 
     def read(self) -> None:
-        """Ask for a text and for a name, and show the parameter file it makes; a text that cannot be meant makes none."""
-        from amp_studio.formats import all_formats  # a room that a start does not need
+        """Ask for a text file and a name, and show the imported parameter file."""
+        from amp_studio.formats import all_formats  # not needed at program start
 
         if not self.window.may_leave():
             return
@@ -58,7 +58,7 @@ class FormatActions:
                 self.window.show_status("; ".join(self._notes))
 
     def _understood(self, path: Path) -> ParameterFile | None:
-        """Return what a text holds; asks for the family, and whether to keep what is not understood."""
+        """Return the imported file; asks for the family, and whether to keep lines that are not recognised."""
         from amp_studio.formats import FamilyNotGivenError, FormatError
 
         try:
@@ -83,7 +83,7 @@ class FormatActions:
         return names[chosen] if taken else None
 
     def _kept(self, path: Path, family: str | None, error: FormatError) -> ParameterFile | None:
-        """Return what a text holds with what is not understood kept, if that is wanted; raises where it cannot be."""
+        """Return the imported file with unrecognised lines kept, if the user agrees; raises when that is not possible."""
         from amp_studio.formats import FormatError
 
         try:
@@ -121,7 +121,7 @@ class FormatActions:
         return True
 
     def write(self) -> None:
-        """Ask for a name and write the open file in the format of its ending."""
+        """Ask for a name and export the open file; the file extension sets the format."""
         from amp_studio.formats import export_file, formats_of
 
         workspace = self.window.workspace
@@ -146,5 +146,9 @@ class FormatActions:
             self.window, "Exporting", lambda: export_file(file, path, key, notes.append, secrets=secrets)
         )
         left_out = 0 if secrets else len(secret_values(file))
-        told = f"; {left_out} secret values left out (Options, Show Secrets writes them)" if left_out else ""
-        self.window.say("; ".join([f"{path} written{told}", *notes]))
+        left_out_note = (
+            f"; {left_out} secret values left out (to export them, switch on Options > Show Secrets)"
+            if left_out
+            else ""
+        )
+        self.window.show_status("; ".join([f"{path} written{left_out_note}", *notes]))

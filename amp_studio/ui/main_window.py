@@ -119,7 +119,7 @@ class MainWindow(QMainWindow):
             return act()
         except (OSError, ValueError, KeyError, RuntimeError) as error:
             is_bare = type(error) is KeyError and error.args  # its own text is in quotes
-            tell(self, title, str(error.args[0]) if is_bare else str(error))
+            show_message(self, title, str(error.args[0]) if is_bare else str(error))
             return None
 
     def _help_menu(self) -> None:

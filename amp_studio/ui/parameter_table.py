@@ -259,7 +259,7 @@ class ParameterTable(QAbstractTableModel):
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
-        """Return the number a row is known by: the one of its first value that exists, if it is its own."""
+        """Return the number of a row: that of its first value that exists, if it belongs to this parameter."""
         here = self.workspace.file.machine_schema
         first = self.first_of(row)
         address = self.address_at(row, first.column()) if first.isValid() else None

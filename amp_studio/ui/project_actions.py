@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import ParameterFileError, Project, same_file
+from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 
 from .file_actions import FILTER
@@ -48,7 +49,7 @@ class ProjectActions:
         if (folder / "project.yaml").exists() and (self.project is None or self.project.folder != folder):
             with contextlib.suppress(
                 ParameterFileError
-            ):  # a broken project file keeps nobody from the parameters
+            ):  # an unreadable project file does not prevent work on the parameters
                 self.project = Project.open(folder)
                 self.window.enable()
 

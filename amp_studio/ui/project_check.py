@@ -12,6 +12,7 @@ from PySide6.QtGui import QBrush
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.files import ParameterFileError, open_file
+from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
+from amp_studio.report.wording import state_name
 from amp_studio.schema import Address, UnknownParameterError, meant
 
 from .choice_box import ChoiceBox
@@ -54,7 +55,7 @@ class QuickEdit(QDialog):
             return
         self._offer(found.address, found.said(self._workspace.file.schema))
 
-    def _offer(self, address: Address | None, said: str = "") -> None:
+    def _offer(self, address: Address | None, note: str = "") -> None:
         if self.editor is not None:
             self._form.removeRow(self.editor)
             self.editor = None
@@ -65,11 +66,13 @@ class QuickEdit(QDialog):
         file = self._workspace.file
         place = file.machine_schema.instance_label(address) or "Control"
         state = file.evaluation.state(address)
-        told = "" if state.state == "in-force" else f"\n{state.state.capitalize()}: {state.why}"
+        inactive = (
+            "" if state.state == "in-force" else f"\n{state_name(state.state).capitalize()}: {state.why}"
+        )
         allowed = allowed_text(self._workspace, address)
         bounds = f"\nAllowed here: {allowed}" if allowed else ""
         self.name.setText(
-            f"{file.machine_schema.label(address)}, {place}{bounds}{told}" + (f"\n{said}" if said else "")
+            f"{file.machine_schema.label(address)}, {place}{bounds}{inactive}" + (f"\n{note}" if note else "")
         )
         if file.schema.parameters[address[0]].choices:
             self.editor = ChoiceBox(self._workspace, address, self)

@@ -1,4 +1,4 @@
-"""Puts back what a control held before a download, after showing what that would change."""
+"""Restores the backup of a control, after showing what that changes."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
     from .control_actions import ControlActions
 
-COPIES = "Kept copies (*.img *.before-*.amp);;All files (*)"
+COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
 def restore(control: ControlActions) -> None:
-    """Ask for a kept copy and an address, show what would change, then send the copy byte for byte.
+    """Ask for a backup and an address, show what would change, then send the backup byte for byte.
 
-    What the control holds is kept beside the copy first. Raises as the restore itself.
+    The control's present parameters are saved beside the backup first. Raises the errors of the restore.
     """
     from amp_studio.transfer.client.parameters import open_copy, restore_copy, sha256
 
@@ -41,12 +41,12 @@ def restore(control: ControlActions) -> None:
     if address is None:
         return
     family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
-    held = control.fetch(address, "Restore", family)
-    if not _is_wanted(control, copy, path, held):
+    present = control.fetch(address, "Restore", family)
+    if not _is_wanted(control, copy, path, present):
         return
 
     def work(progress: Progress, cancel: threading.Event) -> Outcome:
-        return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(held))
+        return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present))
 
     outcome = control.exchange("Restore", work)
     if outcome.verified and copy.file is not None and window.workspace is not None:
@@ -54,37 +54,43 @@ def restore(control: ControlActions) -> None:
 
 
 def _check(copy: Copy, path: Path) -> None:
-    """Refuse a file with errors of which nothing says that a control held it; raises ValueError."""
+    """Raise ValueError for a file with errors that is not a proven backup of a control."""
     if copy.file is None or copy.is_kept:
         return
     findings = Validator(copy.file, rules_beside(path, copy.file.schema)).run()
     error = next((f for f in findings if f.severity == "error"), None)
     if error is not None:
         raise ValueError(
-            f"{path.name} has errors, and no image beside it says that a control held it: {error.message}"
+            f"{path.name} has errors, and there is no control image beside it. First error: {error.message}"
         )
 
 
-def _is_wanted(control: ControlActions, copy: Copy, path: Path, held: bytes) -> bool:
-    """Show what would change, or say why it cannot be shown; tells whether the copy is to go back."""
+def _is_wanted(control: ControlActions, copy: Copy, path: Path, present: bytes) -> bool:
+    """Show what would change, or why it cannot be shown; returns whether to restore the backup."""
     from amp_studio.transfer.image import ImageError, decode_image
 
     from .compare_dialog import DownloadPreview
 
-    doubts = [] if copy.is_checked else [f"No digest lies beside {path.name}, so it goes back unchecked."]
+    doubts = (
+        []
+        if copy.is_checked
+        else [f"There is no digest beside {path.name}, so its content cannot be checked."]
+    )
     now = None
     try:
-        now = decode_image(held) if held else None
+        now = decode_image(present) if present else None
     except ImageError as error:
-        doubts.append(f"What the control holds cannot be shown: {error}.")
+        doubts.append(f"The parameters of the control cannot be shown: {error}.")
     if copy.file is None:
-        doubts.append(f"{path.name} goes back byte for byte, but cannot be shown: {copy.fault}.")
+        doubts.append(f"{path.name} is restored byte for byte, but cannot be shown: {copy.fault}.")
     elif now is not None and now.schema is not copy.file.schema:
-        doubts.append(f"The control holds a file for {now.schema.family.name}.")
+        doubts.append(f"The control contains parameters for {now.schema.family.name}.")
     elif now is not None and not doubts:
         secrets = control.window.workspace.secrets if control.window.workspace else False
         found = compare(copy.file.schema, copy.file.values, now.values)
         preview = DownloadPreview(copy.file, found, control.window, secrets=secrets, title="Restore")
         return bool(preview.exec())
-    question = "\n\n".join([*doubts, f"Put {path.name} back? What the control holds is kept first."])
+    question = "\n\n".join(
+        [*doubts, f"Restore {path.name}? The control's present parameters are saved first."]
+    )
     return ask(control.window, "Restore", question, "&Restore", "Cancel", default=1) == "&Restore"

@@ -247,7 +247,7 @@ class StepView(QWidget):
         except (OSError, ValueError) as error:
             self._fail(error)
         else:
-            self.told.setText(html.escape("; ".join([f"{path} written", *notes])))
+            self.summary.setText(html.escape("; ".join([f"{path} written", *notes])))
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ignore the result of a run that has not finished."""

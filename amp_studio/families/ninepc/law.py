@@ -20,8 +20,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from amp_studio.schema import Table
+from amp_studio.sim.axis_parameters import AxisParameters, MotorGains
 from amp_studio.sim.law import Law
-from amp_studio.sim.reading import MotorGains, Readings
+from amp_studio.sim.rounding import shown
 from amp_studio.sim.servo import AxisServo, SimulationError, Source
 
 MODEL = "9/PC axis"
