@@ -164,10 +164,6 @@ class Document:
         twin.header.name = text_of_name(path.stem)
         return Document.create(twin, path)
 
-    def changed_on_disk(self) -> bool:
-        """Tell whether another program has changed or removed the file since it was opened."""
-        return self.digest is not None and digest_of(self.path) != self.digest
-
     # -- history ---------------------------------------------------------------
 
     @property

@@ -69,7 +69,7 @@ def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: 
     on_an_axis = any(schema.on(m).kin(schema.on(m).scopes[parameter.id], "axis") for m in machines)
     if instance and instance.casefold() not in offered and not (on_an_axis and instance.isalpha()):
         evaluation = Evaluation(schema, lambda _: None, lambda: machines[0])
-        evaluation.find(param)  # says what it has
+        evaluation.find(param)  # lists its instances
 
 
 def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:

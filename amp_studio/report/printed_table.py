@@ -29,7 +29,7 @@ def table_lines(table: Table) -> list[str]:
     head, *rows = cells_of(table)
     room = _WIDTH - len(_INDENT) - 2 * (len(head) - 1)
     widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
-    while sum(widths) > room:  # the widest gives way
+    while sum(widths) > room:  # the widest column becomes narrower
         widths[widths.index(max(widths))] -= 1
     lines = [line for row in (head, *rows) for line in _row(row, widths)]
     lines.insert(len(_row(head, widths)), "-" * (sum(widths) + 2 * (len(widths) - 1)))

@@ -19,7 +19,7 @@ def state_name(state: str) -> str:
 
 
 def counted(number: int, noun: str, none: str = "0") -> str:
-    """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``none`` stands for the number 0."""
+    """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``none`` replaces the number 0."""
     return f"{number or none} {severity_name(noun)}{'' if number == 1 else 's'}"
 
 

@@ -41,7 +41,8 @@ def write_report(
     ``sort`` is one of the three orders, ``changed_only`` keeps
     what differs from the printed default, ``source`` is the path of the file
     on disk, ``date`` is printed (now when left out), ``own`` are the builder's rules, and ``secrets`` prints
-    passwords in clear text; ``tell`` is called with each attribute of a replaced file that could not be kept. Raises\n    ValueError for an unknown file extension or order, SaveError when it cannot be
+    passwords in clear text; ``tell`` is called with each attribute of a replaced file that could not be kept. Raises
+    ValueError for an unknown file extension or order, SaveError when it cannot be
     written.
     """
     render = FORMATS.get(path.suffix.lower())

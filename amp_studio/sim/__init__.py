@@ -2,7 +2,8 @@
 
 `bind.axis_servo` reads the data of an axis from a parameter file (any callable that returns values by parameter id),
 `step.run_step` simulates a move, `write` writes the trace to files. `SCENARIOS` contains one entry for each scenario, a
-single call from file to trace. Ids of a control family are in that family's law only. Every modelling assumption is\ndocumented where it is made, is part of each trace, and is
+single call from file to trace. Ids of a control family are in that family's law only. Every modelling assumption is
+documented where it is made, is part of each trace, and is
 listed in docs/simulation.md.
 """
 

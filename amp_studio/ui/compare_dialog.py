@@ -148,7 +148,7 @@ class CompareDialog(QDialog):
 
 
 class DownloadPreview(QDialog):
-    """Says what a download or a restore would change in the control, before it does."""
+    """Shows what a download or a restore changes in the control, and asks before it starts."""
 
     def __init__(
         self,

@@ -223,7 +223,7 @@ class ControlActions:
         CompareDialog(workspace, present.values, "the control", self.window.go_to, self.window).show()
 
     def fetch(self, address: str, title: str, family: str = "") -> bytes:
-        """Return what the control holds, byte for byte; raises an error for a control of another family."""
+        """Return the image of the control, byte for byte; raises an error for a control of another family."""
 
         def work(progress: Progress, cancel: threading.Event) -> bytes:
             from amp_studio.transfer.client.parameters import fetch_image

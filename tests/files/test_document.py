@@ -25,6 +25,7 @@ from amp_studio.files import (
     save_file,
 )
 from amp_studio.files import lock as locking
+from amp_studio.files.atomic import digest_of
 from amp_studio.schema import Value
 
 CALIBRATION, POSITION = ("home.calibration", "1"), ("home.position", "1")
@@ -75,7 +76,7 @@ def test_a_saved_change_is_on_disk_and_the_document_is_clean(on_disk: Path) -> N
             document.unsaved_changes(),
         )
         document.save()
-        assert (document.is_dirty, document.changed_on_disk()) == (False, False)
+        assert (document.is_dirty, digest_of(on_disk)) == (False, document.digest)
     assert Value(2.0, "mm") == open_file(on_disk).file.get(CALIBRATION)
     assert set() == hidden(on_disk.parent)
 
@@ -125,13 +126,13 @@ def test_what_another_program_saved_is_noticed_and_not_overwritten(
         mill.set(POSITION, Value(4.0, "mm"))
         save_file(mill, on_disk, document.digest)
         theirs = on_disk.read_bytes()
-        assert document.changed_on_disk()
+        assert digest_of(on_disk) != document.digest
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         with pytest.raises(ChangedOnDisk):
             document.save()
         assert document.is_dirty
         on_disk.unlink()
-        assert document.changed_on_disk(), "gone is changed too"
+        assert digest_of(on_disk) is None
         with pytest.raises(ChangedOnDisk):
             document.save()
         on_disk.write_bytes(theirs)
@@ -226,7 +227,7 @@ def test_the_file_is_read_again_when_it_changed_before_the_lock_was_given(
     monkeypatch.setattr(locking.EditLock, "take", somebody_was_faster)
     with Document.open(on_disk) as document:
         assert Value(6.0, "mm") == document.file.get(CALIBRATION)
-        assert not document.changed_on_disk()
+        assert digest_of(on_disk) == document.digest
         assert document.is_locked
 
 

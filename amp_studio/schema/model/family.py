@@ -108,7 +108,6 @@ class Family(Model):
     default_machine: Key
     machine_parameter: ParameterId | None = None
     """The parameter whose choice keys are the machine types, where there is one."""
-    revisions: tuple[str, ...] = ()
     scopes: dict[Scope, ScopeInfo]
     units: dict[str, dict[str, Unit]]
     """Per unit system (``metric``, ``inch``) the unit of each quantity."""
