@@ -48,7 +48,16 @@ ALLOWED: dict[tuple[str, str], str] = {}
 """(file, word) -> why it may stay there."""
 
 ROOMS = ("ui", "report", "sim")
-DOCUMENTS = ("README.md", "docs/rules.md", "docs/simulation.md")
+DOCUMENTS = (
+    "README.md",
+    "CONTRIBUTING.md",
+    "docs/architecture.md",
+    "docs/rules.md",
+    "docs/schema.md",
+    "docs/simulation.md",
+    "docs/protocols/image.md",
+    *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
+)
 
 _PATTERN = re.compile(rf"\b({'|'.join(map(re.escape, FORBIDDEN))})\b", re.IGNORECASE)
 _NAMES = re.compile(r"``.*?``|`[^`\n]*`|\{[^{}]*\}|[\w-]+\.[\w.-]+|\"[^\"\n]*\"")
