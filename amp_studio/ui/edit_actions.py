@@ -39,7 +39,7 @@ class EditActions:
         tables = act("&Tables of the Manual…", self.tables, "Shift+F3", "file")
         find = act("&Find Parameter", self._find, keys.Find, "file")
         fix = act("F&ix Selected Finding", self._fix, "F8", "edit")
-        why = act("Ex&plain Selected Finding", self._why, "Shift+F1", "file")
+        why = act("S&how Explanation of Finding", self._why, "Shift+F1", "file")
         safe = act("Apply All &Safe Fixes", self.fix_safe, "Shift+F8", "edit")
         for action in (copy, paste, clear):  # a text field has its own
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)

@@ -62,7 +62,7 @@ def test_a_small_report_to_the_letter() -> None:
         "1 error",
         "  - Axis 1 X: Too far. (page 5-10)",
         "    about  1300 Home Calibration",
-        "    repair 1300 = 0 mm",
+        "    fix    1300 = 0 mm",
     ]
     assert "Machine ...................... Mill 7" in said
     assert any(re.fullmatch(r"Released by _+  Date _+", line) for line in said)

@@ -92,7 +92,7 @@ def test_a_needed_parameter_that_is_not_set_is_named(ninepc: File, parameter: st
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"axis.type": "unfitted"}, "axis 1 is unfitted"),
+        ({"axis.type": "unfitted"}, "Axis 1 is unfitted"),
         ({"axis.type": "spindle"}, "is a spindle"),
         ({"servo.loop_type": "sercos"}, "third-party SERCOS drive"),
         ({"servo.loop_type": "none"}, "has no servo"),
@@ -102,9 +102,9 @@ def test_a_needed_parameter_that_is_not_set_is_named(ninepc: File, parameter: st
         ({"servo.position_loop_type": "detached"}, "detached"),
         ({"servo.position_loop_type": "depth-probe"}, "depth probe"),
         ({"servo.position_feedback_type": "none"}, "no position feedback"),
-        ({"servo.initial_gain": 0.0}, "position gain (servo.initial_gain@1) is 0.0; it must be above 0"),
-        ({"servo.lead_screw_pitch": 0.0}, "travel (servo.lead_screw_pitch@1) is 0.0; it must be above 0"),
-        ({"servo.position_counts": 0.0}, "feedback counts (servo.position_counts@1) is 0.0"),
+        ({"servo.initial_gain": 0.0}, "position gain (servo.initial_gain@1) is 0; it must be above 0"),
+        ({"servo.lead_screw_pitch": 0.0}, "travel (servo.lead_screw_pitch@1) is 0; it must be above 0"),
+        ({"servo.position_counts": 0.0}, "feedback counts (servo.position_counts@1) is 0;"),
         ({"servo.initial_gain": "one"}, "servo.initial_gain of axis 1 is 'one', not a number"),
     ],
 )
@@ -155,7 +155,7 @@ def test_an_analog_axis_has_its_velocity_loop_in_the_drive(ninepc: File) -> None
 
 def test_the_borrowed_acceleration_is_flagged_until_it_is_given(ninepc: File) -> None:
     borrowed = axis_servo(ninepc(), "1")
-    assert any("ASSUMED: 1989.66667 mm/s2" in note for note in borrowed.assumptions)
+    assert any("ASSUMED: 1989.67 mm/s2" in note for note in borrowed.assumptions)
     own = axis_servo(ninepc(), "1", {"model.acceleration_at_rated": 4000.0})
     assert own.acceleration_at_rated == 4000.0
     assert not any("ASSUMED" in note for note in own.assumptions)

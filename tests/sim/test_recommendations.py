@@ -144,4 +144,4 @@ def test_a_value_the_parameter_cannot_take_is_cut_and_said(ninepc: File) -> None
     }
     advice = given(run(ninepc, values))["servo.excess_error"]
     assert advice.value == 214.1
-    assert "214.1 is the most servo.excess_error takes" in advice.why
+    assert "the upper limit of servo.excess_error is 214.1" in advice.why

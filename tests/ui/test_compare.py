@@ -47,7 +47,7 @@ def test_differences_by_kind_with_their_counts(dialog: CompareDialog, window: Ma
     assert [row for row in rows.values() if row[1] == "not in this file"]
     same = len(window.workspace.file.values) - len(rows) + 1
     assert (
-        dialog.text.text() == f"1 different, {same} the same, 1 absent in this file, 1 absent in other.amp."
+        dialog.text.text() == f"1 different, {same} the same, 1 not set in this file, 1 not set in other.amp."
     )
 
 

@@ -28,7 +28,7 @@ def test_facts_rules_and_history(window: MainWindow) -> None:
     window.go_to(EXCESS)
     assert "servo.excess_error" in page(window, "Facts")
     assert "✓" in page(window, "Rules")
-    assert "No saved change of servo.excess_error@1 yet" in page(window, "History")
+    assert "No saved changes of servo.excess_error@1 yet" in page(window, "History")
 
     window.edits.commit(EXCESS, "3 mm")
     assert window.save()

@@ -59,7 +59,7 @@ def test_a_file_changed_on_disk_is_not_overwritten(
 
     assert not window.save()
 
-    assert "was changed by another program" in person.reads()
+    assert "has been changed by another program" in person.reads()
     assert path.read_bytes() == touched
     assert window.workspace.file.get(EXCESS) == EDITED
 

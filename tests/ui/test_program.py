@@ -66,9 +66,7 @@ main([])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False,
                           env=os.environ)  # fmt: skip
-    assert done.stdout.startswith("Something went wrong in the program itself: ZeroDivisionError"), (
-        done.stderr
-    )
+    assert done.stdout.startswith("AMP Studio has an internal error: ZeroDivisionError"), done.stderr
     assert "Traceback" in done.stderr
 
 

@@ -146,7 +146,7 @@ def test_a_new_file_goes_into_the_project(
 
     accept(file_dialogs.NewFileDialog, lambda d: d.name.setText("mill"))
     action(window, "New").trigger()
-    assert person.reads() == "The project has a file 'mill' already."
+    assert person.reads() == "The project already has a file 'mill'. Choose another name."
 
 
 def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, person: Person) -> None:

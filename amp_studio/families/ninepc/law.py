@@ -238,7 +238,7 @@ def _digital(
     figures["acceleration_at_rated"] = DEFAULT_ACCELERATION if own is None else own
     if own is None:
         notes.append(
-            f"ASSUMED: {shown(DEFAULT_ACCELERATION)} {unit}/s2 at 100 % of rated torque. It is the printed default"
+            f"ASSUMED: {shown(DEFAULT_ACCELERATION, digits=6)} {unit}/s2 at 100 % of rated torque. It is the printed default"
             " of Maximum Servo Acceleration (Patch AMP values, 37-3), a figure for peak current (7-67) that a"
             f" digital axis does not have; all torque results depend on it. Set {OWN_ACCELERATION}:"
             " rated torque / inertia, at the axis."
