@@ -10,7 +10,7 @@ from pathlib import Path
 from amp_studio.files import ParameterFile, RangeError, open_file
 from amp_studio.files.lock import now
 from amp_studio.files.out_of_range import out_of_range
-from amp_studio.report.model import counted
+from amp_studio.report.wording import counted
 from amp_studio.schema import Address, InvalidValueError
 from amp_studio.transfer.client.exchange import Outcome
 from amp_studio.transfer.client.kept import IMAGE, digest_path, open_copy, save_image

@@ -19,7 +19,7 @@ from amp_studio.files import (
     open_file,
 )
 from amp_studio.files.lock import now
-from amp_studio.report.model import counted
+from amp_studio.report.wording import counted
 from amp_studio.schema import (
     MASKED,
     Address,

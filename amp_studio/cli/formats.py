@@ -7,7 +7,7 @@ import argparse
 from amp_studio.files import open_file, secret_values
 from amp_studio.files.out_of_range import out_of_range
 from amp_studio.formats import FamilyNotGivenError, export_file, import_file
-from amp_studio.report.model import counted
+from amp_studio.report.wording import counted
 from amp_studio.schema import UnknownFamilyError, written
 
 from .console import note

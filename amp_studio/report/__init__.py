@@ -8,9 +8,10 @@ from .build import build_report
 from .describe import definition, finding_json, finding_text, suppressed_text
 from .findings import alike, same_finding_text
 from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
-from .model import SORTS, Report, Sort, counted
+from .model import SORTS, Report, Sort
 from .printed_table import cells_of, table_lines, tables_of
 from .why import why_parts, why_text
+from .wording import counted
 from .write import FORMATS, write_report
 
 __all__ = [

@@ -19,7 +19,7 @@ from amp_studio.schema.model import BoundRef, Choice, StateRule
 from amp_studio.validate import Finding, Setting, Suppressed
 
 from .manual_page import entry_units, erratum_text, sharing_numbers
-from .model import SEVERITY_WORDS
+from .wording import severity_name
 
 
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
@@ -153,9 +153,9 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding as one or two lines for the terminal."""
     names = ", ".join(_named(file, a) for a in finding.addresses[:8])
     page = f" ({finding.cited})" if finding.page else ""
-    severity = SEVERITY_WORDS.get(finding.severity, finding.severity)
+    severity = severity_name(finding.severity)
     lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
-    for what, settings in (("the control uses", finding.effective), ("suggested fix", finding.repairs)):
+    for what, settings in (("effective value", finding.effective), ("suggested fix", finding.repairs)):
         if settings:
             values = ", ".join(
                 f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"

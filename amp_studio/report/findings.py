@@ -11,15 +11,16 @@ from amp_studio.schema import Address, show_value
 from amp_studio.validate import Finding, Setting, Suppressed
 
 from .describe import finding_text
-from .model import SEVERITY_WORDS, Note
+from .model import Note
 from .rows import axis_label, axis_name, scope_of
+from .wording import severity_name
 
 _NAMED = 6
 """Number of values that a note lists; a finding about more names only the first ones in its message."""
 
 
 def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
-    """Return the findings in their order; ``printed`` are the anchors of the values a report prints."""
+    """Return the findings as notes in their order; ``printed`` contains the anchors of the values in the report."""
     return tuple(_note(file, same, printed) for same in alike(findings))
 
 
@@ -42,7 +43,7 @@ def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
     names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))
     first = f"{place}{names}{': ' if names else ''}{note.message}"
     cited = f" ({same[0].cited})" if same[0].page else ""
-    lines = [f"{SEVERITY_WORDS.get(note.severity, note.severity):8} {first}{cited}"]
+    lines = [f"{severity_name(note.severity):8} {first}{cited}"]
     if note.repair:
         lines.append(f"         suggested fix: {note.repair}")
     return "\n".join(lines)

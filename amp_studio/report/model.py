@@ -240,18 +240,6 @@ class Report:
         return {name: notes for name, notes in found.items() if notes}
 
 
-SEVERITY_WORDS = {"advice": "recommendation"}
-"""What a person reads for a severity whose key is another word."""
-
-
-def counted(number: int, noun: str) -> str:
-    """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``noun`` may be a severity."""
-    noun = SEVERITY_WORDS.get(noun, noun)
-    if noun == "suppressed":
-        return f"{number} suppressed {'finding' if number == 1 else 'findings'}"
-    return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
 def printable(text: str) -> str:
     """Return a text without control characters for printers, terminals and text direction."""
     return (

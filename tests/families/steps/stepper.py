@@ -11,8 +11,8 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, load_schema, read_value, write_value
 from amp_studio.schema.registration import Registration
+from amp_studio.sim.axis_parameters import AxisParameters, MotorGains
 from amp_studio.sim.law import Law
-from amp_studio.sim.reading import MotorGains, Readings
 from amp_studio.sim.servo import AxisServo
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import NoConnectionError, WrongFamilyError
@@ -116,7 +116,7 @@ class Driver:
 # -- the law of its axes ---------------------------------------------------------------------------
 
 
-def _axis(read: Readings, _gains: MotorGains | None) -> AxisServo:
+def _axis(read: AxisParameters, _gains: MotorGains | None) -> AxisServo:
     return AxisServo(
         position_gain=1.0,
         velocity_rate=200.0,
