@@ -12,7 +12,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test mutants campaign faults check format schema lock bench man wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign faults check format schema lock bench man wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -21,7 +21,10 @@ run: setup-run ## set up what is missing and show the program on an example mach
 	@$(BIN)/amp-studio demo
 
 test: setup ## set up what is missing and run all tests
-	@$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile $(if $(COV),--cov --cov-report=term) $(TESTS)
+	@$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal $(if $(COV),--cov --cov-report=term) $(TESTS)
+
+durations: setup ## run all tests and print the sixty that take longest
+	@$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations=60 --durations-min=0.5 $(TESTS)
 
 mutants: setup ## change every rule and what it tells in every way, one at a time, and tell what no case notices
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_told_mutants.py

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,14 +11,35 @@ from pathlib import Path
 from amp_studio.schema.visible import visible
 
 HEAD = "amp_studio: 1\nfamily: 9pc\n"
-PROGRAM = [sys.executable, "-m", "amp_studio.cli"]
+STARTS = """
+import json, sys
+from amp_studio.cli import program
+
+for number, arguments in enumerate(json.load(sys.stdin)):
+    print(f"<{number}>", flush=True)
+    try:
+        program.start(arguments)
+    except SystemExit:
+        sys.stdout.flush()
+"""
+"""One start of the program after the other on the streams of one process, each told by its number."""
 
 
-def output_of(*arguments: object) -> bytes:
-    """Return all that the program writes on both of its streams."""
-    ended = subprocess.run([*PROGRAM, *map(str, arguments)], capture_output=True, check=False)
-    assert b"Traceback" not in ended.stderr
-    return ended.stdout + ended.stderr
+def outputs_of(*runs: tuple[object, ...]) -> list[str]:
+    """Return all that each run of the program writes on both of its streams."""
+    starts = json.dumps([[str(argument) for argument in run] for run in runs])
+    ended = subprocess.run(
+        [sys.executable, "-c", STARTS],
+        input=starts.encode(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        check=True,
+    )
+    written = ended.stdout.decode("utf-8")
+    assert "Traceback" not in written
+    found = re.split(r"^<\d+>\n", written, flags=re.MULTILINE)
+    assert len(found) == len(runs) + 1
+    return found[1:]
 
 
 def test_no_sign_of_a_file_steers_the_terminal(tmp_path: Path) -> None:
@@ -32,7 +54,7 @@ def test_no_sign_of_a_file_steers_the_terminal(tmp_path: Path) -> None:
     other = tmp_path / "other.amp"
     other.write_text(f"{HEAD}family: {escaped}\n...\n", encoding="utf-8")
     named = tmp_path / f"x{sign}.amp"
-    for arguments in (
+    runs: tuple[tuple[object, ...], ...] = (
         ("get", path, "--all"),
         ("get", path, "--all", "--json"),
         ("validate", path, "--why"),
@@ -43,8 +65,9 @@ def test_no_sign_of_a_file_steers_the_terminal(tmp_path: Path) -> None:
         ("validate", other),
         ("get", named),
         (sign,),
-    ):
-        written = output_of(*arguments).decode("utf-8")
+    )
+    for arguments, written in zip(runs, outputs_of(*runs), strict=True):
+        assert written, arguments
         assert set(written).isdisjoint("\x1b\x07\x9b\r\x08\x7f\u202e\u2028"), arguments
 
 

@@ -19,6 +19,7 @@ LIKE = {68: 72, 69: 73, 104: 72, 105: 73}
 """Interrupt registers, whose bits are those of another (4-43 and 4-45)."""
 
 
+@cache
 def registers(printed: str) -> list[int]:
     """Return the registers of ``11,12``, ``68/69`` or ``0-14,31``."""
     found: list[int] = []
@@ -141,7 +142,7 @@ def check_choices(book: Module) -> Iterator[Disagreement]:
             yield from choice_of(book, section, fact)
             for parameter in book.owners(fact.number):
                 printed.setdefault(parameter.id, set()).update(map(int, filter(None, [fact.letter])))
-    for parameter in book.schema.parameters.values():
+    for parameter in (parameter for parameter in book.schema.parameters.values() if parameter.bits):
         like = [p.id for r in book.own(parameter.id) for p in book.owners(str(LIKE.get(r, r)))]
         bits = set().union(*(printed.get(name, set()) for name in like))
         for bit in parameter.bits or ():

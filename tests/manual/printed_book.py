@@ -65,6 +65,7 @@ def claims_of(schema: Schema) -> dict[str, tuple[Claim, ...]]:
 # -- texts ------------------------------------------------------------------------------------------------
 
 
+@cache
 def squashed(text: str) -> str:
     """Return letters, digits and signs only: a scan loses blanks and adds them."""
     return re.sub(r"[^a-z0-9.<>$+%#]|(?<!\d)\.|\.(?!\d)", "", text.lower())
