@@ -52,6 +52,7 @@ DOCUMENTS = (
     "README.md",
     "CONTRIBUTING.md",
     "docs/architecture.md",
+    "docs/formats.md",
     "docs/rules.md",
     "docs/schema.md",
     "docs/simulation.md",

@@ -50,7 +50,7 @@ class ControlActions:
         download = act("&Download to Control…", self.download, "F5", "file", icons.SP_ArrowDown, "Download")
         verify = act("&Verify With Control…", self.verify, "F6", "file", icons.SP_DialogApplyButton, "Verify")
         upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
-        put_back = act("&Restore Kept Copy…", partial(restore, self), None, "")
+        put_back = act("&Restore Control From Backup…", partial(restore, self), None, "")
         menu.addActions([download, verify, upload, put_back])
         menu.addSeparator()
         self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, 
 
 from amp_studio.files.held import held_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
-from amp_studio.report.wording import local_time, state_name
+from amp_studio.report.wording import local_time, severity_name, state_name
 from amp_studio.schema import (
     Address,
     Value,
@@ -183,7 +183,7 @@ class DetailPanel(QWidget):
         for rule in self._workspace.validator.rules_of(address):
             names = ", ".join(f"{n} = {link(schema, read_address(t)[0])}" for n, t in rule.reads.items())
             mark = "✗" if rule.id in broken else "✓"
-            cited = ", ".join(filter(None, (rule.severity, html.escape(rule.cited))))
+            cited = ", ".join(filter(None, (severity_name(rule.severity), html.escape(rule.cited))))
             when = f" where {html.escape(rule.when)}" if rule.when != "true" else ""
             lines.append(
                 f"<p>{mark} <b>{html.escape(rule.title)}</b> <small>({cited})</small><br>"

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.report.wording import counted
+from amp_studio.report.wording import counted, severity_name
 from amp_studio.schema import show_value
 from amp_studio.validate import SEVERITIES, Finding
 
@@ -34,7 +34,7 @@ from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
 _COLUMNS = ("Severity", "Parameters", "Finding", "Suggested fix", "Page")
-_WIDTHS = (88, 230, 480, 170, 52)
+_WIDTHS = (136, 230, 480, 170, 52)
 
 
 class FindingsTable(QAbstractTableModel):
@@ -87,7 +87,7 @@ class FindingsTable(QAbstractTableModel):
                 f"{file.machine_schema.short(r.address)} = {show_value(file.schema.parameters[r.address[0]], r.value)}"
                 for r in finding.repairs
             )
-        return {0: finding.severity, 2: finding.message}.get(column, finding.page or "")
+        return {0: severity_name(finding.severity), 2: finding.message}.get(column, finding.page or "")
 
 
 class _View(QTableView):

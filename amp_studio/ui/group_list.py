@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
+from amp_studio.report.wording import counted
 from amp_studio.schema import Parameter
 
 from .theme import severity_ink
@@ -135,7 +136,7 @@ class GroupList(QWidget):
                 count = sum(s == severity and not keys.isdisjoint(places) for s, places in found)
                 item.setText(column, str(count) if count else "")
                 item.setForeground(column, severity_ink(severity))
-                item.setToolTip(column, f"{count} {severity}{'' if count == 1 else 's'}" if count else "")
+                item.setToolTip(column, counted(count, severity) if count else "")
 
     def _follow(self, addresses: list[object]) -> None:
         """Update the counts, and a list that depends on values, after the present edit."""

@@ -231,7 +231,7 @@ def test_a_copied_axis_keeps_its_own_port_and_name(mill: ParameterFile) -> None:
 def test_a_page_tells_span_effect_and_alarms(syntec: Schema) -> None:
     page = page_of(syntec, "Pr3203")
     assert "Number         Pr3203" in page
-    assert "Takes effect   the manual does not say" in page
+    assert "Takes effect   not given in the manual" in page
     assert "MOT-005 DDA command overflow (page 1.5.1)" in page
     assert "Pr122, Pr124 … Pr160 (Axis 1 to Axis 20)" in page_of(syntec, "Pr122")
 

@@ -343,7 +343,7 @@ def test_a_kept_copy_goes_back_byte_for_byte_after_a_look_at_what_that_changes(
 
     person.chooses(kept)
     person.types(control.address)
-    action(window, "Restore Kept Copy").trigger()
+    action(window, "Restore Control From Backup").trigger()
 
     assert person.reads().startswith("Download complete and read back equal")
     assert parameters.fetch_image(control.address) == before
@@ -368,7 +368,7 @@ def test_garbage_that_was_kept_is_asked_about_before_it_goes_back(
         person.chooses(kept)
         person.types(control.address)
         person.answers(answer)
-        action(window, "Restore Kept Copy").trigger()
+        action(window, "Restore Control From Backup").trigger()
         assert "cannot be shown" in person.asked[-1]
         assert (parameters.fetch_image(control.address) == garbage) is held
     assert person.reads().startswith("Download complete and read back equal")
@@ -379,5 +379,5 @@ def test_a_copy_that_was_changed_is_not_put_back(window: MainWindow, person: Per
     copy.write_bytes(b"changed")
     copy.with_name(copy.name + ".sha256").write_text("0" * 64, encoding="ascii")
     person.chooses(copy)
-    action(window, "Restore Kept Copy").trigger()
+    action(window, "Restore Control From Backup").trigger()
     assert "is not what was kept" in person.reads()
