@@ -213,3 +213,13 @@ def test_the_scenario_goes_from_a_file_to_a_trace_in_one_call(ninepc: File) -> N
     for slip in ({"move.speed": 1.0}, {"move.distance": "far"}):
         with pytest.raises(SimulationError, match=r"move\."):
             SCENARIOS["step"].run(ninepc(), "1", slip, "9pc", None)
+
+
+def test_advice_ends_at_the_bounds_that_the_manual_prints(ninepc: File) -> None:
+    linear = axis_servo(ninepc(), "1").sources
+    rotary = axis_servo(ninepc({"axis.type": "rotary"}), "1").sources
+    assert (linear["excess_error"].largest, rotary["excess_error"].largest) == (214.1, 214.0)  # page 7-20
+    assert (linear["position_gain"].largest, linear["gain_break_ratio"].largest) == (30.0, 1.0)
+    assert linear["linear_acceleration"].largest == 20000.0
+    assert linear["rapid_feedrate"].largest == 243840.0  # page 9-1
+    assert linear["velocity_rate"].largest == 65535.0

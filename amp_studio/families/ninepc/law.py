@@ -19,7 +19,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from amp_studio.schema import Table
+from amp_studio.schema import Table, canonical, load_schema
 from amp_studio.sim.axis_parameters import AxisParameters, MotorGains
 from amp_studio.sim.law import Law
 from amp_studio.sim.rounding import shown
@@ -30,8 +30,6 @@ PER_MS = 65536.0
 """Velocity loop gain for 1 per ms."""
 RATE = 1000.0 / PER_MS
 """1/s for a velocity loop gain of 1."""
-DEFAULT_ACCELERATION = 1989.66667
-"""mm/s2: the printed default of Maximum Servo Acceleration (1021, Patch AMP values from 37-3 on)."""
 ANALOG_RATIO = 10923.0 * 60.0 / PER_MS
 """Ratio of velocity loop rate to position loop rate at the upper end of the printed bounds: 10."""
 
@@ -57,27 +55,24 @@ MODEL_SETTINGS = {
 }
 """Settings of the model that are not parameters of the control."""
 
-_LARGEST = {"mm": 214.1, "deg": 214.0}
-"""Upper bound of the limits of following error (7-20 to 7-24)."""
 _ALWAYS_READ = {
-    "position_gain": Source("servo.initial_gain", page="7-25", largest=30.0),
+    "position_gain": Source("servo.initial_gain", page="7-25"),
     "inposition_band": Source("servo.inposition_band", page="7-24"),
     "feedrate_suppression": Source("servo.feedrate_suppression", page="7-21"),
     "excess_error": Source("servo.excess_error", page="7-20"),
-    "linear_acceleration": Source("accdec.linear_acceleration", page="10-8", largest=20000.0),
-    "linear_deceleration": Source("accdec.linear_deceleration", page="10-10", largest=20000.0),
+    "linear_acceleration": Source("accdec.linear_acceleration", page="10-8"),
+    "linear_deceleration": Source("accdec.linear_deceleration", page="10-10"),
 }
 _BREAK = {
     "gain_break_point": Source("servo.gain_break_point", page="7-22"),
-    "gain_break_ratio": Source("servo.gain_break_ratio", page="7-27", largest=1.0),
+    "gain_break_ratio": Source("servo.gain_break_ratio", page="7-27"),
 }
-_LIMITS = ("inposition_band", "feedrate_suppression", "excess_error", "gain_break_point")
 _DIGITAL = {
-    "velocity_rate": Source(PROPORTIONAL, 1.0 / RATE, "", True, 65535.0, "7-54"),
-    "integral_rate": Source(INTEGRAL, 1.0 / RATE, "", True, 65535.0, "7-56"),
-    "integrator_discharge": Source("servo.integrator_discharge", 1.0, "", True, 8.0, "7-58"),
-    "torque_limit_positive": Source("servo.max_torque_positive", page="7-62", largest=300.0),
-    "torque_limit_negative": Source("servo.max_torque_negative", page="7-61", largest=300.0),
+    "velocity_rate": Source(PROPORTIONAL, 1.0 / RATE, "", True, page="7-54"),
+    "integral_rate": Source(INTEGRAL, 1.0 / RATE, "", True, page="7-56"),
+    "integrator_discharge": Source("servo.integrator_discharge", 1.0, "", True, page="7-58"),
+    "torque_limit_positive": Source("servo.max_torque_positive", page="7-62"),
+    "torque_limit_negative": Source("servo.max_torque_negative", page="7-61"),
 }
 _OTHERS = {
     "servo_period": Source(CYCLE, page="7-4"),
@@ -117,8 +112,6 @@ def axis_servo(read: AxisParameters, motor_gains: MotorGains | None = None) -> A
             figures[name] = read.number(source.parameter)
     figures["servo_period"] = read.number(CYCLE, everywhere=True)
     sources = {**needed, **_OTHERS, "travel": _feedback(read, unit, figures, notes)}
-    for name in _LIMITS:
-        sources[name] = replace(sources[name], largest=_LARGEST[unit])
     if loop == "digital":
         _digital(read, unit, figures, notes, motor_gains)
         sources.update(_DIGITAL)
@@ -129,7 +122,7 @@ def axis_servo(read: AxisParameters, motor_gains: MotorGains | None = None) -> A
     figures["viscous_friction"] = read.optional(VISCOUS) or 0.0
     figures["coulomb_friction"] = read.optional(COULOMB) or 0.0
     time, scan = _exponential(read, notes)
-    sources["exponential_time"] = Source(DELAY, 1.0 / scan if scan else 1.0, "", True, 100.0, "10-17")
+    sources["exponential_time"] = Source(DELAY, 1.0 / scan if scan else 1.0, "", True, page="10-17")
     mode = read.value("accdec.positioning_mode", everywhere=True)
     return AxisServo(
         **figures,
@@ -142,9 +135,31 @@ def axis_servo(read: AxisParameters, motor_gains: MotorGains | None = None) -> A
         unit=unit,
         axis=read.axis,
         model=MODEL,
-        sources=sources,
+        sources={
+            name: replace(source, largest=_largest(source.parameter, unit))
+            for name, source in sources.items()
+        },
         assumptions=(*notes, *(_ZFE if zfe else _CLOSED), *_ALWAYS),
     )
+
+
+def _largest(parameter_id: str, unit: str) -> float:
+    """Return the upper bound that is printed for a parameter of an axis that moves in ``unit``, in canonical units."""
+    parameter = load_schema("9pc").parameters.get(parameter_id)
+    if parameter is None:
+        return math.inf  # a setting of the model
+    turning = (v.ranges for v in parameter.range_variants if v.when == "rotary_axis" and unit == "deg")
+    ranges = next(turning, parameter.ranges or {})
+    metric = ((printed, high) for printed, (_, high) in ranges.items() if not printed.startswith("in"))
+    printed, high = next(metric, ("", None))
+    return canonical(high, printed) if isinstance(high, float) else math.inf
+
+
+def _printed_acceleration() -> float:
+    """Return the printed default of Maximum Servo Acceleration in mm/s2 (Patch AMP values from 37-3 on)."""
+    default = load_schema("9pc").parameters[MAX_ACCELERATION].default
+    assert default is not None
+    return canonical(float(default.value), default.unit)
 
 
 def _kind(read: AxisParameters) -> tuple[str, str, bool]:
@@ -235,10 +250,10 @@ def _digital(
         " the bounds of 7-54 and 7-56; the manual prints no unit."
     )
     own = read.optional(OWN_ACCELERATION)
-    figures["acceleration_at_rated"] = DEFAULT_ACCELERATION if own is None else own
+    figures["acceleration_at_rated"] = _printed_acceleration() if own is None else own
     if own is None:
         notes.append(
-            f"ASSUMED: {shown(DEFAULT_ACCELERATION, digits=6)} {unit}/s2 at 100 % of rated torque. It is the printed default"
+            f"ASSUMED: {shown(_printed_acceleration(), digits=6)} {unit}/s2 at 100 % of rated torque. It is the printed default"
             " of Maximum Servo Acceleration (Patch AMP values, 37-3), a figure for peak current (7-67) that a"
             f" digital axis does not have; all torque results depend on it. Set {OWN_ACCELERATION}:"
             " rated torque / inertia, at the axis."
