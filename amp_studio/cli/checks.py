@@ -79,7 +79,7 @@ def validate_verb(options: argparse.Namespace) -> int:
         checked.append(one)
         note(f"amp-studio: {one.fault}")
     good = [one for one in checked if not one.fault]
-    if options.json and paths != options.paths[:1]:
+    if options.json and paths and paths != options.paths[:1]:
         print_json({"files": [one.json for one in checked]})
     elif options.json and good:
         print_json(good[0].told)
