@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from .outcome import Target
 
 FAULT, CHANGED, UNKNOWN = 2, 3, 4
+BEGINNING, END = 1500, 1500
+"""Signs of a message that are shown at most."""
 AT_CONTROL = {"old": FAULT, "new": CHANGED, "unknown": UNKNOWN}
 """The exit code of an exchange by what the control holds after it."""
 
@@ -129,6 +131,12 @@ def _leave() -> int:
     return 0
 
 
+def _one_line(text: str) -> str:
+    """Return a message in one line that can be read, whatever somebody wrote that it repeats; its end says what holds."""
+    line = " ".join(text.split())
+    return line if len(line) <= BEGINNING + END else f"{line[:BEGINNING]} … {line[-END:]}"
+
+
 def _refuse(text: str, replaced: Sequence[Target], code: int = FAULT, *, quiet: bool = False) -> int:
     """Say in one line what went wrong and what holds now, and return the exit code; ``quiet`` where nothing has changed.
 
@@ -137,5 +145,5 @@ def _refuse(text: str, replaced: Sequence[Target], code: int = FAULT, *, quiet: 
     end_results()
     now = "; ".join(filter(None, (target.sentence() for target in replaced)))
     if now or not quiet:
-        tell(f"amp-studio: {' '.join(text.split())}{f'; {now}' if now else ''}")
+        tell(f"amp-studio: {_one_line(text)}{f'; {now}' if now else ''}")
     return max(code, CHANGED) if now else code

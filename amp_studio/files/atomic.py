@@ -96,6 +96,7 @@ def write_atomic(
         if looks and _digest(_content_of(real)) != _digest(previous):
             raise ChangedOnDisk(f"{path.name} has been changed by another program while it was saved")
         if kept is not None:
+            stack.enter_context(_put_back_unless_saved(kept, temporary))
             os.replace(kept_temporary, kept)
         os.replace(temporary, real)
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
@@ -143,6 +144,28 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
     finally:
         with contextlib.suppress(OSError):
             os.unlink(temporary)
+
+
+@contextlib.contextmanager
+def _put_back_unless_saved(kept: Path, temporary: Path) -> Iterator[None]:
+    """Keep the older backup until the file itself has been replaced: a save that fails there has changed nothing."""
+    older, has_older = kept.with_name(f".{kept.name[:24]}.{secrets.token_hex(8)}.tmp"), os.path.lexists(kept)
+    with contextlib.suppress(OSError):  # a file system without a second name for a file
+        os.link(kept, older, follow_symlinks=False)
+    try:
+        yield
+    except OSError:
+        with contextlib.suppress(OSError):
+            if not os.path.lexists(temporary):
+                pass  # it has become the file all the same
+            elif has_older:
+                os.replace(older, kept)
+            else:
+                os.unlink(kept)
+        raise
+    finally:
+        with contextlib.suppress(OSError):
+            os.unlink(older)
 
 
 def write_all(handle: int, content: bytes) -> None:

@@ -61,3 +61,10 @@ def test_a_reader_that_has_enough_is_no_fault_to_be_shown() -> None:
         program.stdout.close()
         assert program.stderr.read() == b""
     assert program.wait() > 0
+
+
+def test_a_message_is_one_line_that_can_be_read_whatever_it_repeats(amp) -> None:
+    said = amp("verify", "nothing.amp", "--with", "x" * 1_000_000).err
+    assert len(said) < 3100
+    said = amp("calculate", "9pc", "x" * 1_000_000).err
+    assert len(said) < 3100

@@ -55,6 +55,27 @@ def test_the_previous_file_becomes_the_backup(old: Path) -> None:
     assert {"machine.amp", "machine.amp.bak"} == names(old.parent)
 
 
+@pytest.mark.parametrize("older", [b"older", None])
+def test_a_save_that_fails_at_the_last_step_leaves_the_older_backup(
+    old: Path, monkeypatch: pytest.MonkeyPatch, older: bytes | None
+) -> None:
+    if older:
+        backup_path(old).write_bytes(older)
+    replace = os.replace
+
+    def refused(source: Path, target: Path) -> None:  # as in a folder with the sticky bit
+        if target == old:
+            raise PermissionError(1, "Operation not permitted")
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", refused)
+    before = names(old.parent)
+    with pytest.raises(SaveError, match="Operation not permitted"):
+        write_atomic(old, NEW)
+    assert (old.read_bytes(), names(old.parent)) == (OLD, before)
+    assert not older or backup_path(old).read_bytes() == older
+
+
 def test_a_new_file_has_no_backup(tmp_path: Path) -> None:
     write_atomic(tmp_path / "new.amp", NEW, None)
     assert {"new.amp"} == names(tmp_path)
