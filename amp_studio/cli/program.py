@@ -25,7 +25,7 @@ BEGINNING, END = 1500, 1500
 AT_CONTROL = {"old": FAULT, "new": CHANGED, "unknown": UNKNOWN}
 """The exit code of an exchange by what the control holds after it."""
 
-_OBJECTS = 100_000
+_OBJECTS = 300_000
 """New objects before Python looks for unreachable ones: facts and values are many and stay, a fifth of a check's time."""
 
 

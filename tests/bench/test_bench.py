@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 TARGETS = {
+    "--version, cold process",
     "validate, cold process",
     "report to PDF, cold process",
     "first paint of the desktop program, cold process",
