@@ -15,7 +15,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 .PHONY: help run test durations mutants campaign faults check format schema lock bench man wheel clean setup setup-run
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 run: setup-run ## set up what is missing and show the program on an example machine
 	@$(BIN)/amp-studio demo
