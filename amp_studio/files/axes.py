@@ -139,7 +139,7 @@ def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
 
 
 def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
-    """Make an axis unfitted and put its values back to their printed defaults; a value without one is unset."""
+    """Make an axis unfitted and put its values back to their printed defaults; a value without one is not set."""
     profile = _profile(file)
     if axis not in axis_instances(file):
         raise AxisError(f"there is no axis {axis}")

@@ -12,7 +12,7 @@ from .parameter_file import ParameterFile
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """One address at which two sides differ; None is absent on that side."""
+    """One address at which two sides differ; None: not set on that side."""
 
     address: Address
     a: Value | None

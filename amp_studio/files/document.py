@@ -45,7 +45,7 @@ class Unsaved:
     who: str
     changes: tuple[Change, ...]
     header: dict[str, str]
-    """What the file says of itself (name, notes, …), where that was changed."""
+    """Changed entries of the header (name, notes, …)."""
     fits: bool
     """Whether the file is still the one the work was done on."""
 
@@ -132,7 +132,7 @@ class Document:
 
     @property
     def is_dirty(self) -> bool:
-        """Whether values, marks or what the file says of itself differ from what is on disk."""
+        """Whether values, marks or header differ from the file on disk."""
         rest = (self.file.header, self.file.forced)
         return self.digest is None or self.saved != self.file.values or self._saved_rest != rest
 
@@ -238,7 +238,7 @@ class Document:
         self._journal_is_ours = True
 
     def _unsaved_header(self) -> dict[str, str]:
-        """Return what the file says of itself now, where that differs from what is on disk."""
+        """Return the header entries that differ from the file on disk."""
         saved = self._saved_rest[0]
         return {
             key: text for key in _TYPED if (text := getattr(self.file.header, key)) != getattr(saved, key)

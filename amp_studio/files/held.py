@@ -1,4 +1,4 @@
-"""How the control itself holds a value, for a person who looks at it there."""
+"""The text of a value as it is stored in the control."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ _TRIES = 100
 
 
 class InUse(OSError):
-    """Another program has the file open; the text says which, where and since when."""
+    """Another program has the file open; the text contains which one, where and since when."""
 
 
 class EditLock:
@@ -47,7 +47,7 @@ class EditLock:
         self.note = ""
         """Why nobody is kept out, where the file system has no locks: a sentence for the person at work."""
         self.is_taken = False
-        """Whether this object holds the right."""
+        """Whether this object has the lock."""
         self._handle: int | None = None
         self._place = path
 
@@ -106,7 +106,7 @@ class EditLock:
             return "it left no details"
 
     def _tell_who(self) -> None:
-        """Write who holds the lock into a file of his own: a link that somebody put there is removed, not followed."""
+        """Write who has the lock into a file of his own: a link that somebody put there is removed, not followed."""
         who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"
         with contextlib.suppress(OSError):
             self._holder_path().unlink(missing_ok=True)
@@ -148,7 +148,7 @@ def _opened(place: Path) -> int:
         return os.open(place, flags | os.O_RDWR | os.O_CREAT, 0o666)
     except PermissionError as error:
         try:
-            return os.open(place, flags | os.O_RDONLY)  # another user's: it can be locked all the same
+            return os.open(place, flags | os.O_RDONLY)  # another user's: it can be locked anyway
         except FileNotFoundError:
             raise error from None
 
@@ -161,12 +161,12 @@ def _still_named(handle: int, place: Path) -> bool:
 
 
 def _is_open_to_us(folder: Path) -> bool:
-    """Tell whether a file in a folder can be saved; what is no folder is told elsewhere."""
+    """Return whether a file in a folder can be saved; a path that is not a folder is reported elsewhere."""
     return os.access(folder, os.W_OK) or not folder.is_dir()
 
 
 def _is_sound(place: Path) -> bool:
-    """Tell whether nothing but a lock file has its name: then it is the system that has no lock to give."""
+    """Return whether nothing but a lock file has its name: then it is the system that has no lock to give."""
     try:
         demand_file(os.lstat(place))
     except FileNotFoundError:

@@ -22,7 +22,7 @@ from amp_studio.schema.nearest import unknown_name
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One value replaced by another; None is unset."""
+    """One value replaced by another; None means not set."""
 
     address: Address
     old: Value | None
@@ -34,7 +34,7 @@ class Change:
 
 
 class RangeError(ValueError):
-    """A value that its parameter does not allow; ``faults`` holds one sentence for each address."""
+    """A value that its parameter does not allow; ``faults`` contains one message for each address."""
 
     def __init__(self, faults: dict[Address, str]) -> None:
         self.faults = faults
@@ -43,7 +43,7 @@ class RangeError(ValueError):
 
 @dataclass
 class Header:
-    """What a parameter file says of itself."""
+    """The header of a parameter file."""
 
     name: str = ""
     application: str = ""
@@ -77,7 +77,7 @@ class ParameterFile:
 
     @property
     def machine(self) -> str:
-        """The machine type: the value of the family's machine parameter, or what the header says."""
+        """The machine type: the value of the family's machine parameter, or the header's entry."""
         family = self.schema.family
         if family.machine_parameter:
             value = self.values.get((family.machine_parameter, ""))
@@ -110,7 +110,7 @@ class ParameterFile:
         return default_value(self.schema, self.evaluation, address)
 
     def is_default(self, address: Address) -> bool:
-        """Tell whether a value equals the printed default, whatever the unit.
+        """Return whether a value equals the printed default, whatever the unit.
 
         A secret of several instances does as a whole or not at all: which sign of a password is the printed one
         would give the rest of it away.
@@ -139,7 +139,7 @@ class ParameterFile:
         return change
 
     def apply(self, change: Change) -> None:
-        """Make a change and tell everyone who listens."""
+        """Make a change and notify all listeners."""
         if change.new is None:
             self.values.pop(change.address, None)
         else:
@@ -182,7 +182,7 @@ class ParameterFile:
             if address in faults:
                 self.forced[address] = force
             if address not in changed and self.forced.get(address) != marks.get(address):
-                self._tell(Change(address, value, value))  # the value stands as it did, its mark does not
+                self._tell(Change(address, value, value))  # the value is unchanged, its mark is not
         return changes
 
     def listen(self, listener: Callable[[Change], None]) -> Callable[[], None]:
@@ -259,7 +259,7 @@ def new_file(
 
 
 def fill_defaults(file: ParameterFile, instances: Iterable[str] | None = None) -> list[Change]:
-    """Give every unset value its printed default; returns the changes."""
+    """Set every value that is not set to its printed default; returns the changes."""
     only = None if instances is None else set(instances)
     changes = []
     for address in file.addresses():
@@ -271,7 +271,7 @@ def fill_defaults(file: ParameterFile, instances: Iterable[str] | None = None) -
 
 
 def secret_values(file: ParameterFile) -> list[Address]:
-    """Return where a file holds passwords and the like, which are shown only where that is asked for."""
+    """Return the addresses of set secrets (passwords), which are shown on request only."""
     return [a for a in file.values if file.schema.parameters[a[0]].secret]
 
 

@@ -30,7 +30,7 @@ def real_path(path: Path) -> Path:
 
 
 def is_there(path: Path) -> bool:
-    """Tell whether a name is taken, by a file, a link that leads nowhere, or anything else; raises OSError where nobody can tell."""
+    """Return whether a name is taken, by a file, a link that leads nowhere, or anything else; raises OSError if this cannot be found out."""
     try:
         os.lstat(path)
     except FileNotFoundError:
@@ -54,7 +54,7 @@ def destination(path: Path) -> Path:
 
 
 def same_file(a: Path, b: Path) -> bool:
-    """Tell whether two paths are one file, by whatever link, hard link or spelling."""
+    """Return whether two paths are one file, by whatever link, hard link or spelling."""
     try:
         return a.samefile(b)
     except OSError:
@@ -100,5 +100,5 @@ def text_of_name(name: str) -> str:
 
 
 def is_link(path: Path) -> bool:
-    """Tell whether a path is a link itself; raises OSError."""
+    """Return whether a path is a link itself; raises OSError."""
     return stat.S_ISLNK(os.lstat(path).st_mode)

@@ -35,7 +35,7 @@ class InvalidNameError(ValueError):
 
 @dataclass(frozen=True)
 class ProjectInfo:
-    """What a project says of its machine and of the way to its control."""
+    """The machine of a project and the connection to its control."""
 
     name: str
     family: str
@@ -172,7 +172,7 @@ class Project:
 
 
 def _read(path: Path, content: bytes) -> ProjectInfo:
-    """Return what the content of a project file says; raises ParameterFileError."""
+    """Return the content of a project file; raises ParameterFileError."""
     try:
         text = text_of(path, content, ParameterFileError)
         document = read_yaml(text, text_scalar, spans=True)
@@ -205,7 +205,7 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
 
 
 def _content(info: ProjectInfo, previous: bytes | None) -> str:
-    """Return the text of a project file; what did not change, and what it says besides, stays as it is."""
+    """Return the text of a project file; unchanged and unknown entries are kept."""
     wanted: dict[str, Any] = {_VERSION: PROJECT_FORMAT, **{key: getattr(info, key) for key in _TEXTS}}
     if previous is not None:
         document = read_yaml(previous.decode("utf-8"), text_scalar, spans=True)

@@ -14,7 +14,7 @@ _SAFE = re.compile("'" + _FORMULA.pattern)
 
 
 def text_cell(text: str) -> str:
-    """Return a cell that holds ``text``: with an apostrophe before what would be a formula. A plain number stays one."""
+    """Return a cell with ``text``: with an apostrophe before what would be a formula. A plain number stays one."""
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 

@@ -59,7 +59,7 @@ class ParameterFileError(FileError):
 
 @dataclass(frozen=True)
 class Opened:
-    """A file as it was read: what it holds, and what it was on disk."""
+    """A file as it was read: its content, and its state on disk."""
 
     file: ParameterFile
     path: Path
@@ -273,7 +273,7 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
         if not wanted.get(key) and not known.get(key):
             wanted.pop(key, None)
             if key in known:
-                wanted[key] = known[key]  # nothing stands there, and shall
+                wanted[key] = known[key]  # an empty entry stays as it is written
         elif not wanted.get(key):
             wanted.pop(key, None)
     found = amended(document, known, wanted, _SECTIONS)

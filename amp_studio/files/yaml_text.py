@@ -45,7 +45,7 @@ def scalar_text(value: Any) -> str:
 
 
 def _is_plain(text: str) -> bool:
-    """Tell whether a text needs no quotes: it has no sign that means something, and is read as a text."""
+    """Return whether a text needs no quotes: it has no sign that means something, and is read as a text."""
     if not _PRINTABLE.fullmatch(text) or not _PLAIN.fullmatch(text) or ": " in text or " #" in text:
         return False
     return isinstance(typed_scalar(text), str) and not _LOOKS_OTHERWISE.fullmatch(text)
@@ -105,7 +105,7 @@ def amended(
     """Return the text of a document with other entries; None where it is a mapping in braces, which has no lines.
 
     ``known`` is what each entry means now, in the terms of ``wanted``: what is equal in both is not touched. The entries
-    of ``sections`` are looked at one by one.
+    of ``sections`` are compared one by one.
     """
     editor = _Editor(document, sections)
     if not isinstance(document.data, dict) or any(editor.is_flow((key,)) for key in document.data):

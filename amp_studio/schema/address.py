@@ -12,7 +12,7 @@ Address = tuple[str, str]
 class UnknownParameterError(KeyError):
     """A number or an id that the family does not have; the text is one clear sentence.
 
-    ``nearest`` is asked for the names that come near only when the text is read: many are met and never told.
+    ``nearest`` is asked for the names that come near only when the text is read: many are never shown.
     """
 
     def __init__(self, said: str, nearest: Callable[[], Sequence[str]] = tuple) -> None:

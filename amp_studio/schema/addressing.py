@@ -60,7 +60,7 @@ class Meant:
     """Further instances that the manual prints this number for."""
 
     def said(self, schema: Schema) -> str:
-        """Return one sentence that tells which of several parameters a number means; empty where there is but one."""
+        """Return a message with the parameter that an ambiguous number means; empty where there is but one."""
         if not self.others:
             return ""
 
@@ -223,7 +223,7 @@ def _offered(instances: tuple[str, ...]) -> str:
 
 
 def unknown(schema: Schema, text: str) -> tuple[str, partial[list[str]]]:
-    """Return what is said of a name that no parameter has, and what tells the nearest ones."""
+    """Return the message for an unknown name, and the function that lists the nearest names."""
     return f"Unknown parameter {quoted(text)}", partial(_nearest, schema, text)
 
 

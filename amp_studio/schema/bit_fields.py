@@ -22,7 +22,7 @@ _SHOWN = 6
 def word_of_labels(parameter: Parameter, text: str) -> int | None:
     """Return the word that labels mean; None where nothing in the text is one.
 
-    Raises InvalidValueError for a label that stands beside good ones and is unknown, or that several bits share.
+    Raises InvalidValueError for an unknown label beside known ones, or that several bits share.
     """
     if plain(text) == "none":
         return 0
@@ -51,7 +51,7 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
 
 
 def no_label(parameter: Parameter, text: str) -> str:
-    """Return what is said of a text that is no bit of a word, with the labels that come near."""
+    """Return the message for a text that is not a bit of a word, with the nearest labels."""
     labels = {plain(b.label): b.label for b in parameter.bits or ()}
     near = [labels[n] for n in get_close_matches(plain(text[:80]), labels, 3, 0.5)]
     if near:
@@ -113,7 +113,7 @@ def field_at(parameter: Parameter, bit: int) -> Bit:
 
 
 def field_value(field: Bit, word: int) -> int:
-    """Return the number that stands in a field of a word."""
+    """Return the number in a field of a word."""
     number = (word >> field.bit) & ((1 << field.width) - 1)
     return number - (1 << field.width) if field.signed and number >> (field.width - 1) else number
 

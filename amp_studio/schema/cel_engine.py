@@ -51,12 +51,12 @@ _WIDEST = 64
 
 
 def _bit(word: float | None, n: float) -> bool | None:
-    """Tell whether a bit of a word is set; null of an unset word, which ends an expression like any other null."""
+    """Return whether a bit of a word is set; null for a word that is not set, which ends an expression like any other null."""
     return None if word is None else int(word) >> int(n) & 1 == 1
 
 
 def _field(word: float | None, n: float, width: float) -> float | None:
-    """Return the number in the bits of a word that begin at ``n``; null of an unset word."""
+    """Return the number in the bits of a word that begin at ``n``; null for a word that is not set."""
     if not 0 <= width <= _WIDEST:
         raise ValueError(f"a word has no field of {width} bits")
     return None if word is None else float(int(word) >> int(n) & (1 << int(width)) - 1)

@@ -33,7 +33,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class StateInfo:
-    """The state of a parameter, and why it is out of force."""
+    """The state of a parameter, and why it is inactive."""
 
     state: State
     why: str = ""

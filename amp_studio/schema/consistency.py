@@ -21,7 +21,7 @@ class Inconsistency:
 
 
 def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Inconsistency]:
-    """Yield every name that is used and does not exist, and every parameter that stands twice."""
+    """Yield every name that is used and does not exist, and every duplicate parameter."""
     ids = {p.id for group in groups for p in group.parameters}
     secrets = {p.id for group in groups for p in group.parameters if p.secret}
     yield from _in_family(family, ids)
@@ -119,7 +119,7 @@ def _in_parameter(
 
 
 def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[KeyPath, str]]:
-    """Yield every bound that is a secret: what is told of a range would tell it."""
+    """Yield every bound that is a secret: a message about the range would reveal it."""
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
             for end, bound in enumerate(pair):

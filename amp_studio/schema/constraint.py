@@ -1,6 +1,6 @@
 """The range of a parameter, apart from its value.
 
-``limits`` says what is allowed, ``fault`` says in one sentence why a value is
+``limits`` returns the allowed range, ``fault`` the reason why a value is
 not, ``clip`` mends it. Ranges are checked in the unit of entry: the printed
 inch range and the printed metric range differ in the last digit.
 """
@@ -187,7 +187,7 @@ def _bits_fault(parameter: Parameter, word: int) -> str | None:
 
 
 def _below(a: float | None, b: float | None, shared: Address | None) -> bool:
-    """Tell whether a < b; bounds that went through a change of unit forgive the last digits of a double."""
+    """Return whether a < b; bounds that went through a change of unit forgive the last digits of a double."""
     if a is None or b is None:
         return False
     return a < b and not (shared is not None and abs(a - b) <= 1e-12 * max(abs(a), abs(b)))

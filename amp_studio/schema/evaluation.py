@@ -1,7 +1,7 @@
-"""What holds for one machine's values: conditions, states, units.
+"""The answers for one machine's values: conditions, states, units.
 
 An ``Evaluation`` looks at values through a callable and remembers what it found
-until it is told that an address changed; it never changes a value.
+until it is notified that an address changed; it never changes a value.
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ class Evaluation:
     # -- values ----------------------------------------------------------------
 
     def value(self, address: Address) -> Value | None:
-        """Return a value as it was entered; None when unset."""
+        """Return a value as it was entered; None when not set."""
         return self._value(address)
 
     def canonical(self, address: Address) -> Canonical:
-        """Return a value in canonical units: double, choice key, bool or text; None when unset."""
+        """Return a value in canonical units: double, choice key, bool or text; None when not set."""
         found = self._canonical.get(address)
         if found is None and address not in self._canonical:
             found = self._canonical[address] = canonical_value(self._value(address))
@@ -89,7 +89,7 @@ class Evaluation:
             raise UnknownParameterError(f"the family has no condition '{name}'") from None
 
     def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
-        """Tell whether a named condition holds for an instance (of a ``scope``); one over an unset value does not."""
+        """Return whether a named condition holds for an instance (of a ``scope``); false for a condition over a value that is not set."""
         return self._held(self._conditions.asked(name, instance, scope))
 
     def _held(self, asked: Asked) -> bool:
@@ -115,7 +115,7 @@ class Evaluation:
     # -- states ----------------------------------------------------------------
 
     def state(self, address: Address) -> StateInfo:
-        """Return whether a parameter is in force, ignored, unusable or hidden, and why."""
+        """Return whether a parameter is active, ignored, unusable or hidden, and why."""
         facts = self._facts or self._conditions
         plan = facts.plan_of.get(address) or facts.state_plan(address)
         found = self._states.get(plan)
@@ -137,7 +137,7 @@ class Evaluation:
         return self._conditions.bound_sources(address)
 
     def turns(self, address: Address) -> bool:
-        """Tell whether the instance belongs to an axis whose lengths are angles."""
+        """Return whether the instance belongs to an axis whose lengths are angles."""
         name = self.schema.family.angular_when
         return bool(name and self.scope(address) == "axis" and self.holds(name, address[1], "axis"))
 
@@ -148,7 +148,7 @@ class Evaluation:
     # -- addressing ------------------------------------------------------------
 
     def find(self, text: str) -> Address:
-        """Return the instance a person means, as ``addressing`` says; raises UnknownParameterError with one clear sentence."""
+        """Return the instance that a text means (see ``addressing``); raises UnknownParameterError with one clear sentence."""
         found = meant(self, text)
         if found.bit is not None:
             raise UnknownParameterError(f"{quoted(text.strip())} is a bit, and the whole word is wanted")
@@ -200,7 +200,7 @@ class Evaluation:
 
 
 def same_value(a: Value | None, b: Value | None) -> bool:
-    """Tell whether two values are the same, whatever their units (1 in is 25.4 mm, 1 mm is not 1 deg)."""
+    """Return whether two values are the same, whatever their units (1 in is 25.4 mm, 1 mm is not 1 deg)."""
     if a is None or b is None or isinstance(a.value, (str, bool)) or isinstance(b.value, (str, bool)):
         return a == b
     return dimension(a.unit) == dimension(b.unit) and canonical_value(a) == canonical_value(b)

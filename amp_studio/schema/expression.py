@@ -69,7 +69,7 @@ class Decision:
     def holds(
         self, key: Hashable, names: Sequence[str], values: Sequence[Any], circumstances: Circumstances
     ) -> bool:
-        """Tell whether it is true of values; ``key`` stands for them, and is the same for equal ones alone.
+        """Return whether it is true of values; ``key`` stands for them, and is the same for equal ones alone.
 
         It is not where it makes no sense of them: neither CEL nor the functions make any of a value that is not set.
         """

@@ -2,7 +2,7 @@
 
 YAML is parsed only when a file of the family has changed: the compiled form
 is kept in the user's cache folder, keyed by the content of every file and of
-the models. A fault in a fact is told with file and line.
+the models. An error in a fact is reported with file and line.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ def _of(family: Family, folder: Path) -> list[Path]:
 
 @dataclass(frozen=True)
 class Entry:
-    """One item of a named list of a file, as it stands there."""
+    """One item of a named list of a file, unchanged."""
 
     kind: str
     """The list."""

@@ -54,7 +54,7 @@ class MachineSchema:
         return tuple((p.id, i) for p in self.parameters.values() for i in self.instances(p))
 
     def kin(self, scope: str | None, other: str | None) -> bool:
-        """Tell whether instances of two scopes belong together: the same scope, or one has the parts of the other."""
+        """Return whether instances of two scopes belong together: the same scope, or one has the parts of the other."""
         return scope == other or bool(
             scope and other and (self._wholes.get(scope) == other or self._wholes.get(other) == scope)
         )
@@ -135,7 +135,7 @@ class MachineSchema:
         return words
 
     def is_disputed(self, parameter_id: str) -> bool:
-        """Tell whether the manual's number of a parameter really belongs to another one."""
+        """Return whether the manual's number of a parameter really belongs to another one."""
         layout = self._layouts[parameter_id]
         return bool(layout and layout.numbers and layout.numbers.disputed)
 
@@ -183,7 +183,7 @@ def number_of(numbers: Numbers, index: int, instance: str) -> str:
 
 
 def _plain_number(numbers: Numbers, index: int, instance: str) -> str:
-    """Return what ``{n}`` stands for: the number without what its format writes around it."""
+    """Return the value of ``{n}``: the number without what its format writes around it."""
     if numbers.listed is not None:
         return numbers.listed[instance]
     if numbers.starts is not None:

@@ -13,7 +13,7 @@ _LONGEST = 100
 _SHOWN = 3
 """Names that come near."""
 _FEW = 12
-"""Names of which all are told."""
+"""Most names of which all are listed."""
 _SHORT = 12
 """Characters of a word in which two wrong ones count for much."""
 
@@ -25,7 +25,7 @@ def did_you_mean(word: str, known: Iterable[str], *, found: Callable[[str], str]
 
 
 def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
-    """Return what is said of a name that does not exist: the names that come near, and all of them where they are few."""
+    """Return the message for an unknown name: the names that come near, and all of them where they are few."""
     names = list(dict.fromkeys(known))
     by_small = {known_name.casefold(): known_name for known_name in reversed(names)}
     near = get_close_matches(name.strip().casefold()[:_LONGEST], by_small, _SHOWN, 0.6)

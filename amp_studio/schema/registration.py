@@ -73,6 +73,6 @@ def added_facts() -> dict[str, Path]:
 
 @cache
 def load_part(place: str) -> Any:
-    """Return what stands at ``module:NAME``; raises ImportError, AttributeError for a place that is none."""
+    """Return the object ``module:NAME``; raises ImportError, AttributeError for a place that is none."""
     module, _, name = place.partition(":")
     return attrgetter(name)(import_module(module))

@@ -99,7 +99,7 @@ def stored_number(parameter: Parameter, value: Value, *, turns: bool) -> float |
 
 
 def value_of_stored(parameter: Parameter, number: float, *, turns: bool) -> Value:
-    """Return the value that a number keyed in at the control means; ``stored_number`` the other way round.
+    """Return the value that a number keyed in at the control means; ``stored_number`` in the opposite direction.
 
     Raises StorageError for a fraction where the control stores whole numbers.
     """
@@ -153,7 +153,7 @@ def stored_range(parameter: Parameter) -> tuple[int, int]:
 
 
 def is_signed(parameter: Parameter) -> bool:
-    """Tell whether a number is stored with its sign; a word of bits has none."""
+    """Return whether a number is stored with its sign; a word of bits has none."""
     return parameter.type != "bits" and _storage(parameter).signed
 
 
@@ -175,7 +175,7 @@ def words_taken(parameter: Parameter) -> int:
 
 
 def is_low_first(parameter: Parameter) -> bool:
-    """Tell whether the first of several registers is the lowest part of the number."""
+    """Return whether the first of several registers is the lowest part of the number."""
     storage = _storage(parameter)
     return storage.words > 1 and storage.word_order == "low-first"
 

@@ -182,7 +182,7 @@ def canonical_unit(unit: str) -> str:
 
 
 def angular(unit: str) -> str:
-    """Return the unit in degrees that stands where an axis turns (mm/min and in/min give deg/min)."""
+    """Return the unit in degrees used when an axis turns (mm/min and in/min give deg/min)."""
     head, _, tail = unit.partition("/")
     if head in ("mm", "in"):
         return "deg/" + tail if tail else "deg"

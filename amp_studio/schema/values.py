@@ -15,11 +15,11 @@ from .value import LONGEST_NUMBER, InvalidValueError, Value, plain
 from .visible import visible
 
 MASKED = "•••• (secret)"
-"""What stands in place of a secret value wherever nobody asked for it in clear; never read as a value."""
+"""The text shown instead of a secret value unless it is requested in clear; never read as a value."""
 
 
 def is_mask(parameter: Parameter, text: str) -> bool:
-    """Tell whether a text is what stands in place of a secret, so that an export that comes back changes nothing."""
+    """Return whether a text is what stands in place of a secret, so that an export that comes back changes nothing."""
     return parameter.secret and text.strip().startswith("••••")
 
 
@@ -34,7 +34,7 @@ def not_readable(parameter: Parameter, error: ValueError) -> str:
 _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?[0-9]+)?)\s*(.*)$")
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
 EXACT = 2**53 - 1
-"""Up to here a double holds every whole number, and none stands for its neighbour as well."""
+"""Largest whole number up to which a double is exact."""
 LONGEST_TEXT = 100_000
 """Signs of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
@@ -104,11 +104,11 @@ def _decimal(digits: str, exponent: str) -> str:
 
 
 def read_value(parameter: Parameter, text: str, unit: str) -> Value:
-    """Read what a person or a file says of a parameter.
+    """Read the value of a parameter from a text of a person or a file.
 
     ``unit`` is the unit of entry when the text names none. A choice is given by
     label, letter, key or ``raw:<code>``; a yes/no also by yes, no, true, false.
-    Raises InvalidValueError with one sentence that tells what is allowed.
+    Raises InvalidValueError with a message that contains what is allowed.
     """
     if is_mask(parameter, text):
         raise InvalidValueError(f"{parameter.name}: '{MASKED}' stands in place of a secret and is no value")
@@ -231,7 +231,7 @@ def _labelled(parameter: Parameter, text: str) -> int | None:
 
 
 def _is_hex(parameter: Parameter) -> bool:
-    """Tell whether the control shows the word in hexadecimal."""
+    """Return whether the control shows the word in hexadecimal."""
     return (
         parameter.type in ("bits", "integer")
         and parameter.storage is not None
@@ -302,7 +302,7 @@ def write_number(number: float) -> str:
 
 
 def write_value(parameter: Parameter, value: Value | None) -> str:
-    """Write a value so that ``read_value`` gives it back; an unset one is empty."""
+    """Write a value so that ``read_value`` gives it back; a value that is not set is empty."""
     if value is None:
         return ""
     if isinstance(value.value, str):
@@ -322,7 +322,7 @@ def _number_text(parameter: Parameter, value: Value) -> str:
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
-    """Write a value for a person: as ``write_value`` with the unit's proper signs; a dash when unset.
+    """Write a value for a person: as ``write_value`` with the unit's proper signs; a dash when it is not set.
 
     A secret is masked unless ``secrets`` asks for it in clear.
     """

@@ -3,7 +3,7 @@
 It reads the parser's events and makes dict, list and scalars of them by itself, because a general loader does more
 than any of these files needs: it follows references (a short file that fills the memory), makes objects of tags and
 dates of texts, and raises whatever the part that it stumbles over raises. Here there are none of these, depth and size
-are bounded, a key stands once, a file is one document, and every failure is one ``YamlError`` with its line.
+are bounded, keys are unique, a file is one document, and every failure is one ``YamlError`` with its line.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class YamlError(ValueError):
 
 
 class Span(NamedTuple):
-    """Where an entry of a mapping or list stands in the text, in signs from 0."""
+    """Position of an entry of a mapping or list in the text, in characters from 0."""
 
     start: int
     """Of the key, or of the item of a list."""
@@ -44,12 +44,12 @@ class Span(NamedTuple):
     end: int
     """Behind the last sign of the value."""
     is_flow: bool
-    """It stands in ``{}`` or ``[]``."""
+    """Whether it is written in ``{}`` or ``[]``."""
 
 
 @dataclass
 class YamlDocument:
-    """What a text holds."""
+    """The content of a text."""
 
     text: str
     data: Any = None

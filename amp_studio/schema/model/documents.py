@@ -70,7 +70,7 @@ class Guides(Model):
 
 
 class Statement(Model):
-    """What one place of the manual says."""
+    """One place of the manual."""
 
     page: str
     says: str

@@ -20,7 +20,7 @@ class Condition(Model):
     reads: dict[str, str] = {}
     when: str
     why: str
-    """What a person is told when the condition puts a parameter out of force."""
+    """The reason shown when the condition makes a parameter inactive."""
     page: Page | None = None
 
 

@@ -94,7 +94,7 @@ class Bit(Model):
     label: str
     choices: Choices | None = None
     signed: bool = False
-    """A field of several bits that holds a number with its sign (two's complement)."""
+    """A field of several bits with a signed number (two's complement)."""
     unknown: bool = False
     """The manual's figure is lost: the bit is kept and shown raw."""
 
@@ -104,7 +104,7 @@ Bits = Annotated[tuple[Bit, ...], BeforeValidator(_bit_list, json_schema_input_t
 
 
 class Storage(Model):
-    """How the control itself holds the value."""
+    """How the value is stored in the control."""
 
     unit: Unit | None = None
     decimals: int | None = None
@@ -169,7 +169,7 @@ class Layout(Model):
 
 
 class StateRule(Model):
-    """Puts a parameter out of force while a named condition of the family holds."""
+    """Makes a parameter inactive while a named condition of the family is true."""
 
     state: Literal["ignored", "unusable", "hidden"]
     when: str | None = None
@@ -220,7 +220,7 @@ class Need(Model):
 
 
 class Parameter(Model):
-    """Everything the database says about one parameter."""
+    """All facts of the database about one parameter."""
 
     id: ParameterId
     name: str
@@ -231,7 +231,7 @@ class Parameter(Model):
     each: str | None = None
     """What one instance is called where that is not the scope's own label: ``Macro call {i}``, ``Gear {j}``.
 
-    ``{i}`` is the instance, or what stands before its point, ``{j}`` what stands behind it.
+    ``{i}`` is the instance, or the text before its point, ``{j}`` the text behind it.
     """
     layouts: tuple[Layout, ...] | None = None
     """Instead of scope, numbers and instances where they depend on the machine type."""
@@ -266,7 +266,7 @@ class Parameter(Model):
     help: Help
     page: Page
     pages: dict[str, Page] = {}
-    """Instance, or what stands before its point -> its page, where the manual has another section for it."""
+    """Instance, or the text before its point -> its page, where the manual has another section for it."""
     errata: tuple[str, ...] = ()
 
     @property

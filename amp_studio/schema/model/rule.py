@@ -21,7 +21,7 @@ class Assignment(Model):
 
 
 class Fix(Assignment):
-    """A repair: the parameter's new value."""
+    """A suggested fix: the parameter's new value."""
 
     safe: bool = False
     """Cannot change motion."""
@@ -42,7 +42,7 @@ class Rule(Model):
     severity: Severity
     reads: dict[str, str]
     optional: tuple[str, ...] = ()
-    """Names that may be unset or out of force: they arrive as null then."""
+    """Names that may be not set or inactive: they arrive as null then."""
     any_state: tuple[str, ...] = ()
     """Names whose value counts even where the parameter is ignored or unusable."""
     when: str = "true"
@@ -67,7 +67,7 @@ class Rule(Model):
 
     @property
     def cited(self) -> str:
-        """Where it stands, as a sentence says it."""
+        """The source in words."""
         return f"page {self.page}"
 
     @field_validator(
@@ -106,7 +106,7 @@ class BuilderRule(Rule):
 
     @property
     def cited(self) -> str:
-        """Where it stands, as a sentence says it; empty where the builder does not say."""
+        """The source in words; empty where the builder does not say."""
         return self.page
 
 
