@@ -71,6 +71,18 @@ def test_what_was_found_before_is_not_brought(mill) -> None:
     assert offered(mill, one, rule("own.two", "error", "rapid < 1.0"))["own.one"] == [mm(11000.0)]
 
 
+@pytest.mark.parametrize(("wrong_rapid", "is_offered"), [(11000.0, False), (9.0, True)])
+def test_a_fix_adds_no_value_to_those_that_a_finding_is_about(
+    mill, wrong_rapid: float, is_offered: bool
+) -> None:
+    """The second rule is broken before and after."""
+    one = rule("own.one", "advice", "rapid != 12000.0", ("rapid", "11000.0"))
+    two = rule(
+        "own.two", "error", "rapid < 1.0", blames={"cutting": "it > 0.0", "rapid": f"it == {wrong_rapid}"}
+    )
+    assert offered(mill, one, two)["own.one"] == ([mm(11000.0)] if is_offered else [])
+
+
 def test_what_is_suppressed_may_be_brought(mill) -> None:
     one, two = (
         rule("own.one", "error", "rapid != 12000.0", ("rapid", "11000.0")),
