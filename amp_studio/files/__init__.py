@@ -17,6 +17,7 @@ from .axes import (
     name_axes,
     retype_axis,
 )
+from .creation import new_file
 from .diff import Comparison, Conflict, Difference, compare, merge
 from .document import Document, HistoryEntry, Unsaved, recover_backup
 from .lock import InUse
@@ -27,7 +28,6 @@ from .parameter_file import (
     RangeError,
     describe,
     fill_defaults,
-    new_file,
     secret_values,
     without_secrets,
 )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.schema import Address, AxisProfile, InvalidValueError, Value, angular
+from amp_studio.schema import Address, AxisProfile, InvalidValueError, Value
 
 from .parameter_file import Change, ParameterFile
 
@@ -86,30 +86,7 @@ def retype_axis(file: ParameterFile, axis: str, type_key: str) -> list[Change]:
     if type_key not in types:
         raise AxisError(f"there is no axis type '{type_key}': {', '.join(types)}")
     change = file.set((profile.type, axis), Value(type_key))
-    return ([change] if change else []) + refit_units(file, axis)
-
-
-def refit_units(file: ParameterFile, axis: str) -> list[Change]:
-    """Give each value of an axis a unit that fits the way it moves; returns the changes."""
-    changes = []
-    for address in file.addresses():
-        value = file.get(address)
-        if address[1] != axis or value is None or not value.unit or not _is_axis(file, address[0]):
-            continue
-        unit = refitted(value.unit, file.evaluation.turns(address), file.evaluation.unit(address, "metric"))
-        mark = file.forced.get(address)
-        if unit != value.unit and (change := file.set(address, Value(value.value, unit))):
-            changes.append(change)
-            if mark is not None:
-                file.forced[address] = mark
-    return changes
-
-
-def refitted(unit: str, turns: bool, metric: str) -> str:
-    """Return the unit that stands for ``unit`` on an axis that turns, or moves straight."""
-    if turns:
-        return angular(unit) if "deg" in metric else unit
-    return "mm" + unit[3:] if unit.startswith("deg") and metric.startswith("mm") else unit
+    return ([change] if change else []) + file.refit_units(axis)
 
 
 def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
@@ -167,8 +144,7 @@ def _unfitted(profile: AxisProfile, axis: str) -> dict[Address, Value]:
 
 
 def _is_axis(file: ParameterFile, parameter_id: str) -> bool:
-    layout = file.machine_schema.layout(file.schema.parameters[parameter_id])
-    return layout is not None and layout.scope == "axis"
+    return file.machine_schema.scopes[parameter_id] == "axis"
 
 
 def _profile(file: ParameterFile) -> AxisProfile:

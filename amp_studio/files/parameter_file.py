@@ -11,13 +11,12 @@ from amp_studio.schema import (
     MachineSchema,
     Schema,
     Value,
+    angular,
     fault,
-    load_schema,
     read_value,
     same_value,
     written,
 )
-from amp_studio.schema.nearest import unknown_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,13 +160,11 @@ class ParameterFile:
         and when) values out of range are taken and marked; without it they
         raise RangeError and nothing is changed.
         """
-        from .axes import refit_units
-
         marks = dict(self.forced)
         changes = [c for c in (self.set(a, v) for a, v in wanted.items()) if c]
         profile = self.schema.family.axes
         for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
-            changes += refit_units(self, axis)
+            changes += self.refit_units(axis)
         faults = {
             a: said for a, v in wanted.items() if v is not None and (said := fault(self.evaluation, a, v))
         }
@@ -183,6 +180,23 @@ class ParameterFile:
                 self.forced[address] = force
             if address not in changed and self.forced.get(address) != marks.get(address):
                 self._tell(Change(address, value, value))  # the value is unchanged, its mark is not
+        return changes
+
+    def refit_units(self, axis: str) -> list[Change]:
+        """Give each value of an axis a unit that fits the way it moves; returns the changes."""
+        changes = []
+        scopes = self.machine_schema.scopes
+        for address in self.addresses():
+            value = self.get(address)
+            if address[1] != axis or value is None or not value.unit or scopes[address[0]] != "axis":
+                continue
+            metric = self.evaluation.unit(address, "metric")
+            unit = _refitted(value.unit, self.evaluation.turns(address), metric)
+            mark = self.forced.get(address)
+            if unit != value.unit and (change := self.set(address, Value(value.value, unit))):
+                changes.append(change)
+                if mark is not None:
+                    self.forced[address] = mark
         return changes
 
     def listen(self, listener: Callable[[Change], None]) -> Callable[[], None]:
@@ -212,50 +226,15 @@ def default_value(schema: Schema, evaluation: Evaluation, address: Address) -> V
         return Value(str(value))
     unit = default.unit
     if evaluation.turns(address):
-        from amp_studio.schema import angular
-
         unit = angular(unit)
     return Value(int(value) if parameter.type in ("integer", "bits") else float(value), unit)
 
 
-def new_file(
-    family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = ""
-) -> ParameterFile:
-    """Return a new file with the family's printed defaults.
-
-    ``axes`` names the axes in order; the rest is unfitted. Without it the
-    family's own default axes stay. Raises KeyError for an unknown family,
-    ValueError for a machine type or an axis name the family does not have.
-    """
-    from .axes import name_axes
-
-    schema = load_schema(family)
-    known = [m.key for m in schema.family.machines]
-    if machine is not None and machine not in known:
-        raise ValueError(unknown_name("machine type", machine, known))
-    applications = schema.family.applications
-    file = ParameterFile(
-        schema,
-        Header(
-            name=name,
-            application=applications[0] if applications else "",
-            machine="" if schema.family.machine_parameter else machine or schema.family.default_machine,
-            signature=schema.signature,
-        ),
-    )
-    if schema.family.machine_parameter:
-        file.set((schema.family.machine_parameter, ""), Value(machine or schema.family.default_machine))
-    if file.schema.family.axes:
-        profile = file.schema.family.axes
-        for instance in schema.on(file.machine).instances(schema.parameters[profile.type]):
-            default = file.default((profile.type, instance))
-            if default is not None:
-                file.set((profile.type, instance), default)
-    axes = list(axes)
-    if axes:
-        name_axes(file, axes)
-    fill_defaults(file)
-    return file
+def _refitted(unit: str, turns: bool, metric: str) -> str:
+    """Return the unit that stands for ``unit`` on an axis that turns, or moves straight."""
+    if turns:
+        return angular(unit) if "deg" in metric else unit
+    return "mm" + unit[3:] if unit.startswith("deg") and metric.startswith("mm") else unit
 
 
 def fill_defaults(file: ParameterFile, instances: Iterable[str] | None = None) -> list[Change]:
@@ -291,5 +270,5 @@ def describe(file: ParameterFile, address: Address) -> str:
     return file.machine_schema.label(address)
 
 
-__all__ = ["Change", "Header", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults", "new_file",
+__all__ = ["Change", "Header", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults",
            "secret_values", "without_secrets", "written"]  # fmt: skip
