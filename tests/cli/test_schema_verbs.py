@@ -157,7 +157,7 @@ def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) 
     assert "Number         P34N0, P34N1 … P34N31 (Axis 0 to Axis 31)\n" in word
     assert "25 to 26: Sensor type\n                   incremental sensor, stored as 0\n" in word
     lost = amp("show", "num", "P5N0").out
-    assert "0 to 7: Bit 0 to Bit 7 (the manual's figure is lost: kept as it stands)" in lost
+    assert "0 to 7: Bit 0 to Bit 7 (not legible in the manual: keep the present value)" in lost
 
 
 def test_no_line_of_any_page_is_wider_than_a_terminal(amp) -> None:
