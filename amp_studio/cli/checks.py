@@ -109,7 +109,7 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
 
 
 def _is_folder(path: Path) -> bool:
-    """Tell whether a path is a folder; what cannot be looked at is told like a file that cannot be read."""
+    """Return whether a path is a folder; what cannot be read is reported like an unreadable file."""
     try:
         return path.is_dir()
     except OSError:

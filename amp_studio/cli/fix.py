@@ -56,7 +56,7 @@ def fix_verb(options: argparse.Namespace) -> int:
 
 
 def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Finding], bool]:
-    """Return what tells whether the fix of a finding is asked for; raises UsageError for an unknown rule or parameter."""
+    """Return the function that decides whether the fix of a finding is requested; raises UsageError for an unknown rule or parameter."""
     rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
     if options.rule is not None and options.rule not in rules:
         raise UsageError(unknown_name("rule", options.rule, sorted(rules)))

@@ -1,4 +1,4 @@
-"""What a verb that failed or was stopped has changed all the same: found by a look at the disk, not by memory."""
+"""What a verb that failed or was stopped has changed anyway: found by a look at the disk, not by memory."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def end_results() -> None:
 
 
 def tell(text: str, end: str = "\n") -> None:
-    """Print a line on standard error; where nobody can read it the work goes on all the same."""
+    """Print a line on standard error; where nobody can read it the work goes on anyway."""
     stream = sys.stderr
     try:
         if isinstance(stream, Screen) and stream.overwritten:

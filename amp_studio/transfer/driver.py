@@ -94,7 +94,7 @@ class ControlDriver(Protocol):
         progress: Progress = quiet,
         cancel: threading.Event | None = None,
     ) -> bool:
-        """Wait up to so many seconds for the restart after ``send``; tells whether the control has come back."""
+        """Wait up to so many seconds for the restart after ``send``; returns whether the control has come back."""
 
     def close(self) -> None:
         """Hang up. Closing twice is no fault."""

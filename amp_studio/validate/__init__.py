@@ -1,4 +1,4 @@
-"""Findings: range, choice, state and cross-parameter rules, each with its page and its repair."""
+"""Findings: range, choice, state and cross-parameter rules, each with its page and its suggested fix."""
 
 from .builder_rules import (
     NO_RULES,

@@ -231,7 +231,7 @@ def _ids(schema: Schema) -> frozenset[str]:
 
 @lru_cache(maxsize=4096)
 def _is_known(text: str, schema: Schema) -> bool:
-    """Tell whether a family has what a suppression names, on whatever machine type."""
+    """Return whether a family has what a suppression names, on whatever machine type."""
     parameter_id, which = read_address(text.strip().casefold())
     parameter = schema.parameters.get(parameter_id)
     for on in (schema.on(machine.key) for machine in schema.family.machines):
@@ -250,7 +250,7 @@ def _is_known(text: str, schema: Schema) -> bool:
 
 @lru_cache(maxsize=4096)
 def _is_elsewhere(text: str, schema: Schema) -> bool:
-    """Tell whether another family has what a suppression names, and this one has not."""
+    """Return whether another family has what a suppression names, and this one has not."""
     return not _is_known(text, schema) and any(
         _is_known(text, load_schema(family)) for family in family_ids() if family != schema.family.family
     )

@@ -45,7 +45,7 @@ class Checks:
         return self._rules.finding(check)
 
     def is_broken(self, check: RuleCheck) -> bool:
-        """Tell whether a rule is broken, without the words."""
+        """Return whether a rule is broken, without the words."""
         return self._rules.is_broken(check)
 
     def context_of(self, check: RuleCheck) -> Context:

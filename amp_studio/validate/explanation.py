@@ -28,7 +28,7 @@ class Seen:
     address: Address
     value: str
     state: str
-    """Why it is out of force; empty where it is in force."""
+    """Why it is inactive; empty where it is active."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What validation says: one finding a sentence, with the parameters it is about and a repair."""
+"""What validation says: one finding a sentence, with the parameters it is about and a suggested fix."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Finding:
     repairs: tuple[Setting, ...] = ()
     page: str | None = None
     safe: bool = False
-    """Its repair cannot change motion."""
+    """Its suggested fix cannot change motion."""
     effective: tuple[Setting, ...] = ()
     """What the control really uses instead of the values in the file."""
     compared: tuple[Address, ...] = ()

@@ -61,7 +61,7 @@ class RuleCheck:
     names: tuple[str, ...]
     """Of the single values, then of the lists."""
     plain: tuple[Address, ...]
-    """What it reads, where that is single values in force and nothing else; empty for other rules."""
+    """What it reads, where that is single values active and nothing else; empty for other rules."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:

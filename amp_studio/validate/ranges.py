@@ -180,7 +180,7 @@ def _rounded_inwards(parameter: Parameter, value: Value, allowed: Limits | None)
 
 
 def _bounds(parameter: Parameter, other: str) -> bool:
-    """Tell whether a parameter is itself bounded by another one."""
+    """Return whether a parameter is itself bounded by another one."""
     ranges = [
         *(parameter.ranges or {}).values(),
         *(r for v in parameter.range_variants for r in v.ranges.values()),
@@ -189,7 +189,7 @@ def _bounds(parameter: Parameter, other: str) -> bool:
 
 
 def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:
-    """Tell whether a number is in degrees where the axis turns, in a length where it does not, and so on."""
+    """Return whether a number is in degrees where the axis turns, in a length where it does not, and so on."""
     if isinstance(value.value, (str, bool)):
         return True
     return dimension(value.unit) in (facts.turning if turns and facts.turning else facts.measures)

@@ -70,7 +70,7 @@ class RuleChecks:
         self._list_keys.clear()
 
     def finding(self, check: RuleCheck) -> Finding | None:
-        """Return what is wrong if the rule is broken; None too where what it needs is unset or out of force."""
+        """Return what is wrong if the rule is broken; None too where what it needs is not set or inactive."""
         values = self._values(check)
         if values is None:
             return None
@@ -83,12 +83,12 @@ class RuleChecks:
         return self._finding(check, values) if broken else None
 
     def is_broken(self, check: RuleCheck) -> bool:
-        """Tell whether there is a ``finding``, without its words."""
+        """Return whether there is a ``finding``, without its words."""
         values = self._values(check)
         return values is not None and self._broken_by(check, values)
 
     def _broken_by(self, check: RuleCheck, values: list[Any]) -> bool:
-        """Tell whether a rule is broken by values; what it came to for equal ones before is remembered."""
+        """Return whether a rule is broken by values; what it came to for equal ones before is remembered."""
         if isinstance(check.rule, BuilderRule) and _too_long(values):
             return False
         key = same_values(values[: len(check.singles)])
@@ -245,7 +245,7 @@ class RuleChecks:
                 yield Setting(address, value)
 
     def _mends(self, check: RuleCheck, given: _Given, repairs: tuple[Setting, ...]) -> bool:
-        """Tell whether the rule holds with its own repairs, which were rounded as the parameter wants it."""
+        """Return whether the rule holds with its own suggested fixes, which were rounded as the parameter wants it."""
         mended = {repair.address: canonical_value(repair.value) for repair in repairs}
         before = dict(zip(check.names, given.values, strict=True))
         after: dict[str, Any] = {s.name: mended[s.address] for s in check.singles if s.address in mended}
@@ -280,7 +280,7 @@ class RuleChecks:
 
 
 def _too_long(values: Iterable[Any]) -> bool:
-    """Tell whether a text is longer than a builder's rule was found to bear; its own check says that it is too long."""
+    """Return whether a text is longer than a builder's rule was found to bear; its own check says that it is too long."""
     return any(
         len(value) > LONGEST_TEXT if type(value) is str else type(value) is list and _too_long(value)
         for value in values

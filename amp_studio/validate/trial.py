@@ -160,7 +160,7 @@ class Trials:
         return self._plan.checks[place]
 
     def _are_lesser(self, new: Iterable[Finding], mended: Finding) -> bool:
-        """Tell whether new findings may be taken for the one that is mended; those the builder suppresses may."""
+        """Return whether new findings may be taken for the one that is mended; those the builder suppresses may."""
         assert self._file is not None
         limit, suppressions = SEVERITIES.index(mended.severity), self._own.suppressions
         bad = (found for found in new if SEVERITIES.index(found.severity) <= limit)

@@ -165,7 +165,7 @@ class Validator:
         return found
 
     def _advice(self) -> Iterator[Finding]:
-        """Yield one piece of advice on all values that are missing.
+        """Yield one recommendation on all values that are missing.
 
         A value for the control as a whole speaks for each of its processes.
         """

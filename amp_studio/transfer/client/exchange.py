@@ -135,7 +135,7 @@ def download(
         raise
     except KeyboardInterrupt:
         raise CancelledError("stopped", "new", kept) from None
-    except Exception as error:  # no memory, no handle: the commit has happened all the same
+    except Exception as error:  # no memory, no handle: the commit has happened anyway
         raise TransferError(f"it was not read back ({unforeseen(error)})", "new", kept) from error
 
 

@@ -63,7 +63,7 @@ class DownloadTransfer:
         except KeyboardInterrupt:
             self._abort()
             raise CancelledError("stopped", self.held) from None
-        except Exception as error:  # no memory, no handle: what the control holds is to be said all the same
+        except Exception as error:  # no memory, no handle: what the control holds is to be said anyway
             self._abort()
             raise TransferError(f"the exchange broke off ({unforeseen(error)})", self.held) from error
         finally:

@@ -18,5 +18,5 @@ def password_codes(password: str) -> tuple[int, ...]:
 
 
 def is_factory_password(codes: Sequence[float]) -> bool:
-    """Tell whether the six codes are those of the password that the manual prints (page 33-12)."""
+    """Return whether the six codes are those of the password that the manual prints (page 33-12)."""
     return list(codes) == [float(code) for code in password_codes(_FACTORY)]

@@ -34,7 +34,7 @@ ROTARY_NAMES = (6.0, 7.0, 8.0)
 
 
 def axis_turns(axis: float, modulo: float, limited: float, assignment: float) -> bool:
-    """Tell whether an axis turns, as P1 declares it or its name A, B or C does (page 4-12).
+    """Return whether an axis turns, as P1 declares it or its name A, B or C does (page 4-12).
 
     The axis is given by its address, the rest are the words P1N0 and P1N1 and its own word of P9.
     """

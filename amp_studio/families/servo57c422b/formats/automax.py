@@ -53,7 +53,7 @@ _WORD = re.compile(r"[+-]?[0-9][0-9A-F]*H?", re.IGNORECASE)
 
 
 def _is_table(text: str) -> bool:
-    """Tell whether most lines are rows; a table with a line that is none is still told of that line."""
+    """Return whether most lines are rows; a table with a line that is none is still told of that line."""
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("!")]
     rows = [line for line in lines if (row := _ROW.match(line)) and _WORD.fullmatch(row[4])]
     return text.startswith(_TABLE_HEAD) or 2 * len(rows) > len(lines)
@@ -187,7 +187,7 @@ def _assignment(registers: Registers, variables: Variables, of: Held) -> str:
 
 
 def _acts_at_once(file: ParameterFile, address: Address) -> bool:
-    """Tell whether the module acts on a register as soon as it is written: such ones stand last in a task."""
+    """Return whether the module acts on a register as soon as it is written: such ones stand last in a task."""
     return (file.schema.parameters[address[0]].effect or file.schema.family.effect).level == "at-once"
 
 

@@ -117,7 +117,7 @@ def held_by(file: ParameterFile, registers: Registers) -> list[Held]:
 
 
 def is_writable(file: ParameterFile, address: Address) -> bool:
-    """Tell whether a value exists for this machine, and the control lets it be written."""
+    """Return whether a value exists for this machine, and the control lets it be written."""
     return (
         file.schema.parameters[address[0]].access != "read"
         and file.evaluation.state(address).state != "hidden"

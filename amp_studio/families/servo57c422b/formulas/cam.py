@@ -22,7 +22,7 @@ def cam_largest_value(speed: float, counts_per_unit: float, time_scans: float) -
 
 
 def needs_words(largest_value: float) -> bool:
-    """Tell whether a time cam with this largest value has to be stored in words, beyond 127 counts (page 4-50)."""
+    """Return whether a time cam with this largest value has to be stored in words, beyond 127 counts (page 4-50)."""
     return abs(finite("The largest value", largest_value)) > 127
 
 
