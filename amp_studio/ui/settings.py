@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QRect, QSettings
+from PySide6.QtCore import QByteArray, QRect, QSettings, QStandardPaths
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QDockWidget, QMainWindow
 
@@ -17,7 +17,8 @@ class Settings:
     """The settings of one user; an unusable entry is ignored."""
 
     def __init__(self) -> None:
-        self._stored = QSettings("AMP Studio", "AMP Studio")
+        folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.GenericConfigLocation)
+        self._stored = stored_in(Path(folder) / "AMP Studio" / "AMP Studio.conf")
 
     # -- texts ---------------------------------------------------------------------
 
@@ -104,3 +105,14 @@ def on_screen(place: QRect, screens: list[QRect]) -> QRect:
 
 def _screens() -> list[QRect]:
     return [screen.availableGeometry() for screen in QGuiApplication.screens()]
+
+
+def stored_in(place: Path) -> QSettings:
+    """Return the stored settings; where a pipe or a device lies in their place, which Qt would wait for, none are kept."""
+    try:
+        is_usable = not place.exists() or place.is_file()
+    except OSError:
+        is_usable = True  # Qt meets the same refusal and goes on without
+    if is_usable:
+        return QSettings("AMP Studio", "AMP Studio")
+    return QSettings(str(place / "none"), QSettings.Format.IniFormat)  # a name that cannot be

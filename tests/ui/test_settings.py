@@ -12,7 +12,7 @@ from PySide6.QtCore import QByteArray, QRect, QSettings, Qt
 from PySide6.QtWidgets import QDockWidget
 
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.settings import Settings, is_there, on_screen
+from amp_studio.ui.settings import Settings, is_there, on_screen, stored_in
 
 from .conftest import WAIT_MS
 
@@ -122,3 +122,14 @@ def test_what_is_kept_comes_back(qapp) -> None:
         [Path("/a/b.amp"), Path("/c.amp")],
         "tcp://127.0.0.1:9600",
     )
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes")
+def test_a_pipe_in_the_place_of_the_settings_is_not_waited_for(tmp_path: Path) -> None:
+    place = tmp_path / "AMP Studio.conf"
+    os.mkfifo(place)
+    stored = stored_in(place)
+    stored.setValue("control", "tcp://somewhere:1")
+    stored.sync()
+    assert stored.value("recent") is None
+    assert [path.name for path in tmp_path.iterdir()] == ["AMP Studio.conf"]
