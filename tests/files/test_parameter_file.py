@@ -59,7 +59,7 @@ def test_without_axes_the_printed_ones_stay() -> None:
     ("arguments", "error", "said"),
     [
         (("no-such",), KeyError, "no-such"),
-        (("9pc", "grinder"), ValueError, "has no machine type 'grinder': lathe, mill"),
+        (("9pc", "grinder"), ValueError, "Unknown machine type 'grinder'. Known: lathe, mill"),
         (("9pc", "mill", ["X", "Q"]), AxisError, "'Q' is not a choice of Axis Name"),
         (("9pc", "mill", ["X", ""]), AxisError, "'' is not a choice of Axis Name"),
         (("9pc", "mill", list("XYZABCUVW")), AxisError, "9 axes are too many: Allen-Bradley 9/PC AMP has 8"),
