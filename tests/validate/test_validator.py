@@ -307,7 +307,7 @@ def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) ->
     (finding,) = (f for f in validator.run() if f.rule == "own.clamp" and f.addresses == (RAPID,))
     assert finding.effective == (Setting(RAPID, Value(100.0, "in/min")),)
     assert finding.repairs == ()
-    assert "uses: 1203 Rapid Feedrate for Positioning = 100 in/min" in finding_text(mill, finding)
+    assert "effective value: 1203 Rapid Feedrate for Positioning = 100 in/min" in finding_text(mill, finding)
     assert finding_json(mill, finding)["effective"] == [{"param": "1203", "value": "100 in/min"}]
 
 
