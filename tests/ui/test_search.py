@@ -10,6 +10,8 @@ from amp_studio.ui.group_list import GroupList
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.workspace import Workspace
 
+from .conftest import WAIT_MS
+
 
 @pytest.fixture
 def groups(workspace: Workspace) -> GroupList:
@@ -61,14 +63,14 @@ def test_searching_shows_what_is_found_and_clearing_the_group_again(window: Main
     assert window.list_title.text().startswith("<b>Axis Configuration</b>")
 
 
-def test_enter_in_the_search_goes_to_the_table(window: MainWindow) -> None:
+def test_enter_in_the_search_goes_to_the_table(window: MainWindow, qtbot) -> None:
     from PySide6.QtCore import Qt
     from PySide6.QtTest import QTest
 
     action = window.actions()
     assert any(a.text() == "&Find Parameter" for a in action)
     window.edits._find()
-    assert window.groups.search.hasFocus()
+    qtbot.waitUntil(window.groups.search.hasFocus, timeout=WAIT_MS)
     QTest.keyClicks(window.groups.search, "excess error")
     QTest.keyClick(window.groups.search, Qt.Key.Key_Return)
     assert window.table_view.hasFocus()

@@ -262,7 +262,9 @@ def test_a_file_with_errors_is_not_sent_unless_they_are_accepted(
     assert run(["download", str(path), "--to", "tcp://127.0.0.1:1"]) == 2
     out, said = control.said()
     assert out == ""
-    assert [line.split()[0] for line in said.splitlines()] == ["error"] * 4 + ["amp-studio:"]
+    assert [line.split()[0] for line in said.splitlines()] == ["error"] * 2 + ["amp-studio:"], (
+        "what is wrong with both axes alike is one line"
+    )
     assert said.splitlines()[-1] == (
         f"amp-studio: {path} has 4 errors: nothing was sent (--accept-errors sends it all the same)"
     )
@@ -270,7 +272,7 @@ def test_a_file_with_errors_is_not_sent_unless_they_are_accepted(
 
     assert run(["download", str(path), "--to", control.address, "--accept-errors"]) == 0
     out, said = control.said()
-    assert said.count("error ") == 4
+    assert [line.split()[0] for line in said.splitlines()].count("error") == 2
     assert out.startswith("Download complete")
 
 

@@ -210,7 +210,7 @@ def test_the_operator_patches_the_image_and_asks_for_the_state(
         "status estop=off running=on restart-needed=on autostart=on changed-at-control=on "
         f"incarnation=1 size=9 sha256={digest}"
     )
-    assert upload(session_at(emulated.address)) == b"1 0\n11 5\n"
+    assert upload(HouseDriver(session_at(emulated.address))) == b"1 0\n11 5\n"
     assert json.loads((tmp_path / "control.json").read_text())["changed_at_control"] is True
 
 

@@ -13,6 +13,7 @@ from amp_studio.transfer.client.exchange import download, upload
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import CancelledError, ConnectionCutError, ControlSilentError, TransferError
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Commit
 from amp_studio.transfer.progress import Stop
 from tests.transfer.images import NEW, OLD, send
@@ -45,7 +46,7 @@ def test_a_download_stopped_at_any_moment_says_what_the_control_holds(
         made = rig(control=new_control(initial=OLD), bytes_per_second=2_000, latency=0.02)
         cancel = SetAfter(asks, urgent=urgent)
         try:
-            held = download(made.session(), NEW, keep, signature="s1", cancel=cancel).held
+            held = download(HouseDriver(made.session()), NEW, keep, signature="s1", cancel=cancel).held
             was_stopped = False
         except CancelledError as error:
             held, said = error.held, str(error)
@@ -75,7 +76,7 @@ def test_a_keyboard_interrupt_after_the_commit_says_that_the_new_image_is_there(
             raise KeyboardInterrupt
 
     with pytest.raises(CancelledError) as caught:
-        download(made.session(), NEW, keep, signature="s1", progress=interrupt)
+        download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=interrupt)
     assert (caught.value.held, caught.value.kept) == ("new", "kept.amp")
     assert made.control.image == NEW
 
@@ -91,7 +92,7 @@ def test_nobody_who_can_be_told_ends_no_exchange(
             raise BrokenPipeError
 
     made = rig(control=control())
-    assert download(made.session(), NEW, keep, signature="s1", progress=closed).verified
+    assert download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=closed).verified
 
 
 # -- a commit without an answer --------------------------------------------------------------------
@@ -144,7 +145,7 @@ def test_an_unanswered_commit_is_given_up_within_20_seconds(
             asked.append(made.clock.now)
 
     with pytest.raises(TransferError) as caught:
-        download(made.session(), NEW, keep, signature="s1", progress=note)
+        download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=note)
     assert 19.9 <= made.clock.now - asked[0] <= 20.2
     assert isinstance(caught.value, ControlSilentError if lines > 2 else ConnectionCutError)
     assert caught.value.held == "unknown"
@@ -168,7 +169,7 @@ def test_who_stops_while_the_commit_is_not_answered_waits_5_seconds_and_not_at_a
                 cancel.set()
 
     with pytest.raises(CancelledError, match="stopped before the control has answered") as caught:
-        download(made.session(), NEW, keep, signature="s1", progress=stop, cancel=cancel)
+        download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=stop, cancel=cancel)
     assert caught.value.held == "unknown"
     assert least <= made.clock.now - stopped_at[0] <= most
     assert made.control.image == NEW
@@ -187,7 +188,7 @@ def test_a_silent_control_is_told_of_within_2_seconds(
     made = rig(Faults(silent=True), control=control())
     told: list[tuple[float, str, int]] = []
     with pytest.raises(ControlSilentError):
-        upload(made.session(), silences(made, told))
+        upload(HouseDriver(made.session()), silences(made, told))
     assert [(stage, seconds) for _, stage, seconds in told] == [("silent", 2), ("silent", 3), ("silent", 4)]
     assert 1.7 < told[0][0] <= 2.0
 
@@ -207,7 +208,7 @@ def test_a_line_that_is_not_made_is_told_of_within_2_seconds(
 
     made.open_link = slowly
     told: list[tuple[float, str, int]] = []
-    assert upload(made.session(), silences(made, told)) == OLD
+    assert upload(HouseDriver(made.session()), silences(made, told)) == OLD
     assert told[0][1:] == ("silent", 2)
     assert told[0][0] <= 2.0
     assert told[1][1:] == ("silent", 0), "and it is told that this is over"
@@ -242,7 +243,7 @@ def test_a_control_that_restarts_is_not_called_silent(
     made = rig(control=control())
     made.modem._restart_seconds = 9.0
     told: list[tuple[float, str, int]] = []
-    outcome = download(made.session(), NEW, keep, signature="s1", progress=silences(made, told))
+    outcome = download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=silences(made, told))
     assert outcome.verified
     restarting = [at for at, stage, _ in told if stage == "restart"]
     assert all(later - earlier <= 2.0 for earlier, later in pairwise(restarting))

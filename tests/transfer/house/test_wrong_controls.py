@@ -25,6 +25,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
+from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.frame import Frame, encode_frame
 from amp_studio.transfer.house.message import (
     Ack,
@@ -319,7 +320,7 @@ def test_a_control_that_does_not_keep_to_the_protocol_is_not_believed(
     monkeypatch.setattr(Wrong, "answers", {request_type: change})
     made = rig(control=control(), bytes_per_second=11_520)
     with pytest.raises(kind) as caught:
-        upload(made.session())
+        upload(HouseDriver(made.session()))
     assert caught.value.held == "", "an upload replaces nothing, and need not say so"
     assert made.clock.now < 120
 
