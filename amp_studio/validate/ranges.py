@@ -175,6 +175,8 @@ def _rounded_inwards(parameter: Parameter, value: Value, allowed: Limits | None)
         return value
     if parameter.ranges and value.unit not in parameter.ranges:
         return value
+    if abs(number) > 2**53:  # a double so large is a whole number, and has more digits than a decimal
+        return value
     towards = ROUND_FLOOR if number == allowed.high else ROUND_CEILING
     return Value(float(Decimal(repr(number)).quantize(Decimal(1).scaleb(-decimals), towards)), value.unit)
 

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from amp_studio.files import Change, ParameterFile, axis_instances, open_file, retype_axis
+from amp_studio.files import Change, ParameterFile, axis_instances, new_file, open_file, retype_axis
 from amp_studio.report import finding_json, finding_text, why_text
 from amp_studio.schema import Address, Parameter, Schema, Value, read_address, same_value
 from amp_studio.schema.units import UNITS
@@ -250,3 +250,12 @@ def test_a_repair_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
                 ]
         file.set(address, before)
         validator.update([address])
+
+
+def test_a_bound_of_three_hundred_digits_is_no_reason_to_stop() -> None:
+    """One parameter sets the bound of the other; a file may contain any figure for it."""
+    file = new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"])
+    file.set(("zone.limit2_max", "1"), Value(-1e299, "mm"))
+    file.set(("zone.limit2_min", "1"), Value(1.0, "in"))
+    about = {address for finding in Validator(file).run() for address in finding.addresses}
+    assert ("zone.limit2_min", "1") in about
