@@ -21,7 +21,7 @@ from .document import recover_backup
 from .lock import EditLock
 from .paths import backup_path, hidden_path, history_path, is_link, is_there
 from .storage import ParameterFileError, file_content, read_content
-from .yaml_text import amended, new_text
+from .yaml_text import amended, new_text, without_stray_tabs
 
 PROJECT_FORMAT = 1
 _VERSION = "amp_studio_project"
@@ -96,7 +96,7 @@ class Project:
 
         def made(previous: bytes | None) -> bytes:
             try:
-                content = _content(self.info, previous).encode("utf-8")
+                content = without_stray_tabs(_content(self.info, previous).encode("utf-8"))
                 is_same = _read(path, content) == self.info
             except (UnicodeError, YamlError, ParameterFileError) as error:
                 raise SaveError(f"{path} was not written: {error}") from None

@@ -41,7 +41,7 @@ from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, 
 
 from .atomic import SaveError, Tell, digest, write_atomic
 from .parameter_file import Header, ParameterFile
-from .yaml_text import amended, new_text
+from .yaml_text import amended, new_text, without_stray_tabs
 
 FORMAT = 1
 """Version of the file format; a file of a newer one is refused."""
@@ -320,8 +320,7 @@ def readable_content(file: ParameterFile, path: Path, previous: bytes | None = N
         content = content_of(file, previous)
         found = _fault_of(file, path, content)
         if found and previous is not None:
-            # YAML takes a blank line with a tab behind some entries and not behind others.
-            content = re.sub(rb"(?m)^ *\t[ \t]*$", b"", content)
+            content = without_stray_tabs(content)
             found = _fault_of(file, path, content)
     except UnicodeEncodeError as error:
         found = f"the sign U+{ord(error.object[error.start]):04X} is in no file"

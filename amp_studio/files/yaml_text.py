@@ -242,3 +242,8 @@ class _Editor:
             return at
         found = _BREAK.search(text, at)
         return found.end() if found else len(text)
+
+
+def without_stray_tabs(content: bytes) -> bytes:
+    """Return a content whose blank lines are empty: YAML takes a tab in one behind some entries and not behind others."""
+    return re.sub(rb"(?m)^ *\t[ \t]*$", b"", content)
