@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
+from typing import ClassVar
+
+import pytest
 
 from amp_studio.schema import Value
+from amp_studio.ui import task
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.task import ProgressDialog, Task
 
@@ -125,6 +131,42 @@ def test_escape_cancels_a_task_and_waits_for_its_end(window: MainWindow) -> None
     during(lambda dialog: dialog.reject())
     assert ProgressDialog("Work", work, window).run() == "ended"
     assert not Task.running
+
+
+class Closed:
+    """What is left of a closed window: garbage in a cycle, that notes which thread it ends in."""
+
+    ended_in: ClassVar[list[int]] = []
+
+    def __init__(self) -> None:
+        self.itself = self
+
+    def __del__(self) -> None:
+        self.ended_in.append(threading.get_ident())
+
+
+def test_a_closed_window_is_never_collected_by_the_thread_of_a_task(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Closed, "ended_in", [])
+    monkeypatch.setattr(task, "COLLECT_MS", 10)
+
+    def work(progress, cancel):  # type: ignore[no-untyped-def]
+        for _ in range(50):
+            Closed()
+            assert [[] for _ in range(1000)]  # enough to make Python collect
+        while not Closed.ended_in:
+            cancel.wait(0.01)
+        return threading.get_ident()
+
+    before = gc.get_threshold()
+    gc.set_threshold(100, 1, 1)
+    try:
+        worker = ProgressDialog("Work", work, window).run()
+    finally:
+        gc.set_threshold(*before)
+    assert worker not in Closed.ended_in
+    assert gc.isenabled()
 
 
 def test_a_silence_is_shown_below_what_is_waited_for_and_goes(window: MainWindow) -> None:
