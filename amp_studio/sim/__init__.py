@@ -1,21 +1,20 @@
 """The simulation: how an axis moves with its parameters, before the machine moves.
 
-`bind.axis_servo` reads the data of an axis from a parameter file (any callable that returns values by parameter id),
-`step.run_step` simulates a move, `write` writes the trace to files. `SCENARIOS` contains one entry for each scenario, a
-single call from file to trace. Ids of a control family are in that family's law only. Every modelling assumption is
-documented where it is made, is part of each trace, and is
-listed in docs/simulation.md.
+`simulate.simulate` is the single call from an open file to a trace. A family brings its law (`law.py`: two sample functions and
+the figures of an axis, bound from a file); the rest knows no family: the machine (`machine.py`, `plant.py`), the command
+(`profiles.py`, `ramps.py`), the loop over both (`kernel.py`, `compiled.py`, `motion.py`), the scenarios, and what is written
+(`write.py`). Every assumption is documented where it is made, is part of each trace, and is listed in docs/simulation.md.
 """
 
 from __future__ import annotations
 
-from .axis_parameters import MotorGains, ParameterValue, ReadParameter
-from .bind import axis_servo
-from .law import Law, law_of, simulated_families
+from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
+from .errors import SimulationError
+from .law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source, law_of, simulated_families
+from .machine import Machine
+from .model import model_settings
 from .scenarios import SCENARIOS, Scenario
-from .servo import AxisServo, SimulationError, Source
-from .simulate import simulate
-from .step import StepMove, default_move, run_step
+from .simulate import bind_axis, simulate
 from .svg import plot_svg
 from .trace import Alarm, Figure, Recommendation, Trace
 from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
@@ -23,24 +22,26 @@ from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
 __all__ = [
     "SCENARIOS",
     "Alarm",
-    "AxisServo",
+    "AlarmText",
+    "AxisLaw",
+    "AxisParameters",
     "Figure",
     "Law",
-    "MotorGains",
+    "Machine",
     "ParameterValue",
+    "Prediction",
+    "Ramp",
     "ReadParameter",
     "Recommendation",
     "Scenario",
     "SimulationError",
     "Source",
-    "StepMove",
     "Trace",
-    "axis_servo",
-    "default_move",
+    "bind_axis",
     "law_of",
+    "model_settings",
     "plot_png",
     "plot_svg",
-    "run_step",
     "simulate",
     "simulated_families",
     "trace_csv",

@@ -8,48 +8,60 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from .servo import SimulationError
+from amp_studio.schema import Table
+
+from .errors import SimulationError
 
 ParameterValue = float | str | bool | None
 ReadParameter = Callable[[str, str], ParameterValue]
 """value(parameter id, instance) -> ParameterValue; the instance of a global parameter is ''."""
-MotorGains = Callable[[str, str], tuple[float, float] | None]
-"""gains(motor type, load inertia ratio) -> (velocity proportional gain, velocity integral gain), or None."""
 
 
 class AxisParameters:
     """The values of one axis; overrides come first, and their use is recorded."""
 
-    def __init__(self, value: ReadParameter, axis: str, overrides: Mapping[str, ParameterValue]) -> None:
+    def __init__(
+        self,
+        value: ReadParameter,
+        axis: str,
+        overrides: Mapping[str, ParameterValue],
+        tables: Mapping[str, Table] | None = None,
+    ) -> None:
         self._value, self.axis, self._overrides = value, axis, dict(overrides)
+        self.tables = tables or {}
+        """The printed tables of the family by name."""
         self._used: set[str] = set()
 
     def given(self, parameter: str) -> bool:
         """Return whether a value is overridden."""
         return self._overrides.get(parameter) is not None
 
-    def value(self, parameter: str, *, everywhere: bool = False) -> ParameterValue:
-        """Return a value or None; ``everywhere`` for a parameter that does not belong to an axis."""
+    def value(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> ParameterValue:
+        """Return a value or None; ``everywhere`` for a parameter that does not belong to an axis, ``at`` for an instance
+        that is not the axis.
+        """
         if parameter in self._overrides:
             self._used.add(parameter)
             return self._overrides[parameter]
-        return self._value(parameter, "" if everywhere else self.axis)
+        if parameter.startswith("model."):
+            return None
+        return self._value(parameter, ("" if everywhere else self.axis) if at is None else at)
 
-    def number(self, parameter: str, *, everywhere: bool = False) -> float:
+    def number(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> float:
         """Return a number; raises SimulationError if it is not set or not a number."""
-        figure = self.value(parameter, everywhere=everywhere)
+        figure = self.value(parameter, everywhere=everywhere, at=at)
         if figure is None:
             raise self.missing(parameter)
         return self._float(parameter, figure)
 
-    def optional(self, parameter: str, *, everywhere: bool = False) -> float | None:
+    def optional(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> float | None:
         """Return a number, or None if it is not set; raises SimulationError for anything else."""
-        figure = self.value(parameter, everywhere=everywhere)
+        figure = self.value(parameter, everywhere=everywhere, at=at)
         return None if figure is None else self._float(parameter, figure)
 
-    def choice(self, parameter: str, *, everywhere: bool = False) -> str:
+    def choice(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> str:
         """Return the key of a choice; raises SimulationError if it is not set."""
-        key = self.value(parameter, everywhere=everywhere)
+        key = self.value(parameter, everywhere=everywhere, at=at)
         if key is None:
             raise self.missing(parameter)
         return str(key)

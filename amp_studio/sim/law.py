@@ -1,44 +1,184 @@
-"""What a family brings so that its axes can be simulated, found by its registration."""
+"""What a family brings so that its axes can be simulated, found by its registration.
+
+A law is two functions at most, at the top of a module of the family, over flat float64 arrays, so that they run as plain
+Python and as machine code with equal results:
+
+    from math import floor
+    from amp_studio.sim.signals import COMMAND, FEED_SHARE, MONITOR, MOTOR, OUTPUT, POSITION, STOP
+
+    GAIN, LIMIT = 0, 1            # indices into p
+    LAST = 0                      # index into s
+
+    def position_sample(p, s, io):      # every servo period
+        error = io[COMMAND] - io[POSITION]
+        if abs(error) > p[LIMIT]:
+            io[STOP] = 1.0              # alarms[1] ends the run
+        s[LAST] = p[GAIN] * error       # what the velocity loop shall do
+        io[MONITOR] = s[LAST]           # a column of its own, named in AxisLaw.monitors
+
+    def velocity_sample(p, s, io):      # every velocity period, at once after position_sample when both are due
+        io[OUTPUT] = ...
+
+They may call other functions at the top of a module and use its constants; ``math`` is fine, objects, strings, exceptions,
+default arguments and numpy are not. ``s`` is all zeros at rest and belongs to the law alone: what a law needs of earlier samples (a
+position to take a difference of) it keeps there. ``math.floor`` and ``int`` give integers: multiply by 1.0 where a float
+is meant. Divide by nothing that can be 0. The modes of `signals.MODE` are served by the law too: the scenario
+``velocity`` and the tuning procedures need VELOCITY_LOOP, the commands of a tune OUTPUT_TEST.
+
+Units: the axis unit u (mm or deg) and s everywhere inside; the parameters p are the law's own business.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from amp_studio.schema import Table
+from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 
-from .axis_parameters import AxisParameters, MotorGains
-from .servo import AxisServo, SimulationError
+from .axis_parameters import AxisParameters
+from .compiled import Sample
+from .errors import SimulationError
+from .machine import Machine
+from .trace import Recommendation, Trace
 
-Binding = Callable[[AxisParameters, MotorGains | None], AxisServo]
+RAMPS = ("none", "linear", "exponential", "s-curve", "sine-squared")
 
 
-def _no_gains(_tables: Mapping[str, Table]) -> MotorGains | None:
-    return None
+@dataclass(frozen=True)
+class Source:
+    """The parameter behind a figure of the axis."""
+
+    parameter: str
+    scale: float = 1.0
+    """Factor from this figure to the value in the file."""
+    unit: str | None = None
+    """Unit of the value in the file if it differs from the unit of the figure."""
+    whole: bool = False
+    """Whether the value in the file is a whole number."""
+    largest: float = math.inf
+    """Upper bound in the file."""
+    page: str = ""
+    """Page of the manual."""
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """How the speed of the command changes; a figure of 0 is "none of it"."""
+
+    kind: str = "none"
+    """One of RAMPS."""
+    acceleration: float = 0.0
+    """u/s2; 0 for no ramp."""
+    deceleration: float = 0.0
+    """u/s2; 0 for the acceleration."""
+    jerk: float = 0.0
+    """u/s3 of an S-curve."""
+    time: float = 0.0
+    """s: time constant of an exponential ramp, least time of a sine-squared one."""
+    velocity_step: float = 0.0
+    """u/s: a change of velocity that needs no ramp."""
+
+
+@dataclass(frozen=True)
+class AlarmText:
+    """An alarm of the control."""
+
+    code: str
+    """As the control shows it."""
+    message: str
+    """One sentence with the limit and its parameter."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """A figure that the manual's own equation gives, to compare with the motion."""
+
+    value: float | None
+    """None where it is never reached."""
+    unit: str
+    page: str
+    """Page of the equation."""
+
+
+@dataclass(frozen=True)
+class AxisLaw:
+    """One axis of a family, bound from the values of a file. Lengths in u, times in s, velocities in u/s."""
+
+    axis: str
+    unit: str
+    """mm or deg."""
+    title: str
+    """The control and its loops in one line."""
+    position_sample: Sample
+    velocity_sample: Sample | None
+    parameters: Sequence[float]
+    """The ``p`` of the sample functions."""
+    state_size: int
+    """Length of ``s``."""
+    servo_period: float
+    """s"""
+    velocity_period: float
+    """s; the servo period where there is no faster loop. The servo period is a whole multiple of it."""
+    machine: Machine
+    output_unit: str
+    """Unit of the output: %, V, points ..."""
+    position_rate: float
+    """1/s: commanded velocity for a following error at rest; what times to wait and settle are measured by."""
+    feedrate: float | None
+    """u/s of a move when none is given: the rapid feedrate. None where it is not set."""
+    inposition_band: float = 0.0
+    """u"""
+    ramps: Mapping[str, Ramp] = field(default_factory=lambda: {"none": Ramp()})
+    """The ramps that a move can have by kind; the first is the axis' own for positioning."""
+    monitors: Sequence[tuple[str, str]] = ()
+    """Name and unit of the columns that the law writes from MONITOR on."""
+    alarms: Mapping[int, AlarmText] = field(default_factory=dict)
+    """Number in STOP -> the alarm."""
+    predict: Callable[[float], Mapping[str, Prediction]] = lambda _feedrate: {}
+    """predict(feedrate in u/s) -> figures by name; ``steady_following_error`` and others that the motion is compared with."""
+    limits: Mapping[str, float] = field(default_factory=dict)
+    """Limits of the following error in u, to draw beside the curves."""
+    sources: Mapping[str, Source] = field(default_factory=dict)
+    """Figure -> its parameter."""
+    assumptions: tuple[str, ...] = ()
+    """What is assumed about the control, each a sentence with its page."""
+    assumed: Mapping[str, str] = field(default_factory=dict)
+    """Figure of the machine that no parameter gives -> why it has its value; dropped when it is set by ``model.*``."""
+    linear_parameters: Sequence[float] | None = None
+    """The ``p`` of the linear model (without quantisation, deadband, stiction terms); None for the same."""
+
+
+def _no_advice(_law: AxisLaw, _trace: Trace) -> Sequence[Recommendation]:
+    return ()
 
 
 @dataclass(frozen=True)
 class Law:
-    """From the parameters of an axis to its servo.
+    """The record of a family (``law="module:LAW"``).
 
-    ``bind``            the servo of an axis; raises SimulationError naming the parameter
-    ``settings``        figures that are no parameters and can be given by hand -> what they are
-    ``standard_gains``  a look-up into the printed motor tables; None when the family has none
+    ``bind``       one axis from a file; raises SimulationError naming the parameter
+    ``axes``       the axes of a file that can be simulated
+    ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what they are
+    ``scenarios``  those that the manual of the family carries
+    ``advise``     the family's own advice after a scenario
     """
 
-    bind: Binding
-    settings: Mapping[str, str]
-    standard_gains: Callable[[Mapping[str, Table]], MotorGains | None] = _no_gains
+    bind: Callable[[AxisParameters], AxisLaw]
+    axes: Callable[[ParameterFile], Sequence[str]] = fitted_axes
+    settings: Mapping[str, str] = field(default_factory=dict)
+    scenarios: Sequence[str] = ("step", "velocity", "frequency", "circle")
+    advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice
 
 
 def simulated_families() -> tuple[str, ...]:
-    """Return the families whose servo is known."""
+    """Return the families whose law is known."""
     return tuple(family for family in registered_families() if registration_of(family).law)
 
 
 def law_of(family: str) -> Law:
-    """Return the law of a family's axes; raises SimulationError where it is not known."""
+    """Return the law of a family's axes; raises SimulationError where there is none."""
     place = registration_of(family).law
     if not place:
         known = ", ".join(sorted(simulated_families()))

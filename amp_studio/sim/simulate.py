@@ -6,11 +6,15 @@ from collections.abc import Mapping
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema.registration import load_part, registration_of
 
-from .axis_parameters import ParameterValue
-from .law import law_of
+from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
+from .errors import SimulationError
+from .law import AxisLaw, Law, law_of
+from .model import with_model
+from .rigid import law as rigid_law
+from .rigid import scenarios as rigid_scenarios
 from .scenarios import SCENARIOS
-from .servo import SimulationError
 from .trace import Trace
 
 
@@ -20,29 +24,67 @@ def simulate(
     axis: str | None = None,
     settings: Mapping[str, float | str] | None = None,
 ) -> Trace:
-    """Run a scenario with the present values of a file; ``axis`` None means the first fitted axis.
+    """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
     ``settings`` are settings of the scenario and of the model (``move.feedrate``), in canonical units.
     Raises SimulationError with the parameter that is missing or impossible.
     """
     if scenario not in SCENARIOS:
         raise SimulationError(unknown_name("scenario", scenario, SCENARIOS))
+    given: Mapping[str, ParameterValue] = settings or {}
+    family = file.schema.family.family
+    place = registration_of(family).law
+    found = load_part(place) if place else None
+    if isinstance(found, rigid_law.Law):
+        return _rigid(file, scenario, axis, given)
+    own = {name: value for name, value in given.items() if not name.startswith("model.")}
+    law = law_of(family)
+    if scenario not in law.scenarios:
+        raise SimulationError(
+            f"{file.schema.family.name} has no scenario '{scenario}': {', '.join(law.scenarios)}"
+        )
+    model = {name: value for name, value in given.items() if name not in own}
+    return SCENARIOS[scenario].run(bind_axis(file, law, axis, model), own)
+
+
+def bind_axis(
+    file: ParameterFile,
+    law: Law,
+    axis: str | None = None,
+    overrides: Mapping[str, ParameterValue] | None = None,
+) -> AxisLaw:
+    """Return one axis of a file with its machine; ``overrides`` are values by parameter id or ``model.*``.
+
+    Raises SimulationError for an axis that is not fitted, a value that is missing, an override that is not used.
+    """
+    fitted = tuple(law.axes(file))
+    if not fitted:
+        raise SimulationError("No axis is fitted. Set the type of an axis first")
+    chosen = axis or fitted[0]
+    if chosen not in fitted:
+        raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
+    read = AxisParameters(_values(file), chosen, overrides or {}, file.schema.tables)
+    bound = with_model(law.bind(read), read)
+    read.refuse_unused()
+    return bound
+
+
+def _values(file: ParameterFile) -> ReadParameter:
+    def value(parameter_id: str, instance: str) -> ParameterValue:
+        return file.evaluation.canonical((parameter_id, instance))
+
+    return value
+
+
+def _rigid(
+    file: ParameterFile, scenario: str, axis: str | None, given: Mapping[str, ParameterValue]
+) -> Trace:
     fitted = fitted_axes(file)
     if not fitted:
         raise SimulationError("No axis is fitted. Set the type of an axis first")
     chosen = axis or fitted[0]
     if chosen not in fitted:
         raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
-
     family = file.schema.family.family
-
-    def value(parameter_id: str, instance: str) -> ParameterValue:
-        return file.evaluation.canonical((parameter_id, instance))
-
-    return SCENARIOS[scenario].run(
-        value,
-        chosen,
-        settings or {},
-        family,
-        law_of(family).standard_gains(file.schema.tables),
-    )
+    gains = rigid_law.law_of(family).standard_gains(file.schema.tables)
+    return rigid_scenarios.SCENARIOS[scenario].run(_values(file), chosen, given, family, gains)

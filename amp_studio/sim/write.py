@@ -7,8 +7,8 @@ from typing import Any
 
 from amp_studio.files import Tell, write_atomic
 
+from .errors import SimulationError
 from .rounding import shown
-from .servo import SimulationError
 from .svg import plot_svg
 from .trace import Trace
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.sim import AxisServo
+from amp_studio.sim.rigid.servo import AxisServo
 
 AXIS = AxisServo(
     position_gain=1.0,

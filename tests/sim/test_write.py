@@ -11,18 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from amp_studio.sim import (
-    AxisServo,
-    SimulationError,
-    StepMove,
-    Trace,
-    plot_svg,
-    run_step,
-    trace_csv,
-    trace_summary,
-    trace_text,
-    write_trace,
-)
+from amp_studio.sim import SimulationError, Trace, plot_svg, trace_csv, trace_summary, trace_text, write_trace
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, run_step
 from amp_studio.sim.rounding import rounded_down, rounded_up, shown
 from amp_studio.sim.svg import thinned, ticks
 

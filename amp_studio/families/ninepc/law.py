@@ -20,10 +20,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from amp_studio.schema import Table, canonical, load_schema
-from amp_studio.sim.axis_parameters import AxisParameters, MotorGains
-from amp_studio.sim.law import Law
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import Source
+from amp_studio.sim.rigid.law import Law, MotorGains
+from amp_studio.sim.rigid.servo import AxisServo
 from amp_studio.sim.rounding import shown
-from amp_studio.sim.servo import AxisServo, SimulationError, Source
 
 MODEL = "9/PC axis"
 PER_MS = 65536.0

@@ -11,9 +11,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, load_schema, read_value, write_value
 from amp_studio.schema.registration import Registration
-from amp_studio.sim.axis_parameters import AxisParameters, MotorGains
-from amp_studio.sim.law import Law
-from amp_studio.sim.servo import AxisServo
+from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Ramp
+from amp_studio.sim.arrays import Vector
+from amp_studio.sim.signals import COMMAND, OUTPUT, POSITION
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import NoConnectionError, WrongFamilyError
 from amp_studio.transfer.links.endpoint import Endpoint
@@ -116,23 +116,40 @@ class Driver:
 # -- the law of its axes ---------------------------------------------------------------------------
 
 
-def _axis(read: AxisParameters, _gains: MotorGains | None) -> AxisServo:
-    return AxisServo(
-        position_gain=1.0,
-        velocity_rate=200.0,
-        acceleration_at_rated=5000.0,
-        feedback_counts=8000.0,
-        travel=10.0,
-        linear_acceleration=500.0,
-        rapid_feedrate=read.number("model.rapid"),
-        cutting_feedrate=1000.0,
-        inposition_band=0.02,
+GAIN, PERIOD, LAST = 0, 1, 0
+
+
+def position_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """Ask for a torque in proportion to the following error, less the velocity."""
+    velocity = (io[POSITION] - s[LAST]) / p[PERIOD]
+    s[LAST] = io[POSITION]
+    io[OUTPUT] = 4.0 * (p[GAIN] * (io[COMMAND] - io[POSITION]) - velocity)
+
+
+def _axis(read: AxisParameters) -> AxisLaw:
+    rapid = read.number("model.rapid") / 60.0
+    return AxisLaw(
         axis=read.axis,
-        model="stepper axis",
+        unit="mm",
+        title="stepper axis",
+        position_sample=position_sample,
+        velocity_sample=None,
+        parameters=(20.0, 0.001),
+        state_size=1,
+        servo_period=0.001,
+        velocity_period=0.001,
+        machine=Machine(acceleration_per_output=50.0),
+        output_unit="%",
+        position_rate=20.0,
+        feedrate=rapid,
+        inposition_band=0.02,
+        ramps={"linear": Ramp("linear", 500.0)},
     )
 
 
-LAW = Law(_axis, {"model.rapid": "rapid feedrate (mm/min)"})
+LAW = Law(
+    _axis, axes=lambda _file: ("X",), settings={"model.rapid": "rapid feedrate (mm/min)"}, scenarios=("step",)
+)
 
 HERE = "tests.families.steps.stepper"
 REGISTRATION = Registration(

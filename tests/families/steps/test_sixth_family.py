@@ -13,7 +13,7 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.files import open_file
 from amp_studio.schema.registration import register, unregister
-from amp_studio.sim import SCENARIOS
+from amp_studio.sim import simulate
 from tests.families.steps.stepper import FAMILY, REGISTRATION, Driver
 
 CONTROL = "tcp://bench:1"
@@ -105,9 +105,8 @@ def test_a_copy_of_what_it_held_goes_back_only_where_the_control_can_tell(path: 
 
 
 def test_its_axis_moves_by_its_own_law(path: Path) -> None:
-    canonical = open_file(path).file.evaluation.canonical
     settings = {"model.rapid": 6000.0, "move.distance": 5.0}
-    trace = SCENARIOS["step"].run(lambda *address: canonical(address), "X", settings, FAMILY, None)
+    trace = simulate(open_file(path).file, "step", "X", settings)
     assert trace.model.startswith("stepper axis")
     assert trace.result["distance"] == (5.0, "mm")
 

@@ -13,13 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.rounding import rounded_up, shown
+from amp_studio.sim.trace import Alarm, Figure, Trace
+
 from . import kernel
 from .engine import Engine, run_move_by
 from .laws import RESPONSE_SHARE, response_time, steady_following_error
 from .recommendations import recommend
-from .rounding import rounded_up, shown
-from .servo import RAMPS, AxisServo, SimulationError
-from .trace import Alarm, Figure, Trace
+from .servo import RAMPS, AxisServo
 
 MOST_ROWS = 4_000_000
 """Most rows of a move, 16 minutes at the longest physics step; one row is 56 bytes."""

@@ -8,7 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from amp_studio.sim import AxisServo, StepMove, run_step
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, run_step
 
 Axis = Callable[..., AxisServo]
 

@@ -6,14 +6,16 @@ from collections.abc import Callable
 
 import pytest
 
-from amp_studio.sim import AxisServo, StepMove, Trace, run_step
-from amp_studio.sim.laws import (
+from amp_studio.sim import Trace
+from amp_studio.sim.rigid.laws import (
     excess_error_wanted,
     gain_break_wanted,
     response_ramp,
     response_time,
     steady_following_error,
 )
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, run_step
 
 Axis = Callable[..., AxisServo]
 

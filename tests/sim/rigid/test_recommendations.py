@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from amp_studio.sim import SCENARIOS, Recommendation, Trace
+from amp_studio.sim import Recommendation, Trace
+from amp_studio.sim.rigid.scenarios import SCENARIOS
 
 Values = dict[str, float | str | bool | None]
 File = Callable[..., Callable[[str, str], float | str | bool | None]]

@@ -10,6 +10,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import Source
+
 from .kernel import Loop
 
 LONGEST_STEP = 0.25e-3
@@ -18,31 +21,6 @@ STIFFEST_STEP = 0.5
 """Physics step times the fastest rate of the axis; Runge-Kutta 4 is stable up to 2.7 and accurate to 3e-4
 here."""
 MOST_SUBSTEPS = 10_000
-
-
-class SimulationError(ValueError):
-    """A simulation is not possible; contains a message and the parameter, if there is one."""
-
-    def __init__(self, what: str, parameter: str = "") -> None:
-        self.what, self.parameter = what, parameter
-        super().__init__(what)
-
-
-@dataclass(frozen=True)
-class Source:
-    """The parameter behind a figure of the axis."""
-
-    parameter: str
-    scale: float = 1.0
-    """Factor from this figure to the value in the file."""
-    unit: str | None = None
-    """Unit of the value in the file if it differs from the unit of the figure."""
-    whole: bool = False
-    """Whether the value in the file is a whole number."""
-    largest: float = math.inf
-    """Upper bound in the file."""
-    page: str = ""
-    """Page of the manual."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from amp_studio.sim import AxisServo, StepMove, run_step
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, run_step
 
 Axis = Callable[..., AxisServo]
 Matrix = npt.NDArray[np.float64]

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from .axis_parameters import MotorGains, ParameterValue, ReadParameter
+from amp_studio.sim.axis_parameters import ParameterValue, ReadParameter
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.trace import Trace
+
 from .bind import axis_servo
-from .servo import SimulationError
+from .law import MotorGains
 from .step import default_move, run_step
-from .trace import Trace
 
 Run = Callable[[ReadParameter, str, Mapping[str, ParameterValue], str, MotorGains | None], Trace]
 

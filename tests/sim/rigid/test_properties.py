@@ -8,7 +8,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from amp_studio.sim import AxisServo, StepMove, run_step, trace_summary
+from amp_studio.sim import trace_summary
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, run_step
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:

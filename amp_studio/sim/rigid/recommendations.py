@@ -10,6 +10,10 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from amp_studio.sim.law import Source
+from amp_studio.sim.rounding import rounded_down, rounded_up, shown
+from amp_studio.sim.trace import Figure, Recommendation
+
 from .laws import (
     available_acceleration,
     excess_error_wanted,
@@ -19,9 +23,7 @@ from .laws import (
     response_time,
     steady_following_error,
 )
-from .rounding import rounded_down, rounded_up, shown
-from .servo import AxisServo, Source
-from .trace import Figure, Recommendation
+from .servo import AxisServo
 
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear. A choice of this

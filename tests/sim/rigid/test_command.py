@@ -8,7 +8,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from amp_studio.sim import AxisServo, SimulationError, StepMove, default_move, run_step
+from amp_studio.sim import SimulationError
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, default_move, run_step
 
 Axis = Callable[..., AxisServo]
 

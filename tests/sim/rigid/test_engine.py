@@ -10,7 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from amp_studio.sim import AxisServo, StepMove, engine, kernel, run_step
+from amp_studio.sim.rigid import engine, kernel
+from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.rigid.step import StepMove, run_step
 
 Axis = Callable[..., AxisServo]
 

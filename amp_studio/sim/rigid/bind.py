@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from .axis_parameters import AxisParameters, MotorGains, ParameterValue, ReadParameter
-from .law import law_of
+from amp_studio.sim.axis_parameters import AxisParameters, ParameterValue, ReadParameter
+
+from .law import MotorGains, law_of
 from .servo import AxisServo
 
 

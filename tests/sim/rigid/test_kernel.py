@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from amp_studio.sim import AxisServo, kernel
+from amp_studio.sim.rigid import kernel
+from amp_studio.sim.rigid.servo import AxisServo
 
 Axis = Callable[..., AxisServo]
 

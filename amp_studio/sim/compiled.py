@@ -1,0 +1,117 @@
+"""One kernel for each law: the same source as plain Python or as machine code, with equal results.
+
+numba cannot take the two functions of a law as arguments without a call through a pointer at every sample, and finds a
+function that was made in a closure in no process's cache again. So the functions of kernel and law are copied, with the ones
+they call in their globals, and the copy of ``run`` has a name with a digest of all their code and constants: numba's index on
+disk (file, name, line) then finds the machine code in later processes, and never that of a law or a constant that has changed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable
+from functools import lru_cache
+from types import CodeType, FunctionType
+from typing import Any, cast
+
+from . import kernel
+from .arrays import Vector
+
+Sample = Callable[[Vector, Vector, Vector], None]
+"""A sample function of a law: parameters, state, signals."""
+Run = Callable[..., int]
+"""`kernel.run`."""
+
+PLAIN_STEPS = 30_000
+"""Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation.md)."""
+
+
+@lru_cache(maxsize=64)
+def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
+    """Return the kernel of a law as plain Python; its vectors are lists."""
+    return cast(Run, _copy(kernel.run, _own(position_sample, velocity_sample)))
+
+
+@lru_cache(maxsize=64)
+def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
+    """Return the kernel of a law as machine code; its vectors are contiguous numpy arrays.
+
+    The first call on a machine compiles it and stores the result. ``fastmath`` is off, so that sums are computed in the
+    written order. Raises ImportError where numba is not installed.
+    """
+    import numba
+
+    own = _own(position_sample, velocity_sample)
+    digest = hashlib.sha256("\n".join(_described(kernel.run, own, {})).encode()).hexdigest()[:16]
+    jitted: dict[FunctionType, Any] = {}
+
+    def machine_code(function: FunctionType) -> Any:
+        if function not in jitted:
+            names = {name: machine_code(called) for name, called in _called(function, own).items()}
+            jitted[function] = numba.njit(_copy(function, names), fastmath=False)
+        return jitted[function]
+
+    called = {name: machine_code(each) for name, each in _called(kernel.run, own).items()}
+    run = _copy(kernel.run, called)
+    run.__qualname__ = run.__name__ = f"run_{digest}"
+    vector = numba.float64[::1]
+    signature = numba.int64(*[vector] * 7, numba.float64[:, ::1])
+    return cast(Run, numba.njit(signature, cache=True, fastmath=False)(run))
+
+
+def jit_is_off() -> bool:
+    """Return whether the environment (NUMBA_DISABLE_JIT) asks for plain Python."""
+    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
+
+
+def is_loaded() -> bool:
+    """Return whether machine code was loaded in this process, so that more of it costs little."""
+    return compiled.cache_info().currsize > 0
+
+
+def _own(position_sample: Sample, velocity_sample: Sample | None) -> dict[str, FunctionType]:
+    both = {"position_sample": position_sample, "velocity_sample": velocity_sample or kernel.velocity_sample}
+    return {name: cast(FunctionType, function) for name, function in both.items()}
+
+
+def _copy(function: Callable[..., Any], names: dict[str, Any]) -> FunctionType:
+    """Return a copy of a function with other globals of these names."""
+    source = cast(FunctionType, function)
+    copy = FunctionType(
+        source.__code__, {**source.__globals__, **names}, source.__name__, source.__defaults__
+    )
+    copy.__module__, copy.__qualname__ = source.__module__, source.__qualname__
+    return copy
+
+
+def _called(function: Callable[..., Any], own: dict[str, FunctionType]) -> dict[str, FunctionType]:
+    """Return the functions that a function calls by their names, the law's for the kernel's two."""
+    source = cast(FunctionType, function)
+    names = own if source is kernel.run else {}
+    found = {name: names.get(name, source.__globals__.get(name)) for name in source.__code__.co_names}
+    return {name: each for name, each in found.items() if isinstance(each, FunctionType)}
+
+
+def _described(
+    function: Callable[..., Any], own: dict[str, FunctionType], seen: dict[FunctionType, None]
+) -> list[str]:
+    """Return what decides about the machine code: code and constants of a function and of all that it calls."""
+    source = cast(FunctionType, function)
+    if source in seen:
+        return []
+    seen[source] = None
+    text = _code(source.__code__)
+    called = _called(source, own)
+    for name in source.__code__.co_names:
+        constant = source.__globals__.get(name)
+        if isinstance(constant, (int, float, str, tuple)):
+            text.append(f"{name}={constant!r}")
+    for name, each in called.items():
+        text += [f"{name}()", *_described(each, own, seen)]
+    return text
+
+
+def _code(code: CodeType) -> list[str]:
+    constants = [repr(each) for each in code.co_consts if not isinstance(each, CodeType)]
+    return [code.co_code.hex(), *constants, *code.co_names, *code.co_varnames]

@@ -1,0 +1,168 @@
+"""The machine of one axis without its control: mechanics, drive and measuring devices, as plain figures.
+
+Lengths are in the unit u of the axis (mm or deg), times in s. "Output" is what the law gives to the drive, in the law's
+own unit. Torque is in the unit of the output where the output is a torque (``velocity_per_output`` 0), in % of rated
+torque where the drive closes a velocity loop of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+from .errors import SimulationError
+
+CONTACT = 150.0
+"""Hz: resonance of motor and load in contact, of an axis that has backlash but no resonance of its own; an assumption."""
+
+INERTIA_ASSUMED = 1.0
+"""Load inertia / motor inertia of an axis with two masses and no ratio of its own; an assumption."""
+
+
+@dataclass(frozen=True)
+class Machine:
+    """The machine of one axis; raises SimulationError for impossible figures."""
+
+    acceleration_per_output: float
+    """u/s2 for one unit of torque, motor and load together, without friction."""
+    inertia_ratio: float = 0.0
+    """Inertia of the load / inertia of the motor. It only divides the axis in two masses; it does not change the
+    acceleration."""
+    viscous_friction: float = 0.0
+    """Torque for 1 u/s."""
+    coulomb_friction: float = 0.0
+    """Torque while the axis moves."""
+    static_friction: float = 0.0
+    """Torque that starts an axis at rest; below ``coulomb_friction`` it is taken as that."""
+    motor_friction: float = 0.0
+    """Share of the friction on the motor's side, 0 to 1."""
+    backlash: float = 0.0
+    """u between both directions."""
+    resonance: float = 0.0
+    """Hz: motor and load against each other; 0 for one rigid mass."""
+    damping: float = 0.05
+    """Damping ratio of the resonance."""
+    gravity: float = 0.0
+    """Torque that holds the axis against its weight; a positive one acts in the negative direction."""
+    spring: float = 0.0
+    """Torque for 1 u away from the start."""
+    velocity_per_output: float = 0.0
+    """u/s for one unit of output of a drive that closes a velocity loop; 0 for a drive that gives a torque."""
+    velocity_bandwidth: float = 0.0
+    """Hz: the velocity loop of such a drive."""
+    velocity_integral: float = 0.0
+    """1/s: reciprocal of its integral time; 0 for none."""
+    bandwidth: float = 0.0
+    """Hz: current loop; 0 for an ideal one."""
+    delay: float = 0.0
+    """s from a sample to its effect on the drive."""
+    output_limit: float = math.inf
+    torque_limit_positive: float = math.inf
+    torque_limit_negative: float = math.inf
+    """As a positive number."""
+    motor_count: float = 0.0
+    """u for one count of the motor's device; 0 for an ideal one."""
+    position_count: float = 0.0
+    """u for one count of the position device."""
+    load_sensor: bool = False
+    """Whether the position device is at the load (a scale), not at the motor."""
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = float(getattr(self, field.name))
+            if math.isnan(value) or (math.isinf(value) and "limit" not in field.name):
+                raise SimulationError(f"{words(field.name)} of the machine is {value:g}; it must be finite")
+            if value < 0.0 and field.name != "gravity":
+                raise SimulationError(
+                    f"{words(field.name)} of the machine is {value:g}; it must not be negative"
+                )
+        if self.acceleration_per_output == 0.0:
+            raise SimulationError("The acceleration per output of the machine is 0; it must be above 0")
+        if self.motor_friction > 1.0:
+            raise SimulationError(f"The motor's share of the friction is {self.motor_friction:g}; at most 1")
+        if self.velocity_per_output > 0.0 and self.velocity_bandwidth == 0.0:
+            raise SimulationError("The velocity loop of the drive has no bandwidth; it must be above 0 Hz")
+
+    @property
+    def two_masses(self) -> bool:
+        """Whether motor and load move apart."""
+        return self.resonance > 0.0 or self.backlash > 0.0
+
+    @property
+    def fastest(self) -> float:
+        """The fastest rate in 1/s that the physics step has to resolve."""
+        rates = [self.acceleration_per_output * self.viscous_friction]
+        if self.two_masses:
+            rates.append(2.0 * math.pi * (self.resonance or CONTACT))
+        if self.spring > 0.0:
+            rates.append(math.sqrt(self.acceleration_per_output * self.spring))
+        if self.velocity_per_output > 0.0:
+            rates.append(2.0 * math.pi * self.velocity_bandwidth)
+        return max(rates)
+
+
+def words(name: str) -> str:
+    """Return the name of a figure as words."""
+    return name.replace("_", " ").capitalize()
+
+
+# -- the flat array for the plant (`plant.py`) ------------------------------------------------------
+
+ACCELERATION = 0
+"""u/s2 for one unit of torque, of the one mass."""
+MOTOR_ACCELERATION, LOAD_ACCELERATION = 1, 2
+"""u/s2 for one unit of torque, of each of two masses."""
+STIFFNESS, DAMPING, HALF_GAP = 3, 4, 5
+"""Torque for 1 u, torque for 1 u/s, u."""
+VISCOUS, COULOMB, STATIC = 6, 7, 8
+"""Of the load's side; of the motor's side the next three."""
+MOTOR_VISCOUS, MOTOR_COULOMB, MOTOR_STATIC = 9, 10, 11
+GRAVITY, SPRING = 12, 13
+LAG, LAG_MEAN = 14, 15
+"""What is left of a difference between wanted and present torque after one physics step, and its mean in the step."""
+DELAY_STEPS, DELAY_SHARE = 16, 17
+"""Delay as whole physics steps and the share of one more."""
+OUTPUT_LIMIT, TORQUE_POSITIVE, TORQUE_NEGATIVE = 18, 19, 20
+VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL = 21, 22, 23
+"""u/s for one unit of output, torque for 1 u/s, 1/s."""
+MOTOR_COUNT, POSITION_COUNT, LOAD_SENSOR, TWO_MASSES = 24, 25, 26, 27
+SIZE = 28
+
+
+def machine_array(machine: Machine, step: float) -> list[float]:
+    """Return the figures as the plant uses them with physics steps of ``step`` s; indices as above."""
+    m = [0.0] * SIZE
+    ratio = machine.inertia_ratio or INERTIA_ASSUMED
+    m[ACCELERATION] = machine.acceleration_per_output
+    m[MOTOR_ACCELERATION] = machine.acceleration_per_output * (1.0 + ratio)
+    m[LOAD_ACCELERATION] = machine.acceleration_per_output * (1.0 + ratio) / ratio
+    both = m[MOTOR_ACCELERATION] + m[LOAD_ACCELERATION]
+    rate = 2.0 * math.pi * (machine.resonance or CONTACT)
+    m[STIFFNESS] = rate * rate / both
+    m[DAMPING] = 2.0 * machine.damping * rate / both
+    m[HALF_GAP] = 0.5 * machine.backlash
+    dry = (
+        machine.viscous_friction,
+        machine.coulomb_friction,
+        max(machine.static_friction, machine.coulomb_friction),
+    )
+    for k, figure in enumerate(dry):
+        m[VISCOUS + k] = figure * (1.0 - machine.motor_friction)
+        m[MOTOR_VISCOUS + k] = figure * machine.motor_friction
+    m[GRAVITY], m[SPRING] = machine.gravity, machine.spring
+    if machine.bandwidth > 0.0:
+        lag = 2.0 * math.pi * machine.bandwidth * step
+        m[LAG], m[LAG_MEAN] = math.exp(-lag), -math.expm1(-lag) / lag
+    m[DELAY_STEPS] = math.floor(machine.delay / step + 1e-9)
+    m[DELAY_SHARE] = max(0.0, machine.delay / step - m[DELAY_STEPS])
+    m[OUTPUT_LIMIT] = machine.output_limit
+    m[TORQUE_POSITIVE], m[TORQUE_NEGATIVE] = machine.torque_limit_positive, machine.torque_limit_negative
+    if machine.velocity_per_output > 0.0:
+        # With this gain an ideal current loop makes the velocity an exact first-order lag, whatever the step is.
+        share = -math.expm1(-2.0 * math.pi * machine.velocity_bandwidth * step)
+        m[VELOCITY_PER_OUTPUT] = machine.velocity_per_output
+        m[VELOCITY_GAIN] = share / step / machine.acceleration_per_output
+        m[VELOCITY_INTEGRAL] = machine.velocity_integral
+    m[MOTOR_COUNT], m[POSITION_COUNT] = machine.motor_count, machine.position_count
+    m[LOAD_SENSOR], m[TWO_MASSES] = float(machine.load_sensor), float(machine.two_masses)
+    return m

@@ -1,0 +1,72 @@
+"""The settings of the machine, ``model.*``, that every simulated axis has."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from .axis_parameters import AxisParameters
+from .errors import SimulationError
+from .law import AxisLaw
+from .rounding import shown
+
+AT_SPEED = 60.0 / 1000.0
+"""1 unit of torque at 1000 u/min as torque for 1 u/s."""
+
+_FIGURES: dict[str, tuple[str, float, str]] = {
+    "model.acceleration_per_output": (
+        "acceleration_per_output",
+        1.0,
+        "acceleration for one unit of torque (mm/s2 or deg/s2 per {torque})",
+    ),
+    "model.inertia_ratio": ("inertia_ratio", 1.0, "inertia of the load / inertia of the motor"),
+    "model.viscous_friction": ("viscous_friction", AT_SPEED, "friction at 1000 mm/min or deg/min ({torque})"),
+    "model.coulomb_friction": ("coulomb_friction", 1.0, "dry friction in motion ({torque})"),
+    "model.static_friction": ("static_friction", 1.0, "dry friction at rest ({torque})"),
+    "model.motor_friction": ("motor_friction", 1.0, "share of the friction on the motor's side, 0 to 1"),
+    "model.backlash": ("backlash", 1.0, "backlash (mm or deg)"),
+    "model.resonance": ("resonance", 1.0, "resonance of motor and load (Hz); 0 for a rigid axis"),
+    "model.damping": ("damping", 1.0, "damping ratio of the resonance"),
+    "model.gravity": ("gravity", 1.0, "torque that holds the weight ({torque}); above 0 it falls to -"),
+    "model.spring": ("spring", 1.0, "torque for 1 mm or deg away from the start ({torque})"),
+    "model.current_bandwidth": ("bandwidth", 1.0, "bandwidth of the current loop (Hz); 0 for an ideal one"),
+    "model.velocity_bandwidth": (
+        "velocity_bandwidth",
+        1.0,
+        "bandwidth of the velocity loop in the drive (Hz)",
+    ),
+    "model.delay": ("delay", 1e-3, "time from a sample to its effect on the drive (ms)"),
+}
+"""Setting -> figure of the machine, factor to it, what it is; {torque} is the unit of the torque."""
+
+
+def model_settings() -> dict[str, str]:
+    """Return setting -> what it is."""
+    return {name: text.format(torque="torque") for name, (_, _, text) in _FIGURES.items()}
+
+
+def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
+    """Return the axis with the machine as the settings have it; what is set is no longer assumed."""
+    changes: dict[str, float] = {}
+    for name, (figure, factor, _) in _FIGURES.items():
+        value = read.optional(name)
+        if value is not None:
+            changes[figure] = value * factor
+    if "velocity_bandwidth" in changes and axis.machine.velocity_per_output == 0.0:
+        name = "model.velocity_bandwidth"
+        raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
+    assumed = {figure: why for figure, why in axis.assumed.items() if figure not in changes}
+    machine = replace(axis.machine, **changes)  # type: ignore[arg-type]  # none of them is the flag
+    return replace(axis, machine=machine, assumed=assumed)
+
+
+def assumptions(axis: AxisLaw) -> tuple[str, ...]:
+    """Return all that is assumed about an axis: the control, then the figures of its machine with the way to set them."""
+    return (*axis.assumptions, *(_assumption(axis, figure, why) for figure, why in axis.assumed.items()))
+
+
+def _assumption(axis: AxisLaw, figure: str, why: str) -> str:
+    for name, (own, factor, _) in _FIGURES.items():
+        if own == figure:
+            value = shown(getattr(axis.machine, figure) / factor, digits=6)
+            return f"ASSUMED: {name} = {value}. {why}"
+    return f"ASSUMED: {why}"

@@ -1,0 +1,131 @@
+"""One run of an axis over a profile: chooses the physics step, runs the kernel plain or compiled, returns columns."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import kernel
+from .compiled import PLAIN_STEPS, compiled, is_loaded, jit_is_off, plain
+from .errors import SimulationError
+from .law import AxisLaw
+from .machine import machine_array
+from .plant import ENDED, SHARE, state_size
+from .signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
+
+Engine = Literal["auto", "plain", "compiled"]
+
+LONGEST_STEP = 0.25e-3
+"""Longest physics step in s."""
+STIFFEST_STEP = 0.25
+"""Physics step times the fastest rate of the machine."""
+MOST_SUBSTEPS = 10_000
+MOST_STEPS = 40_000_000
+"""Most physics steps of a run, almost three hours at the longest one."""
+MOST_ROWS = 4_000_000
+
+
+@dataclass(frozen=True)
+class Until:
+    """When a run ends: at the latest after ``duration`` s; when the axis was in the ``rest_band`` (u) around the commanded
+    end for ``rest_time`` s; ``settle_time`` s after the end of the command.
+    """
+
+    duration: float
+    rest_band: float = 0.0
+    rest_time: float = math.inf
+    settle_time: float = math.inf
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The result of a run."""
+
+    columns: dict[str, npt.NDArray[np.float64]]
+    """Name -> (rows,) float64 in s, u, u/s, the units of output, torque and monitors."""
+    stop: int
+    """Number of the alarm that ended the run; 0 for none, -1 where the axis ran away without bounds."""
+    rows_per_servo_period: int
+    """Rows from one servo sample to the next; the first row is a servo sample."""
+
+
+def run_axis(
+    axis: AxisLaw,
+    profile: list[float],
+    until: Until,
+    *,
+    mode: float = POSITION_LOOP,
+    share_rate: float = math.inf,
+    engine: Engine = "auto",
+    refine: int = 1,
+    thin: bool = False,
+) -> Motion:
+    """Run an axis from rest over a profile (`profiles.py`).
+
+    ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share; ``refine`` divides the
+    physics step; ``thin`` keeps one row for each velocity sample. Raises SimulationError where the run would take too long.
+    """
+    samples, substeps = steps(axis, refine)
+    step = axis.servo_period / samples / substeps
+    stride = substeps if thin else 1
+    most = math.ceil(until.duration / step - 1e-6)
+    if not most <= MOST_STEPS or most / stride > MOST_ROWS:
+        longest = min(MOST_STEPS, MOST_ROWS * stride) * step
+        raise SimulationError(
+            f"The move takes about {until.duration:.0f} s, more than can be simulated ({longest:.0f} s)."
+            " Give a shorter distance or a higher feedrate"
+        )
+    timing = [0.0] * kernel.TIMING_SIZE
+    timing[kernel.SERVO_PERIOD], timing[kernel.STEP] = axis.servo_period, step
+    timing[kernel.VELOCITY_SAMPLES], timing[kernel.SUBSTEPS] = float(samples), float(substeps)
+    timing[kernel.SHARE_RATE], timing[kernel.STRIDE] = share_rate, float(stride)
+    timing[kernel.REST_BAND], timing[kernel.REST_TIME] = until.rest_band, until.rest_time
+    timing[kernel.SETTLE_TIME], timing[kernel.MONITORS] = until.settle_time, float(len(axis.monitors))
+    io = [0.0] * (MONITOR + len(axis.monitors))
+    io[FEED_SHARE], io[MODE] = 1.0, mode
+    machine = machine_array(axis.machine, step)
+    plant = [0.0] * state_size(math.floor(axis.machine.delay / step + 1e-9))
+    plant[SHARE], plant[ENDED] = 1.0, -1.0
+    rows = np.empty((max(1, math.ceil(most / stride)), len(kernel.COLUMNS) + len(axis.monitors)))
+    parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
+    vectors = [parameters, state, io, machine, plant, timing, profile]
+    filled, io = _run(axis, vectors, rows, engine, most)
+    stop = int(io[STOP])
+    names = [*kernel.COLUMNS, *(name for name, _ in axis.monitors)]
+    columns = dict(zip(names, np.ascontiguousarray(rows[:filled].T), strict=True))
+    return Motion(columns, stop, samples * substeps // stride)
+
+
+def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
+    """Return (velocity samples in a servo period, physics steps in a velocity sample)."""
+    samples = max(1, round(axis.servo_period / axis.velocity_period))
+    sample = axis.servo_period / samples
+    wanted = max(sample / LONGEST_STEP - 1e-9, sample * axis.machine.fastest / STIFFEST_STEP)
+    if not wanted <= MOST_SUBSTEPS:
+        raise SimulationError(
+            f"The machine of axis {axis.axis} is too stiff to simulate ({axis.machine.fastest:.6g} 1/s)"
+        )
+    return samples, max(1, math.ceil(wanted)) * refine
+
+
+def _run(
+    axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, most: int
+) -> tuple[int, list[float]]:
+    """Run the kernel; return the filled rows and the signals at the end."""
+    machine_code = engine == "compiled" or (engine == "auto" and (is_loaded() or most > PLAIN_STEPS))
+    if machine_code and not jit_is_off():
+        arrays = [np.array(each, dtype=np.float64) for each in vectors]
+        filled = compiled(axis.position_sample, axis.velocity_sample)(*arrays, rows)
+        return filled, arrays[2].tolist()
+    try:
+        filled = plain(axis.position_sample, axis.velocity_sample)(*vectors, rows)
+    except OverflowError:  # a count of a position without bounds
+        raise SimulationError(f"Axis {axis.axis} runs away: its loop is not stable") from None
+    return filled, vectors[2]
+
+
+__all__ = ["DIVERGED", "Engine", "Motion", "Until", "run_axis", "steps"]

@@ -1,0 +1,10 @@
+"""The scenarios by name; each moves one axis in its own way and returns a trace."""
+
+from __future__ import annotations
+
+from . import step
+from .scenario import Scenario
+
+SCENARIOS: dict[str, Scenario] = {each.name: each for each in (step.SCENARIO,)}
+
+__all__ = ["SCENARIOS", "Scenario"]

@@ -1,0 +1,54 @@
+"""What a scenario is, and its settings as plain figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from amp_studio.schema.nearest import unknown_name
+from amp_studio.sim.axis_parameters import ParameterValue
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.trace import Trace
+
+Settings = Mapping[str, ParameterValue]
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One kind of simulation."""
+
+    name: str
+    title: str
+    settings: Mapping[str, str]
+    """Settings of the scenario -> what they are."""
+    run: Callable[[AxisLaw, Settings], Trace]
+    """run(axis, settings in canonical units) -> Trace; raises SimulationError."""
+
+
+def number(settings: Settings, name: str) -> float | None:
+    """Return a setting as a number, None if it is not given; raises SimulationError for anything else."""
+    setting = settings.get(name)
+    if setting is None:
+        return None
+    if isinstance(setting, (bool, str)):
+        raise SimulationError(f"{name} is {setting!r}, not a number", name)
+    if not math.isfinite(setting):
+        raise SimulationError(f"{name} is {setting:g}; it must be finite", name)
+    return float(setting)
+
+
+def above_zero(settings: Settings, name: str) -> float | None:
+    """Return a setting that must be above 0."""
+    value = number(settings, name)
+    if value is not None and value <= 0.0:
+        raise SimulationError(f"{name} is {value:g}; it must be above 0", name)
+    return value
+
+
+def refuse_unknown(settings: Settings, known: Mapping[str, str]) -> None:
+    """Raise SimulationError for a setting that the scenario does not have."""
+    for name in settings:
+        if name not in known:
+            raise SimulationError(unknown_name("setting", name, known), name)

@@ -1,0 +1,51 @@
+"""A law as a family writes one runs over the shared kernel."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from amp_studio.sim import SCENARIOS
+from amp_studio.sim.motion import Until, run_axis
+from amp_studio.sim.ramps import move
+from tests.sim.tiny import tiny
+
+
+def test_a_proportional_loop_follows_at_the_velocity_over_its_gain() -> None:
+    trace = SCENARIOS["step"].run(tiny(), {"move.feedrate": 6000.0, "move.distance": 80.0})
+    steady, unit = trace.result["steady_following_error"]
+    assert (steady, unit) == (pytest.approx(5.0, rel=2e-3), "mm")
+    assert trace.result["overshoot"] == (0.0, "mm")
+
+
+def test_an_alarm_of_the_law_ends_the_run_and_is_named() -> None:
+    trace = SCENARIOS["step"].run(tiny(excess=4.0), {"move.feedrate": 6000.0})
+    (alarm,) = trace.alarms
+    assert alarm.code == "EXCESS ERROR"
+    assert trace.columns["time_s"][-1] == alarm.time_s
+    assert trace.result["settle_time"][0] is None
+
+
+def test_machine_code_and_plain_python_give_the_same_numbers() -> None:
+    axis = tiny(
+        inertia_ratio=2.0,
+        viscous_friction=0.01,
+        coulomb_friction=1.0,
+        static_friction=2.0,
+        motor_friction=0.3,
+        backlash=0.01,
+        resonance=80.0,
+        gravity=1.5,
+        spring=0.01,
+        bandwidth=300.0,
+        delay=0.0003,
+        torque_limit_positive=15.0,
+        torque_limit_negative=12.0,
+        load_sensor=True,
+        motor_count=0.0005,
+    )
+    profile = move(4.0, 100.0, axis.ramps["linear"])
+    runs = [run_axis(axis, profile, Until(0.25), engine=engine) for engine in ("plain", "compiled")]
+    assert len(runs[0].columns["time_s"]) == 1000
+    for name, column in runs[0].columns.items():
+        np.testing.assert_allclose(column, runs[1].columns[name], rtol=1e-9, atol=1e-9, err_msg=name)
