@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import shutil
 import subprocess
@@ -51,11 +52,13 @@ def _one(chance: random.Random, work: Path) -> list[str]:
     command = _program(
         "emulate", "57c422b", "--listen", listen, "--state", state, "--faults", json.dumps(faults)
     )
+    kept = None
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as control:
         try:
             assert control.stdout is not None
             address = control.stdout.readline().strip().removeprefix("listening on ")
             old = (state / "active.img").read_bytes()
+            kept = _kept_name(address)
             ended = subprocess.run(
                 _program("download", path, "--to", address, "--accept-errors"),
                 capture_output=True, text=True, check=False, timeout=180,
@@ -63,7 +66,16 @@ def _one(chance: random.Random, work: Path) -> list[str]:
             held = (state / "active.img").read_bytes()
         finally:
             control.kill()
+            if kept is not None:
+                os.close(kept)
     return _untrue(ended.returncode, ended.stdout + ended.stderr, old, held, work, f"{listen} {faults}")
+
+
+def _kept_name(address: str) -> int | None:
+    """Hold a pseudo terminal, so that its name goes to no other control while the program waits for a dead one."""
+    if not address.startswith("serial:"):
+        return None
+    return os.open(address.removeprefix("serial:").partition("?")[0], os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
 
 
 def _untrue(code: int, said: str, old: bytes, held: bytes, work: Path, how: str) -> list[str]:
