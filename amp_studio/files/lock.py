@@ -16,6 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
+from amp_studio.schema.visible import visible
 
 from .paths import hidden_path
 
@@ -33,6 +34,8 @@ else:
 
 _TRIES = 100
 """How often a lock file may vanish while it is locked."""
+_LONGEST_NOTE = 300
+"""Characters of what the holder has left that a message shows."""
 
 
 class InUse(OSError):
@@ -101,9 +104,10 @@ class EditLock:
 
     def _holder(self) -> str:
         try:
-            return read_file(self._holder_path(), 4096, follow=False).decode("utf-8", "replace").strip()
+            left = read_file(self._holder_path(), 4096, follow=False).decode("utf-8", "replace").strip()
         except OSError:
             return "it left no details"
+        return visible(left[:_LONGEST_NOTE])
 
     def _tell_who(self) -> None:
         """Write who has the lock into a file of his own: a link that somebody put there is removed, not followed."""

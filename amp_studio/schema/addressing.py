@@ -27,7 +27,7 @@ from .catalog import Schema
 from .conditions import StateInfo
 from .machine_schema import MachineSchema
 from .model import Parameter, Scope
-from .quoting import quoted
+from .quoting import quoted, short
 from .values import label_of
 
 _NEAREST = 3
@@ -242,7 +242,7 @@ def _nearest(schema: Schema, text: str) -> list[str]:
     known |= {p.id.partition(".")[2]: p.id for p in schema.parameters.values()}
     known |= {p: p for p in schema.parameters}
     found = dict.fromkeys(known[word] for word in get_close_matches(name[:80], known, 2 * _NEAREST, 0.7))
-    return [f"{n}{sign}{instance}" if n in schema.parameters else n for n in found][:_NEAREST]
+    return [f"{n}{sign}{short(instance)}" if n in schema.parameters else n for n in found][:_NEAREST]
 
 
 def _nearest_numbers(numbers: list[str], text: str) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, get_type_hints
@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from amp_studio.schema import InvalidValueError, read_number, write_number
 from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema.quoting import quoted
 
 from .formulas import formulas
 
@@ -83,7 +84,10 @@ def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
             values[argument.name] = _read(argument, text)
         elif argument.default is None:
             raise ValueError(f"{name} needs {argument.name}")
-    return formulas(family)[name](**values)
+    try:
+        return formulas(family)[name](**values)
+    except ArithmeticError:
+        raise ValueError(f"{name} cannot be worked out: a number is too large or too small") from None
 
 
 def _read(argument: Argument, text: str) -> Any:
@@ -95,14 +99,15 @@ def _read(argument: Argument, text: str) -> Any:
         if argument.kind in (float, int):
             number, rest = read_number(text)
             if rest.strip():
-                raise InvalidValueError(f"'{text}' is no plain number")
+                raise InvalidValueError(f"{quoted(text)} is no plain number")
             return TypeAdapter(argument.kind).validate_python(number)
         several = getattr(argument.kind, "__args__", ())
         plain = text if several and str in several else f"[{text}]"
-        return TypeAdapter(argument.kind).validate_python(json.loads(plain) if plain[:1] == "[" else text)
-    except (InvalidValueError, ValidationError, KeyError, json.JSONDecodeError):
+        found = TypeAdapter(argument.kind).validate_python(json.loads(plain) if plain[:1] == "[" else text)
+        return list(found) if isinstance(found, Iterator) else found  # pydantic looks at its items only now
+    except (InvalidValueError, ValidationError, KeyError, ValueError, RecursionError):
         told = f" ({argument.example})" if argument.example else ""
-        raise ValueError(f"'{text}' is no {argument.name}{told}") from None
+        raise ValueError(f"{quoted(text)} is no {argument.name}{told}") from None
 
 
 def shown_result(result: Any) -> str:

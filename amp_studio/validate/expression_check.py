@@ -116,7 +116,7 @@ class ExpressionCheck:
         found = self._names.get(name)
         if found is None:
             near = did_you_mean(name, self._names)
-            self._slip(f"'{name}' is not read: add it under reads{near.replace('did', 'or did', 1)}")
+            self._slip(f"{shown(name)} is not read: add it under reads{near.replace('did', 'or did', 1)}")
             return ANY
         return found
 
@@ -144,7 +144,7 @@ class ExpressionCheck:
         signature = self._functions.get(name)
         cost = _CALL + 2 * sum(worth.size for worth in given)
         if signature is None:
-            self._slip(f"'{name}' is no function{did_you_mean(name, self._functions)}")
+            self._slip(f"{shown(name)} is no function{did_you_mean(name, self._functions)}")
             return ANY, cost
         if not signature.fewest <= len(given) <= signature.most:
             count = f"{signature.fewest}" + (

@@ -253,7 +253,7 @@ class _ExpressionParser:
         if name.text not in MACROS:
             return self._node("call", start, (of, *arguments), name.text)
         if len(arguments) not in MACROS[name.text] or arguments[0].kind != "name":
-            raise ExpressionError(f"'{name.text}' takes a name for the items, a comma and an expression")
+            raise ExpressionError(f"{shown(name.text)} takes a name for the items, a comma and an expression")
         bound = str(arguments[0].value)
         return self._node("over", start, (of, *arguments[1:]), name.text, bound)
 
@@ -299,7 +299,7 @@ class _ExpressionParser:
             value = None if token.text == "null" else token.text == "true"
             return Node("value", token.text, (), value)
         if token.text in RESERVED:
-            raise ExpressionError(f"'{token.text}' is a word of the language and can be no name")
+            raise ExpressionError(f"{shown(token.text)} is a word of the language and can be no name")
         if token.text == "not" and self._next.kind == "name":
             raise ExpressionError("'not' is no operator: write '!'")
         if self._next.text == "(":

@@ -16,6 +16,7 @@ from typing import Any
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
 from amp_studio.schema.expression import ALWAYS_THERE, Decision
+from amp_studio.schema.quoting import quoted
 from amp_studio.schema.units import UNITS
 
 AT_HAND = ("it", "at")
@@ -106,14 +107,14 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Told:
         variables = found - TYPES
         known = {*rule.reads, *ALWAYS_THERE, *(AT_HAND if place.startswith(("blames", "compares")) else ())}
         for name in sorted(variables - known):
-            raise RuleError(rule.id, f"{place} speaks of '{name}', which it does not read")
+            raise RuleError(rule.id, f"{place} speaks of {quoted(name)}, which it does not read")
         if place.startswith(("check", "value ")):
             spoken_of |= found
         if place == "when":
             asked_of |= found
         named = functions_called(compiled)
         for name in sorted(named - set(functions)):
-            raise RuleError(rule.id, f"{place} calls '{name}', which is no function")
+            raise RuleError(rule.id, f"{place} calls {quoted(name)}, which is no function")
         called |= named & set(functions)
     spoken_of |= _check_names(rule)
     replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
@@ -179,15 +180,15 @@ def _check_names(rule: Rule) -> set[str]:
     for place, names in named.items():
         for name in names:
             if name not in rule.reads:
-                raise RuleError(rule.id, f"{place} names '{name}', which it does not read")
+                raise RuleError(rule.id, f"{place} names {quoted(name)}, which it does not read")
     for assignment in (*rule.fix, *rule.effective):
         if assignment.set not in rule.reads or assignment.set in lists:
-            raise RuleError(rule.id, f"it sets '{assignment.set}', which is no single value it reads")
+            raise RuleError(rule.id, f"it sets {quoted(assignment.set)}, which is no single value it reads")
     for name, unit in rule.units.items():
         if name not in rule.values:
-            raise RuleError(rule.id, f"units names '{name}', which is none of its values")
+            raise RuleError(rule.id, f"units names {quoted(name)}, which is none of its values")
         if unit not in UNITS:
-            raise RuleError(rule.id, f"'{unit}' is no unit")
+            raise RuleError(rule.id, f"{quoted(unit)} is no unit")
     known = {*rule.reads, *rule.values, *ALWAYS_THERE}
     try:
         fields = [
@@ -199,6 +200,7 @@ def _check_names(rule: Rule) -> set[str]:
         if name not in known or form or how:
             written = f"{name}{f'!{how}' if how else ''}{f':{form}' if form else ''}"
             raise RuleError(
-                rule.id, f"the message shows '{{{written}}}', which is neither read nor among its values"
+                rule.id,
+                f"the message shows {quoted(f'{{{written}}}')}, which is neither read nor among its values",
             )
     return {name for name, _, _ in fields}

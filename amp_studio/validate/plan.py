@@ -20,6 +20,7 @@ from amp_studio.schema import (
     UnknownParameterError,
     read_address,
 )
+from amp_studio.schema.quoting import quoted
 
 from .expressions import Expressions, RuleError, check_rule
 from .formulas import rule_functions
@@ -188,10 +189,12 @@ def _check_read(schema: Schema, rule: Rule, text: str) -> None:
     parameter_id, which = read_address(text)
     parameter = schema.parameters.get(parameter_id)
     if parameter is None:
-        raise RuleError(rule.id, f"reads '{parameter_id}', which the family does not have")
+        raise RuleError(rule.id, f"reads {quoted(parameter_id)}, which the family does not have")
     offered = {i for machine in schema.family.machines for i in schema.on(machine.key).instances(parameter)}
     if which not in ("", "*", "<", ">", ".") and which not in offered:
-        raise RuleError(rule.id, f"reads '{text}', but {parameter.name} has no instance '{which}'")
+        raise RuleError(
+            rule.id, f"reads {quoted(text)}, but {parameter.name} has no instance {quoted(which)}"
+        )
 
 
 def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str, ...]]:

@@ -23,7 +23,8 @@ from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
-from . import texts
+from . import persons, stored, texts, wire
+from .command_lines import fuzz_command_lines
 from .lines import download_over_bad_lines
 from .verbs import VERBS, fail_calls
 
@@ -117,5 +118,35 @@ CAMPAIGNS = (
     Campaign("damaged texts of controls", partial(_damaged_in, texts.fuzz_imports), MANY, 50, 2_000),
     Campaign("odd values", partial(_damaged, texts.fuzz_entries), MANY, 50, 5_000),
     Campaign("damaged control image", _images, MANY, 100, 5_000),
+    Campaign("damaged frames", partial(_damaged, wire.fuzz_frames), MANY, 500, 5_000),
+    Campaign("damaged messages", partial(_damaged, wire.fuzz_messages), MANY, 1_000, 5_000),
+    Campaign("damaged addresses of controls", partial(_damaged, persons.fuzz_endpoints), MANY, 500, 5_000),
+    Campaign("damaged digests", partial(_damaged, persons.fuzz_digests), MANY, 500, 5_000),
+    Campaign("damaged practice faults", partial(_damaged, persons.fuzz_practice_faults), MANY, 300, 5_000),
+    Campaign("odd names of parameters", partial(_damaged, persons.fuzz_names), MANY, 20, 5_000),
+    Campaign("odd arguments of formulas", partial(_damaged, persons.fuzz_formulas), MANY, 500, 5_000),
+    Campaign("damaged expressions", partial(_damaged, persons.fuzz_expressions), MANY, 300, 5_000),
+    Campaign(
+        "damaged expressions in rules",
+        partial(_damaged_in, persons.fuzz_builders_expressions),
+        MANY,
+        50,
+        5_000,
+    ),
+    Campaign(
+        "odd commands at an emulated control", partial(_damaged_in, persons.fuzz_commands), MANY, 200, 5_000
+    ),
+    Campaign("command lines to be completed", partial(_damaged_in, persons.fuzz_completion), MANY, 20, 5_000),
+    Campaign("odd command lines", partial(_damaged_in, fuzz_command_lines), MANY, 40, 2_000),
+    Campaign("damaged suppressions", partial(_damaged_in, stored.fuzz_suppressions), MANY, 50, 5_000),
+    Campaign(
+        "damaged memory of an emulated control", partial(_damaged_in, stored.fuzz_memories), MANY, 100, 5_000
+    ),
+    Campaign("damaged copies of a control", partial(_damaged_in, stored.fuzz_copies), MANY, 50, 5_000),
+    Campaign("damaged backups", partial(_damaged_in, stored.fuzz_backups), MANY, 50, 5_000),
+    Campaign("damaged cache", partial(_damaged_in, stored.fuzz_caches), MANY, 200, 5_000),
+    Campaign("damaged lock notes", partial(_damaged_in, stored.fuzz_locks), MANY, 300, 5_000),
+    Campaign("damaged facts", partial(_damaged_in, stored.fuzz_facts), MANY, 50, 5_000),
+    Campaign("damaged settings", partial(_damaged_in, stored.fuzz_settings), MANY, 100, 5_000),
     Campaign("every offered fix, machines of random values", _fixes, 1_000, 2, 50),
 )

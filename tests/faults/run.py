@@ -21,10 +21,20 @@ def _start() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
-def _part(number: int, seed: int, runs: int) -> list[str]:
+def _part(number: int, seed: int, runs: int) -> tuple[list[str], float]:
+    """Return the violations, and the seconds of processor time that they took to find."""
+    began = _processor_seconds()
     with tempfile.TemporaryDirectory(prefix="amp-studio-faults-") as folder:
         os.environ["XDG_CONFIG_HOME"] = os.environ["XDG_STATE_HOME"] = folder
-        return CAMPAIGNS[number].run(seed, runs, Path(folder))
+        os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+        found = CAMPAIGNS[number].run(seed, runs, Path(folder))
+    return found, _processor_seconds() - began
+
+
+def _processor_seconds() -> float:
+    """Return the processor time of this process and of those that it has started and waited for."""
+    both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(used.ru_utime + used.ru_stime for used in both)
 
 
 def main() -> int:
@@ -36,7 +46,7 @@ def main() -> int:
     parser.add_argument("--processes", type=int, default=os.cpu_count())
     options = parser.parse_args()
     violated = False
-    print(f"{'campaign':44} {'runs':>9} {'violations':>11} {'seconds':>9}")
+    print(f"{'campaign':44} {'runs':>9} {'violations':>11} {'seconds':>9} {'CPU ms/run':>11}")
     with ProcessPoolExecutor(options.processes, initializer=_start) as pool:
         for number, campaign in enumerate(CAMPAIGNS):
             if options.only.casefold() not in campaign.name.casefold():
@@ -44,9 +54,12 @@ def main() -> int:
             began, runs = time.monotonic(), max(1, round(campaign.whole * options.share))
             sizes = [min(campaign.at_once, runs - done) for done in range(0, runs, campaign.at_once)]
             parts = [pool.submit(_part, number, options.seed + n, size) for n, size in enumerate(sizes)]
-            found = [fault for part in parts for fault in part.result()]
+            results = [part.result() for part in parts]
+            found = [fault for faults, _ in results for fault in faults]
+            cost = sum(seconds for _, seconds in results) / runs * 1000
             violated |= bool(found)
-            print(f"{campaign.name:44} {runs:9} {len(found):11} {time.monotonic() - began:9.0f}", flush=True)
+            took = time.monotonic() - began
+            print(f"{campaign.name:44} {runs:9} {len(found):11} {took:9.0f} {cost:11.2f}", flush=True)
             print(*(f"    {fault}\n" for fault in found), sep="", end="", flush=True)
     return int(violated)
 

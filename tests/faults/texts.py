@@ -11,6 +11,7 @@ import random
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import TypeVar
 from unittest import mock
 
 from amp_studio.files import (
@@ -37,6 +38,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.yaml_reader import YamlError, read_yaml
 
+Case = TypeVar("Case")
 SLOWEST = 5.0
 """Seconds for one damaged text."""
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -101,14 +103,16 @@ def _line(text: str, chance: random.Random, _texts: Sequence[str]) -> str:
 
 
 def violations(
-    texts: Iterator[str], look: Callable[[str], None], allowed: tuple[type[Exception], ...]
+    texts: Iterator[Case], look: Callable[[Case], None], allowed: tuple[type[BaseException], ...]
 ) -> list[str]:
     """Return what goes wrong when each text is looked at: any error that is not allowed, and whatever takes long."""
     with mock.patch("os.fsync", return_value=None):  # it is about what is read, not about the disk
         return [violation for text in texts for violation in _looked(text, look, allowed)]
 
 
-def _looked(text: str, look: Callable[[str], None], allowed: tuple[type[Exception], ...]) -> Iterator[str]:
+def _looked(
+    text: Case, look: Callable[[Case], None], allowed: tuple[type[BaseException], ...]
+) -> Iterator[str]:
     begun = time.monotonic()
     try:
         look(text)

@@ -137,6 +137,9 @@ def test_a_holder_who_writes_anything_is_shown_in_bounds(on_disk: Path) -> None:
         on_disk.with_name(".bench.amp.holder").write_bytes(b"\xff" * 100_000)
         with pytest.raises(InUse, match="it left no details"):
             Document.open(on_disk)
+        on_disk.with_name(".bench.amp.holder").write_bytes(b"me\n\x1b[2J" + b"x" * 4000)
+        with pytest.raises(InUse, match=r"\(me\\n\\u001b\[2Jx{293}\)"):
+            Document.open(on_disk)
 
 
 def test_a_name_too_long_for_its_companions_is_told(tmp_path: Path) -> None:

@@ -38,6 +38,18 @@ def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str
         ),
         ("gain_break_point", {"max_contouring": "1", "gain": "0"}, "greater than zero"),
         ("inside_zone", {"position": "5, 5", "limits": "0, 10"}, r"'0, 10' is no limits"),
+        ("net_correction", {"corrections": '","'}, r"'\",\"' is no corrections"),
+        ("net_correction", {"corrections": "[" * 100_000}, r"^'\[{59}…' is no corrections"),
+        (
+            "fine_scans_per_logic_scan",
+            {
+                "fine_ms": "1e-320",
+                "fine_maximum_ms": "1e16",
+                "activation_maximum_ms": "1e16",
+                "logic_maximum_ms": "1",
+            },
+            "fine_scans_per_logic_scan cannot be worked out: a number is too large or too small",
+        ),
     ],
 )
 def test_what_cannot_be_meant_is_told_in_one_sentence(name: str, texts: dict[str, str], said: str) -> None:

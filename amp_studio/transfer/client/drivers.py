@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from amp_studio.schema.quoting import quoted
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.transfer.driver import ControlDriver, DriverFactory
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
@@ -21,7 +22,7 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
     name = place.protocol or next(iter(offered))
     if name not in offered:
         of = f" of {family}" if family else ""
-        raise ValueError(f"Unknown protocol '{name}'{of}. Known: {', '.join(offered)}")
+        raise ValueError(f"Unknown protocol {quoted(name)}{of}. Known: {', '.join(offered)}")
     factory: DriverFactory = load_part(offered[name])
     return factory(place, family)
 

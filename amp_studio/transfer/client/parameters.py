@@ -9,6 +9,7 @@ from contextlib import closing
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
+from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.image import decode_image, encode_image
 from amp_studio.transfer.progress import Progress, quiet
 
@@ -76,7 +77,7 @@ def read_digest(text: str | None) -> bytes | None:
         return None
     if not re.fullmatch("[0-9a-fA-F]{64}", text.strip()):
         raise ValueError(
-            f"'{text}' is no SHA-256: write its 64 hexadecimal digits, as verify and upload print them"
+            f"{quoted(text)} is no SHA-256: write its 64 hexadecimal digits, as verify and upload print them"
         )
     return bytes.fromhex(text.strip())
 

@@ -245,22 +245,24 @@ class Control:
     # -- small parts -------------------------------------------------------------------------------
 
     def _boot(self, initial: bytes, estop: bool | None, autostart: bool | None) -> None:
-        self.memory.clear_temporaries()
+        # All is read before anything is written: a memory that is refused stays as it is.
         active = self.memory.read(ACTIVE)
+        self._record = load_record(self.memory, self.identity)
+        intent = load_json(self.memory, INTENT)
+        if intent is not None and not (isinstance(intent.get("to"), str) and is_answer(intent.get("answer"))):
+            raise StateError(f"{self.memory.folder / INTENT} is damaged")
+        self._staging = Staging(self.memory)
+        self.memory.clear_temporaries()
         if active is None:
             self.memory.replace(ACTIVE, initial)
             active = initial
         self._take(active)
-        self._record = load_record(self.memory, self.identity)
         self._record.hold(self._digest)
-        intent = load_json(self.memory, INTENT)
-        if intent is not None and not (isinstance(intent.get("to"), str) and is_answer(intent.get("answer"))):
-            raise StateError(f"{self.memory.folder / INTENT} is damaged")
         if intent is not None and intent["to"] == self._digest.hex():
             self._finish(intent)
         elif intent is not None:
             self._forget_intent()
-        self._staging = Staging(self.memory)
+        self._staging.tidy()
         pending = self._staging.pending
         if pending is not None and self._record.answer_to(pending.transfer, pending.sha256) is not None:
             self._staging.drop()

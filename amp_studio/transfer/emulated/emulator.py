@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
+from amp_studio.schema.quoting import quoted
 from amp_studio.schema.visible import visible
 from amp_studio.transfer.house.frame import encode_frame
 from amp_studio.transfer.house.message import Code, Flags, RefusalError, Refused, pack
@@ -250,8 +251,8 @@ class Emulator:
             case "patch", _ if "=" in rest:
                 self._patched(*rest.split("=", 1))
             case _:
-                raise ValueError(f"'{line}' is no command: {COMMANDS}")
-        return line
+                raise ValueError(f"{quoted(line)} is no command: {COMMANDS}")
+        return visible(line)
 
     def _patched(self, key: str, value: str) -> None:
         patch = self._patch

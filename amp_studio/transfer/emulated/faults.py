@@ -12,6 +12,7 @@ import signal
 from dataclasses import dataclass
 from typing import Any
 
+from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.links.link import Link, LinkError
 
 from .control import Control
@@ -43,16 +44,17 @@ def read_faults(text: str) -> Faults:
     """Return the faults a JSON object names; raises ValueError with one sentence for anything else."""
     try:
         found = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         found = None
     if not isinstance(found, dict):
         raise ValueError("faults are one JSON object")
     kinds = {field.name: bool if field.name == "silent" else int for field in dataclasses.fields(Faults)}
     for name, value in found.items():
         if name not in kinds:
-            raise ValueError(f"there is no fault '{name}'; there are {', '.join(kinds)}")
+            raise ValueError(f"there is no fault {quoted(name)}; there are {', '.join(kinds)}")
         if type(value) is not kinds[name] or (kinds[name] is int and value < 0):
-            raise ValueError(f"the fault '{name}' cannot be {value!r}")
+            wanted = "true or false" if kinds[name] is bool else "a whole number from 0"
+            raise ValueError(f"the fault '{name}' must be {wanted}")
     return Faults(**found)
 
 

@@ -6,7 +6,7 @@ import contextlib
 import hashlib
 from dataclasses import asdict, dataclass
 
-from .memory import Memory
+from .memory import LARGEST, Memory
 from .record import StateError, load_json, to_json
 
 PREFIX = "staged-"
@@ -27,13 +27,22 @@ class PendingDownload:
         return f"{PREFIX}{self.transfer.hex()}.part"
 
     @property
+    def is_sound(self) -> bool:
+        """Whether the fields are what the wire can carry."""
+        lengths = len(self.transfer), len(self.sha256), len(self.expected)
+        return lengths == (16, 32, 32) and type(self.size) is int and 0 <= self.size <= LARGEST
+
+    @property
     def note(self) -> str:
         """The file it is written down in."""
         return f"{PREFIX}{self.transfer.hex()}.json"
 
 
 class Staging:
-    """At most one download, taken up again after a restart. ``size`` is how many of its bytes have come."""
+    """At most one download, taken up again after a restart. ``size`` is how many of its bytes have come.
+
+    Raises StateError, OSError for what cannot be read, and has written nothing then; ``tidy`` removes the rest.
+    """
 
     def __init__(self, memory: Memory) -> None:
         self._memory = memory
@@ -44,7 +53,6 @@ class Staging:
                 self.pending = self._load(name)
         if self.pending is not None:
             self.size = memory.size(self.pending.part)
-        self._tidy()
 
     def begin(self, pending: PendingDownload) -> None:
         """Throw away what was begun before and begin this; raises OSError."""
@@ -81,20 +89,26 @@ class Staging:
                 with contextlib.suppress(OSError):
                     self._memory.remove(name)
 
-    def _load(self, name: str) -> PendingDownload | None:
+    def _load(self, name: str) -> PendingDownload:
         found = load_json(self._memory, name) or {}
+        pending: PendingDownload | None
         try:
-            return PendingDownload(
+            pending = PendingDownload(
                 bytes.fromhex(found["transfer"]),
-                int(found["size"]),
+                found["size"],
                 bytes.fromhex(found["sha256"]),
                 bytes.fromhex(found["expected"]),
             )
-        except (KeyError, TypeError, ValueError, OverflowError):
-            raise StateError(f"{self._memory.folder / name} is damaged") from None
+        except (KeyError, TypeError, ValueError):
+            pending = None
+        if pending is None or not pending.is_sound or pending.note != name:
+            raise StateError(f"{self._memory.folder / name} is damaged")
+        return pending
 
-    def _tidy(self) -> None:
-        """Remove what belongs to no download."""
+    def tidy(self) -> None:
+        """Remove what belongs to no download, and one of which more has come than there is."""
+        if self.pending is not None and self.size > self.pending.size:
+            self.drop()
         wanted = {self.pending.note, self.pending.part} if self.pending is not None else set()
         for name in self._memory.names():
             if name.startswith(PREFIX) and name not in wanted:

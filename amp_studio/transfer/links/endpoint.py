@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 from urllib.parse import parse_qsl
 
+from amp_studio.schema.quoting import quoted
+
 DEFAULT_BAUD = 115_200
 FORMS = "tcp://host:port, serial:PORT?baud=115200 or pty:"
 
@@ -53,7 +55,7 @@ def parse_endpoint(text: str) -> Endpoint:
         return _serial(text, text)
     if text == "pty:":
         return Endpoint("pty")
-    raise ValueError(f"'{text}' is no address of a control: write {FORMS}")
+    raise ValueError(f"{quoted(text)} is no address of a control: write {FORMS}")
 
 
 def is_endpoint(text: str) -> bool:
@@ -66,11 +68,11 @@ def _tcp(text: str) -> Endpoint:
     found = re.fullmatch(r"tcp://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?", place, re.ASCII)
     if found is None:
         raise ValueError(
-            f"'{text}' is no TCP address: write tcp://host:port, for example tcp://192.168.0.5:7090"
+            f"{quoted(text)} is no TCP address: write tcp://host:port, for example tcp://192.168.0.5:7090"
         )
     port = int(found[3])
     if port > 65_535:
-        raise ValueError(f"'{text}' names port {port}, and ports end at 65535")
+        raise ValueError(f"{quoted(text)} names port {port}, and ports end at 65535")
     options = _options(text, query, "a TCP connection", ("protocol",))
     return Endpoint("tcp", host=found[1] or found[2], port=port, protocol=options.get("protocol", ""))
 
@@ -78,12 +80,12 @@ def _tcp(text: str) -> Endpoint:
 def _serial(text: str, rest: str) -> Endpoint:
     device, _, query = rest.partition("?")
     if not device:
-        raise ValueError(f"'{text}' names no port: write serial:/dev/ttyUSB0 or serial:COM3")
+        raise ValueError(f"{quoted(text)} names no port: write serial:/dev/ttyUSB0 or serial:COM3")
     options = _options(text, query, "a serial line", ("baud", "protocol"))
     rate = options.get("baud", str(DEFAULT_BAUD))
     if not re.fullmatch(r"[1-9]\d{1,6}", rate, re.ASCII):
         raise ValueError(
-            f"'{text}' has the rate '{rate}': write a number of bits a second, such as baud=9600"
+            f"{quoted(text)} has the rate {quoted(rate)}: write a number of bits a second, such as baud=9600"
         )
     return Endpoint("serial", device=device, baud=int(rate), protocol=options.get("protocol", ""))
 
@@ -92,10 +94,12 @@ def _options(text: str, query: str, what: str, known: tuple[str, ...]) -> dict[s
     options: dict[str, str] = {}
     for key, value in parse_qsl(query, keep_blank_values=True):
         if key not in known:
-            raise ValueError(f"'{text}' sets '{key}', and {what} has only {' and '.join(map(repr, known))}")
+            raise ValueError(
+                f"{quoted(text)} sets {quoted(key)}, and {what} has only {' and '.join(map(repr, known))}"
+            )
         if key in options:
-            raise ValueError(f"'{text}' sets '{key}' twice")
+            raise ValueError(f"{quoted(text)} sets {quoted(key)} twice")
         options[key] = value
     if "protocol" in options and not re.fullmatch(r"[a-z][a-z0-9-]{0,30}", options["protocol"], re.ASCII):
-        raise ValueError(f"'{text}' names no protocol: write ?protocol=house, for example")
+        raise ValueError(f"{quoted(text)} names no protocol: write ?protocol=house, for example")
     return options

@@ -7,7 +7,6 @@ import hashlib
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -449,35 +448,3 @@ def test_a_full_disk_leaves_what_is_staged_as_it_was(make: Callable[..., Control
     assert control.staged_size == 150
     control.memory.full_at = None
     assert download(control).sha256 == sha(NEW)
-
-
-@pytest.mark.parametrize(
-    ("name", "content"),
-    [
-        ("control.json", {"incarnation": "many"}),
-        ("control.json", {"incarnation": 1 << 40}),
-        ("control.json", {"estop": 1}),
-        ("control.json", {"committed": {"transfer": 5}}),
-        ("control.json", {"committed": []}),
-        ("commit.json", {}),
-        ("commit.json", {"to": "00", "answer": {"incarnation": 1}}),
-    ],
-)
-def test_a_state_that_no_control_has_written_is_refused_with_its_file(
-    new_control: Callable[..., Control], tmp_path: Path, name: str, content: dict[str, Any]
-) -> None:
-    folder = tmp_path / "control"
-    new_control(folder).close()
-    path = folder / name
-    before = json.loads(path.read_text()) if path.exists() else {}
-    path.write_text(json.dumps(before | content))
-    with pytest.raises(StateError, match=name):
-        new_control(folder)
-
-
-def test_a_state_nested_beyond_reason_is_refused(new_control: Callable[..., Control], tmp_path: Path) -> None:
-    folder = tmp_path / "control"
-    new_control(folder).close()
-    (folder / "control.json").write_text("[" * 100_000)
-    with pytest.raises(StateError, match="damaged"):
-        new_control(folder)

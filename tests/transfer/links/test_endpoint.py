@@ -51,6 +51,8 @@ def test_the_forms_of_an_address(text: str, expected: Endpoint) -> None:
         ("tcp://host:70?protocol=../x", "names no protocol"),
         ("pty:/dev/pts/3", "no address"),
         ("udp://host:1", "no address"),
+        ("x" * 5000, "…' is no address"),
+        ("tcp://host:70\n?protocol=\x1b[2J", r"\n?protocol=\u001b[2J"),
     ],
 )
 def test_what_is_no_address_is_refused_in_one_sentence(text: str, said: str) -> None:
@@ -58,3 +60,4 @@ def test_what_is_no_address_is_refused_in_one_sentence(text: str, said: str) -> 
         parse_endpoint(text)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 200

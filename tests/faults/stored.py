@@ -1,0 +1,246 @@
+"""Damaged files that the program keeps for itself: a control's memory, copies, backups, the cache, settings, locks, facts.
+
+What is refused is refused with the one documented error, and no file has changed by it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import random
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from unittest import mock
+
+from pydantic import ValidationError
+
+from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
+from amp_studio.files.atomic import SaveError
+from amp_studio.files.lock import EditLock, InUse
+from amp_studio.schema import DatabaseError
+from amp_studio.schema.compiled_cache import read_cached, write_cached
+from amp_studio.schema.load import Compiled, compile_family
+from amp_studio.transfer.client.kept import CopyError, keep_image, open_copy
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.record import Identity, StateError, to_json, written
+from amp_studio.transfer.house.message import Commit, Committed, OpenDownload
+from amp_studio.transfer.image import encode_image
+from amp_studio.validate.builder_rules import suppress
+
+from .texts import REPOSITORY, RULES, SMALL, mutants, violations
+
+FACTS = REPOSITORY / "tests" / "families" / "steps" / "facts"
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Return what a folder holds."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def _one_damaged(
+    folder: Path, seed: int, count: int, look: Callable[[], None], allowed: tuple[type[Exception], ...]
+) -> list[str]:
+    """Damage one file of a folder at a time and look; what is refused has changed nothing."""
+    whole, chance = contents(folder), random.Random(seed)
+    texts = {name: content.decode("utf-8") for name, content in whole.items()}
+
+    def cases() -> Iterator[tuple[str, str]]:
+        for _ in range(count):
+            name = chance.choice(sorted(texts))
+            yield name, next(mutants([texts[name]] * 3 + list(texts.values()), chance.getrandbits(32), 1))
+
+    def looked(case: tuple[str, str]) -> None:
+        _lay_out(folder, whole)
+        (folder / case[0]).write_bytes(case[1].encode("utf-8", "surrogatepass"))
+        before = contents(folder)
+        try:
+            look()
+        except allowed:
+            assert contents(folder) == before, "a refusal has changed files"
+            raise
+
+    return violations(cases(), looked, allowed)
+
+
+def _lay_out(folder: Path, whole: dict[str, bytes]) -> None:
+    for name, held in contents(folder).items():
+        if name not in whole:
+            (folder / name).unlink()
+        elif held != whole[name]:
+            (folder / name).write_bytes(whole[name])
+    for name, content in whole.items():
+        if not (folder / name).exists():
+            (folder / name).write_bytes(content)
+
+
+def fuzz_memories(folder: Path, seed: int, count: int) -> list[str]:
+    """Start an emulated control on a damaged memory: in the middle of a download, and between a commit and its end."""
+    identity, image = Identity("9pc", "s1"), b"a new image\n"
+    found = []
+    for number, (name, staged) in enumerate({"download": 5, "commit": len(image)}.items()):
+        memory = folder / name
+        _begin(memory, identity, image, staged)
+
+        def look(memory: Path = memory) -> None:
+            control = Control(memory, identity, b"born with")
+            try:
+                assert control.staged_size <= len(image)
+                assert control.image == (memory / "active.img").read_bytes()
+            finally:
+                control.close()
+
+        found += _one_damaged(memory, seed + number, max(1, count // 2), look, (StateError,))
+    return found
+
+
+def _begin(memory: Path, identity: Identity, image: bytes, staged: int) -> None:
+    """Leave a memory as it is in the middle of a download, or just after the one moment of a commit."""
+    control = Control(memory, identity, b"born with")
+    transfer, sha256 = b"t" * 16, hashlib.sha256(image).digest()
+    control.open_download(OpenDownload(transfer, len(image), sha256, control.sha256, "s1"))
+    control.stage(transfer, image[:staged])
+    if staged == len(image):
+        control.commit(Commit(transfer, sha256))
+    control.close()
+    answer = Committed(transfer, sha256, 1, restarting=True)
+    (memory / "commit.json").write_bytes(to_json({"to": sha256.hex(), "answer": written(answer)}))
+
+
+def fuzz_copies(folder: Path, seed: int, count: int) -> list[str]:
+    """Open damaged copies of what a control held: the image, its digest and the parameter file beside it."""
+    file = new_file("57c422b", "module")
+    for address in list(file.values)[12:]:
+        del file.values[address]
+    file.evaluation.forget()
+    kept = keep_image(encode_image(file), folder, "mill")
+    readable = kept.with_suffix(".amp")
+
+    def look() -> None:
+        copy = open_copy(kept)
+        assert copy.image == kept.read_bytes()
+        assert copy.is_checked
+        copy = open_copy(readable)
+        assert not copy.is_kept or copy.image == kept.read_bytes()
+
+    return _one_damaged(folder, seed, count, look, (CopyError, ParameterFileError))
+
+
+def fuzz_backups(folder: Path, seed: int, count: int) -> list[str]:
+    """Put a damaged backup back: one that cannot be read is not put in place of the file."""
+    path, backup = folder / "x.amp", folder / "x.amp.bak"
+    save_file(new_file("57c422b", name="X"), path)
+    backup.write_text(SMALL, encoding="utf-8")
+
+    def look() -> None:
+        path_before, before = path.read_bytes(), backup.read_bytes()
+        recover_backup(path)
+        assert (path.read_bytes(), backup.read_bytes()) == (before, path_before)
+
+    return _one_damaged(folder, seed, count, look, (ParameterFileError,))
+
+
+def fuzz_caches(folder: Path, seed: int, count: int) -> list[str]:
+    """Read a damaged cache: it gives what was kept there or nothing; facts below a right digest are facts or refused."""
+    path = folder / "steps-x.json"
+    write_cached(path, compile_family(FACTS).model_dump_json(exclude_defaults=True).encode(), "steps")
+    whole = path.read_bytes().decode("utf-8")
+    kept = whole.partition("\n")[2].encode()
+
+    def look(text: str) -> None:
+        content = text.encode("utf-8", "surrogatepass")
+        path.write_bytes(content)
+        assert read_cached(path) in (None, kept)
+        below = content.partition(b"\n")[2]
+        path.write_bytes(hashlib.sha256(below).hexdigest().encode() + b"\n" + below)
+        found = read_cached(path)
+        assert found == below
+        Compiled.model_validate_json(found)
+
+    logging.disable(logging.WARNING)
+    try:
+        return [
+            v
+            for v in violations(mutants([whole], seed, count), look, ())
+            if not v.startswith(ValidationError.__name__)
+        ]
+    finally:
+        logging.disable(logging.NOTSET)
+
+
+def fuzz_locks(folder: Path, seed: int, count: int) -> list[str]:
+    """Meet a lock whose holder left a damaged note: it is refused in one line."""
+    path = folder / "x.amp"
+    path.write_bytes(b"")
+    with EditLock(path):
+        holder = next(each for each in folder.iterdir() if each.name.endswith(".holder"))
+
+        def look(text: str) -> None:
+            holder.write_bytes(text.encode("utf-8", "surrogatepass"))
+            EditLock(path).take()
+
+        return violations(mutants(["me on here, process 12, since now"], seed, count), look, (InUse,))
+
+
+def fuzz_facts(folder: Path, seed: int, count: int) -> list[str]:
+    """Compile a family of which one fact file is damaged."""
+    work = folder / "facts"
+    shutil.copytree(FACTS, work)
+
+    def look() -> None:
+        compile_family(work)
+
+    return _one_damaged(work, seed, count, look, (DatabaseError,))
+
+
+def fuzz_suppressions(folder: Path, seed: int, count: int) -> list[str]:
+    """Suppress a finding in a damaged file of rules: it is added, or refused and no byte has changed."""
+    path = folder / "rules.yaml"
+    path.write_text(RULES, encoding="utf-8")
+
+    def look() -> None:
+        suppress(path, "schema.range", ["1300"], reason="looked: at it", by="me # here")
+
+    return _one_damaged(folder, seed, count, look, (ValueError, SaveError))
+
+
+SETTINGS = """\
+[General]
+control=tcp://127.0.0.1:7090
+geometry=@ByteArray(\\x1\\xd9\\xd0\\xcb\\0\\x3\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0)
+layout="@ByteArray(\\0\\0\\0\\xff\\0\\0\\0\\0\\xfd\\0\\0\\0\\0)"
+recent=/tmp/a.amp, /tmp/b.amp, @Invalid()
+other=@Variant(\\0\\0\\0\\x7f\\0\\0\\0\\x8QString)
+"""
+
+
+def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
+    """Start with damaged settings."""
+    from PySide6.QtCore import QSettings, Qt, qInstallMessageHandler
+    from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow
+
+    from amp_studio.ui.settings import Settings, is_there
+
+    application = QApplication.instance() or QApplication([])
+    window = QMainWindow()
+    window.addDockWidget(Qt.DockWidgetArea.LeftDockWidgetArea, QDockWidget("Panel", window))
+
+    def look(text: str) -> None:
+        path.write_bytes(text.encode("utf-8", "surrogatepass"))
+        stored = QSettings(str(path), QSettings.Format.IniFormat)
+        with mock.patch("amp_studio.ui.settings.stored_in", return_value=stored):
+            settings = Settings()
+        assert isinstance(settings.control(), str)
+        for recent in settings.recent():
+            is_there(recent)
+        settings.place(window)
+        settings.arrange(window)
+        assert window.width() >= 1
+
+    path = folder / "settings.conf"
+    before = qInstallMessageHandler(lambda *_: None)  # what Qt says of each entry that it cannot read
+    found = violations(mutants([SETTINGS], seed, count), look, ())
+    qInstallMessageHandler(before)
+    window.deleteLater()
+    application.processEvents()
+    return found

@@ -1,0 +1,93 @@
+"""No reader of the program is left out of the campaigns: every place that takes something from outside is in this table."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+from amp_studio import families
+from amp_studio.formats import formats_of
+from amp_studio.schema import family_ids
+
+from . import texts
+from .campaigns import CAMPAIGNS
+
+PROGRAM = Path(families.__file__).parents[1]
+CALLS = {
+    "read_file", "read_yaml", "read_yaml_file", "loads", "reader", "recv", "readLine", "readAllStandardError", "unpack_from",
+    "model_validate_json", "validate_python", "QSettings", "read_bytes", "read_text", "parse_qsl", "fromhex", "parse_args",
+    "clipboard", "input", "comports", "os.read", "read_entries", "read_expression", "read_content", "decode_image",
+}  # fmt: skip
+"""Calls by which something comes in, or becomes what it means."""
+NAMES = {"stdin", "argv", "environ"}
+
+READERS = {
+    "cli/checks.py": "damaged parameter file",
+    "cli/console.py": "odd values",
+    "cli/control.py": "damaged control image",
+    "cli/files.py": "damaged control image",
+    "cli/identify.py": "damaged control image",
+    "cli/program.py": "odd command lines",
+    "cli/screen.py": "",  # gives the streams, reads nothing
+    "demo.py": "",  # whether there is a display
+    "files/atomic.py": "damaged backups",
+    "files/document.py": "damaged journal and history",
+    "files/lock.py": "damaged lock notes",
+    "files/project.py": "damaged project.yaml",
+    "files/storage.py": "damaged parameter file",
+    "formats/import_export.py": "damaged texts of controls",
+    "formats/values_csv.py": "damaged texts of controls",
+    "schema/compiled_cache.py": "damaged cache",
+    "schema/file_error.py": "damaged YAML",
+    "schema/load.py": "damaged facts",
+    "schema/regular_file.py": "",  # the gate itself: gives bytes
+    "sim/engine.py": "",  # one switch of numba, compared with "0"
+    "transfer/client/kept.py": "damaged copies of a control",
+    "transfer/client/parameters.py": "damaged digests",
+    "transfer/client/verification.py": "damaged control image",
+    "transfer/emulated/emulator.py": "odd commands at an emulated control",
+    "transfer/emulated/faults.py": "damaged practice faults",
+    "transfer/emulated/memory.py": "damaged memory of an emulated control",
+    "transfer/emulated/record.py": "damaged memory of an emulated control",
+    "transfer/emulated/staging.py": "damaged memory of an emulated control",
+    "transfer/house/frame.py": "damaged frames",
+    "transfer/house/message.py": "damaged messages",
+    "transfer/image.py": "odd commands at an emulated control",
+    "transfer/links/endpoint.py": "damaged addresses of controls",
+    "transfer/links/pseudo_terminal.py": "damaged frames",
+    "transfer/links/serial_ports.py": "",  # what the system says of its ports is only shown
+    "transfer/links/tcp.py": "hostile clients",
+    "ui/__init__.py": "",  # paths of files to open: by the gate of every file
+    "ui/control_actions.py": "damaged control image",
+    "ui/edit_actions.py": "odd values",
+    "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
+    "ui/restore.py": "damaged control image",
+    "ui/settings.py": "damaged settings",
+    "validate/builder_rules.py": "damaged suppressions",
+    "validate/calculators.py": "odd arguments of formulas",
+    "validate/rule_review.py": "damaged expressions in rules",
+}
+"""Module -> the campaign that damages what it reads; "" where it makes nothing of it."""
+
+
+def test_every_place_that_reads_something_from_outside_has_a_campaign() -> None:
+    reading = {path.relative_to(PROGRAM).as_posix() for path in sorted(PROGRAM.rglob("*.py")) if _reads(path)}
+    assert reading - READERS.keys() == set(), "damage what they read in a campaign, and name it here"
+    assert READERS.keys() - reading == set(), "they read nothing any more"
+    assert {name for name in READERS.values() if name} <= {campaign.name for campaign in CAMPAIGNS}
+
+
+def test_every_text_format_of_every_family_is_damaged() -> None:
+    assert {family for family, _ in texts._FORMATS} == set(family_ids())
+    assert all((family, f.key) in texts._FORMATS for family in family_ids() for f in formats_of(family))
+
+
+def _reads(path: Path) -> bool:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call):
+            called = ast.unparse(node.func)
+            if called in CALLS or called.rpartition(".")[2] in CALLS:
+                return True
+        if isinstance(node, ast.Attribute) and node.attr in NAMES:
+            return True
+    return False

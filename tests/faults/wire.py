@@ -1,0 +1,106 @@
+"""Damaged bytes on the line and damaged messages in whole frames, the same for the same seed."""
+
+from __future__ import annotations
+
+import dataclasses
+import random
+from collections.abc import Iterator
+
+from amp_studio.transfer.house.frame import MAX_ENCODED, MAX_PAYLOAD, Frame, FrameDecoder, encode_frame
+from amp_studio.transfer.house.message import LAYOUTS, MESSAGES, Message, RefusalError, pack, unpack
+
+from .texts import violations
+
+_LAST = Frame(0xFE, 0xFFFF, b"the last one")
+_JUNK = (
+    b"\x00",
+    b"\xff",
+    b"\x01",
+    b"\x11",
+    b"\x13",
+    b"\x00\x00\x00",
+    b"\xff" * 300,
+    b"\x01" * 5000,
+    b"\x7f" * 20_000,
+)
+
+
+def random_message(chance: random.Random) -> Message:
+    """Return any message with any content that its fields can hold."""
+    kind = MESSAGES[chance.choice(list(MESSAGES))]
+    types = {"flag": lambda: chance.random() < 0.5, "text": lambda: "é\x1b[2J" * chance.choice((0, 1, 40)),
+             "rest": lambda: chance.randbytes(chance.choice((0, 1, 254, 255, 4096)))}  # fmt: skip
+    fields = {}
+    for name, wire in LAYOUTS[kind.TYPE]:
+        if wire in types:
+            fields[name] = types[wire]()
+        elif wire.startswith("bytes"):
+            fields[name] = chance.randbytes(int(wire[5:]))
+        else:
+            fields[name] = chance.choice((0, 1, (1 << int(wire[1:])) - 1, chance.getrandbits(int(wire[1:]))))
+    return kind(**fields)
+
+
+def damaged(data: bytes, chance: random.Random) -> bytes:
+    """Return bytes with one piece changed, lost, added or doubled."""
+    at, length = chance.randint(0, len(data)), chance.choice((0, 1, 1, 2, 30, 300))
+    junk = chance.choice((*_JUNK, chance.randbytes(length), data[at : at + length] * 2, b""))
+    if chance.random() < 0.3 and at < len(data):
+        junk = bytes((data[at] ^ 1 << chance.randrange(8),))
+        length = 1
+    return data[:at] + junk + data[at + length :]
+
+
+def _streams(seed: int, count: int) -> Iterator[tuple[random.Random, set[bytes], bytes]]:
+    """Yield what was sent, frame by frame, and the stream after damage."""
+    chance = random.Random(seed)
+    for _ in range(count):
+        sent = [
+            pack(random_message(chance), chance.randrange(65_536)) for _ in range(chance.choice((1, 2, 4)))
+        ]
+        pieces = [encode_frame(frame) for frame in sent]
+        stream = b"".join(pieces)
+        for _ in range(chance.choice((1, 1, 2, 4))):
+            stream = damaged(stream, chance)
+        yield chance, {piece[:-1] for piece in pieces}, stream
+
+
+def _decode(case: tuple[random.Random, set[bytes], bytes]) -> None:
+    """A damaged frame is dropped and counted; nothing is kept beyond the longest one, and what comes after it is read."""
+    chance, sent, stream = case
+    decoder, found, at = FrameDecoder(), list[Frame](), 0
+    while at < len(stream):
+        size = chance.choice((1, 7, 300, 10_000))
+        found += decoder.feed(stream[at : at + size])
+        assert len(decoder._rest) <= MAX_ENCODED, f"{len(decoder._rest)} bytes are kept"
+        at += size
+    for frame in found:
+        assert len(frame.payload) <= MAX_PAYLOAD
+        assert encode_frame(frame)[:-1] in sent, "a frame that nobody sent"
+    after = decoder.feed(b"\x00" + encode_frame(_LAST))
+    assert after[-1:] == [_LAST], "the frame after the damage is lost"
+
+
+def fuzz_frames(seed: int, count: int) -> list[str]:
+    """Decode damaged streams of frames, in pieces of any size."""
+    return violations(_streams(seed, count), _decode, ())
+
+
+def _frames(seed: int, count: int) -> Iterator[Frame]:
+    chance = random.Random(seed)
+    for _ in range(count):
+        frame = pack(random_message(chance), 7)
+        for _ in range(chance.choice((1, 1, 2, 4))):
+            payload = damaged(frame.payload, chance)[:MAX_PAYLOAD]
+            number = frame.type if chance.random() < 0.8 else chance.randrange(256)
+            frame = dataclasses.replace(frame, type=number, payload=payload)
+        yield frame
+
+
+def _unpack(frame: Frame) -> None:
+    assert pack(unpack(frame), frame.sequence) == frame, "the message would be packed otherwise"
+
+
+def fuzz_messages(seed: int, count: int) -> list[str]:
+    """Unpack whole frames whose content is damaged; what is taken is packed as the same frame."""
+    return violations(_frames(seed, count), _unpack, (RefusalError,))
