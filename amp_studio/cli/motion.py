@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from amp_studio.files import axis_instances, open_file
 from amp_studio.schema import InvalidValueError, axis_meant, canonical, unit_named
 from amp_studio.schema.values import read_number
-from amp_studio.sim import simulate, trace_summary, trace_text, write_trace
+from amp_studio.sim import simulate, simulated_axes, trace_summary, trace_text, write_trace
 
 from .console import assignments, note, print_json
 from .files import wanted
@@ -24,7 +24,11 @@ def simulate_verb(options: argparse.Namespace) -> int:
     told: list[str] = []
     for address, value in wanted(file, own, told.append).items():
         file.set(address, value)
-    axis = axis_meant(file.evaluation, axis_instances(file), options.axis) if options.axis else None
+    axis = (
+        axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+        if options.axis
+        else None
+    )
     trace = simulate(file, options.scenario, axis, settings)
     for said in told:
         note(said)

@@ -14,7 +14,7 @@ from .law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source, law_of, simu
 from .machine import Machine
 from .model import model_settings
 from .scenarios import SCENARIOS, Scenario
-from .simulate import bind_axis, simulate
+from .simulate import bind_axis, simulate, simulated_axes
 from .svg import plot_svg
 from .trace import Alarm, Figure, Recommendation, Trace
 from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
@@ -43,6 +43,7 @@ __all__ = [
     "plot_png",
     "plot_svg",
     "simulate",
+    "simulated_axes",
     "simulated_families",
     "trace_csv",
     "trace_summary",

@@ -47,6 +47,13 @@ def simulate(
     return SCENARIOS[scenario].run(bind_axis(file, law, axis, model), own)
 
 
+def simulated_axes(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes of a file that can be simulated; empty for a family without a law."""
+    place = registration_of(file.schema.family.family).law
+    found = load_part(place) if place else None
+    return tuple(found.axes(file)) if isinstance(found, Law) else fitted_axes(file)
+
+
 def bind_axis(
     file: ParameterFile,
     law: Law,

@@ -11,4 +11,5 @@ REGISTRATION = Registration(
         "amp_studio.families.acromill.formats.acr_script:FORMAT",
         "amp_studio.families.acromill.formats.ballscrew:FORMAT",
     ),
+    law="amp_studio.families.acromill.law:LAW",
 )

@@ -1,0 +1,260 @@
+"""Binds an axis of AcroMill from a file: the gains of the Servo tab and of appendix C, and the machine behind them.
+
+The only module of the law with ids of AcroMill. Pages are those of the User's Guide.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from amp_studio.files import ParameterFile
+from amp_studio.sim import (
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    Recommendation,
+    SimulationError,
+    Source,
+    Trace,
+)
+from amp_studio.sim.model import with_model
+
+from . import law_plant as plant
+from . import law_sample as loop
+from .law_filters import PASS, Biquad, lopass, notch
+
+AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
+COUNT = "view.number_of_axes"
+PULSES, PERIOD = "axes.pulses_per_unit", "tuning.servo_period"
+P_GAIN, I_DELAY, D_TIME = "servo.p_gain", "servo.i_delay", "servo.d_time"
+VEL_FFWD, FBVEL, DAC_GAIN = "servo.vel_ffwd", "tuning.fbvel", "tuning.dac_gain"
+EXCESS, BAND = "axes.excess_error_band", "axes.inposition_band"
+RAPID, HIGHEST, RAMP = "speeds.rapid", "speeds.max_machine", "speeds.rapid_acc_dec"
+
+NORMAL_DAC_GAIN = 3276.8
+"""Words of the converter for 1 V (page 114)."""
+
+_GAINS = {
+    loop.P_GAIN: P_GAIN,
+    loop.I_GAIN: "servo.i_gain",
+    loop.D_GAIN: "servo.d_gain",
+    loop.I_LIMIT: "servo.i_limit",
+    loop.VEL_FFWD: VEL_FFWD,
+    loop.ACC_FFWD: "servo.acc_ffwd",
+    loop.FBVEL: FBVEL,
+    loop.TORQUE_LIMIT: "servo.torque_limits",
+}
+_MILLISECONDS = 1e-3
+
+_TEST_MOTOR = (
+    "The control does not know its motor: taken is the bare test motor of appendix C (from page 115 on)"
+)
+_ASSUMED = {
+    "acceleration_per_output": f"{_TEST_MOTOR}, 5025126 pulses/s2 for 1 V, the reciprocal of its ACC FFwd 0.000000199.",
+    "viscous_friction": f"{_TEST_MOTOR}: its Vel FFwd 0.0000015 V for 1 pulse/s.",
+    "coulomb_friction": f"{_TEST_MOTOR}: 100 pulses of error at 500 turns a minute with P Gain 0.001, less the viscous part.",
+    "delay": f"{_TEST_MOTOR}: with it P Gain 0.08 is stable and 0.11 is not.",
+}
+_NOTES = (
+    (
+        "Dac Polarity, the sign of DAC GAIN and that of Encoder Mult are taken to fit each other (page 114): with a wrong"
+        " sign the motor runs away."
+    ),
+    (
+        "The picture of the servo loop (page 95) and all traces of appendix C are lost. Taken: I Delay holds the integral, the"
+        " derivative is held between its samples, the output is rounded to words of 1/3276.8 V."
+    ),
+)
+_FILTER_NOTE = (
+    "How LOPASS and NOTCH fill the coefficients of their filters is not printed (page 128). Taken: second-order"
+    " filters, 3 dB less at the frequency of LOPASS; at that of NOTCH the share 1 - width / frequency is left."
+)
+
+
+def axes(file: ParameterFile) -> Sequence[str]:
+    """Return the axes of the machine: as many as Number of Axes says, all eight where it is not set (page 102)."""
+    count = file.evaluation.canonical((COUNT, ""))
+    return AXES if not isinstance(count, float) else AXES[: max(0, int(count))]
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return one axis; raises SimulationError naming the parameter that is missing or impossible."""
+    pulses, period = _above_zero(read, PULSES), _above_zero(read, PERIOD, everywhere=True) * _MILLISECONDS
+    notes = list(_NOTES)
+    p = _parameters(read, pulses, period, notes)
+    excess, band = read.optional(EXCESS) or 0.0, read.optional(BAND) or 0.0
+    p[loop.EXCESS] = excess * pulses
+    if excess <= 0.0:
+        notes.append(
+            f"{EXCESS} is 0, so every error would be too large (page 60): simulated without this limit. Set it."
+        )
+    machine = Machine(
+        acceleration_per_output=plant.ACCELERATION / pulses,
+        viscous_friction=plant.VISCOUS * pulses,
+        coulomb_friction=plant.COULOMB,
+        delay=plant.DELAY,
+        output_limit=loop.FULL_VOLTS,
+        motor_count=1.0 / pulses,
+        position_count=1.0 / pulses,
+        load_sensor=p[loop.FBVEL] != 0.0,
+    )
+    rapid = read.optional(RAPID, everywhere=True)
+    feedrate = rapid or read.optional(HIGHEST, everywhere=True)
+    ramp = read.optional(RAMP, everywhere=True) or 0.0
+    axis = AxisLaw(
+        axis=read.axis,
+        unit="mm",
+        title=f"ACR controller: PID in volts every {period * 1e6:g} µs, amplifier in torque mode",
+        position_sample=loop.position_sample,
+        velocity_sample=None,
+        parameters=p,
+        state_size=loop.STATE,
+        servo_period=period,
+        velocity_period=period,
+        machine=machine,
+        output_unit="V",
+        position_rate=1.0,
+        feedrate=feedrate / 60.0 if feedrate else None,
+        inposition_band=band,
+        ramps={"linear": Ramp("linear", ramp), "none": Ramp()},
+        monitors=loop.MONITORS,
+        alarms={1: AlarmText("EXCESS ERROR", _excess(excess))},
+        limits={"excess_error": excess} if excess > 0.0 else {},
+        sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
+        assumptions=tuple(notes),
+        assumed=_ASSUMED,
+        linear_parameters=_linear(p),
+    )
+    whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
+    return replace(
+        axis,
+        position_rate=_rate(p, whole),
+        predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)},
+    )
+
+
+def _excess(band: float) -> str:
+    return f"The following error exceeds ExcessErr Band, {band:.6g} mm: the bit for not excess error goes off (page 114)"
+
+
+def _above_zero(read: AxisParameters, parameter: str, *, everywhere: bool = False) -> float:
+    value = read.number(parameter, everywhere=everywhere)
+    if not value > 0.0:
+        raise SimulationError(f"{parameter} is {value:g}; it must be above 0 to simulate the axis", parameter)
+    return value
+
+
+def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[str]) -> list[float]:
+    p = [0.0] * loop.PARAMETERS
+    for place, parameter in _GAINS.items():
+        p[place] = read.number(parameter)
+    if p[loop.P_GAIN] == 0.0:
+        raise SimulationError(
+            f"{P_GAIN} of axis {read.axis} is 0: the loop is open and the axis would not follow (page 115)",
+            P_GAIN,
+        )
+    p[loop.PULSES], p[loop.PERIOD] = pulses, period
+    p[loop.I_DELAY] = read.number(I_DELAY) * _MILLISECONDS
+    if p[loop.I_LIMIT] <= 0.0:  # no room to work in (page 59)
+        p[loop.I_LIMIT] = p[loop.I_GAIN] = 0.0
+    p[loop.D_PERIODS] = max(1.0, round(read.number(D_TIME) * _MILLISECONDS / period))
+    p[loop.DAC_SHARE] = abs(read.number(DAC_GAIN)) / NORMAL_DAC_GAIN
+    p[loop.DAC_WORDS] = NORMAL_DAC_GAIN
+    sections = _filters(read, 1.0 / period)
+    if sections != (PASS, PASS):
+        notes.append(_FILTER_NOTE)
+    p[loop.FILTERS :] = [figure for section in sections for figure in section]
+    return p
+
+
+def _filters(read: AxisParameters, servo_hz: float) -> tuple[Biquad, Biquad]:
+    low, middle = read.optional("tuning.lopass_frequency"), read.optional("tuning.notch_frequency")
+    width = read.optional("tuning.notch_width")
+    if (middle is None) != (width is None):
+        raise SimulationError("NOTCH takes a frequency and a width: set both or none", "tuning.notch_width")
+    first = PASS if low is None else lopass(low, servo_hz)
+    return first, PASS if middle is None or width is None else notch(middle, width, servo_hz)
+
+
+def _linear(p: Sequence[float]) -> list[float]:
+    """Return the figures of the linear model: an ideal converter, every derivative sampled, the integral while it works."""
+    q = list(p)
+    q[loop.DAC_WORDS], q[loop.D_PERIODS] = 0.0, 1.0
+    if q[loop.I_DELAY] > 0.0:  # it does not work in motion
+        q[loop.I_GAIN] = 0.0
+    return q
+
+
+def _rate(p: Sequence[float], machine: Machine) -> float:
+    """Return the rate in 1/s at which the loop follows: of the spring that P Gain is, or slower where D Gain brakes it."""
+    volts = machine.acceleration_per_output * p[loop.DAC_SHARE] * p[loop.PULSES]
+    stiffness = volts * abs(p[loop.P_GAIN])
+    brake = (
+        volts * abs(p[loop.D_GAIN] + p[loop.FBVEL])
+        + machine.acceleration_per_output * machine.viscous_friction
+    )
+    undamped = math.sqrt(stiffness)
+    return min(undamped, stiffness / brake) if brake > 0.0 else undamped
+
+
+def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction:
+    """Return the following error at a steady speed in u/s: what is left for P Gain, the equation of page 115 turned round.
+
+    Vel FFwd = P Gain × error / speed is the Vel FFwd that leaves nothing.
+    """
+    pulses = speed * p[loop.PULSES]
+    needed = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    if needed > p[loop.TORQUE_LIMIT] * p[loop.DAC_SHARE]:
+        return Prediction(None, "mm", "59")
+    left = needed / p[loop.DAC_SHARE] + (p[loop.FBVEL] - p[loop.VEL_FFWD]) * pulses
+    if p[loop.I_DELAY] == 0.0 and p[loop.I_GAIN] > 0.0:
+        left -= min(max(left, -p[loop.I_LIMIT]), p[loop.I_LIMIT])
+    return Prediction(abs(left / p[loop.P_GAIN]) / p[loop.PULSES], "mm", "115")
+
+
+def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
+    return {
+        "position_gain": Source(P_GAIN, page="59"),
+        "derivative_gain": Source("servo.d_gain", page="59"),
+        "feed_forward": Source(VEL_FFWD, page="59"),
+        "excess_error": Source(EXCESS, page="60"),
+        "inposition_band": Source(BAND, page="60"),
+        "feedrate": Source(feedrate, page="74"),
+        "linear_acceleration": Source(RAMP, page="74"),
+        "servo_period": Source(PERIOD, page="113"),
+        "feedback_counts": Source(PULSES, pulses, page="60"),
+    }
+
+
+def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
+    """Return the Vel FFwd that takes the steady error away: P Gain × error / speed more than now (page 115)."""
+    error, speed = (
+        trace.result.get("steady_following_error", (None, ""))[0],
+        trace.result.get("feedrate", (None, ""))[0],
+    )
+    p = axis.parameters
+    if trace.alarms or not error or not speed or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
+        return ()
+    pulses = error * p[loop.PULSES]
+    if pulses < 2.0:
+        return ()
+    sign = -1.0 if float(trace.columns["following_error"].mean()) * speed < 0.0 else 1.0
+    wanted = p[loop.VEL_FFWD] + sign * p[loop.P_GAIN] * error / (speed / 60.0)
+    return (
+        Recommendation(
+            VEL_FFWD,
+            float(f"{wanted:.3g}"),
+            "Vs/count",
+            f"the axis is {pulses:.3g} pulses {'ahead' if sign < 0.0 else 'behind'} at this speed (page 115). Its price:"
+            " the part that is dry friction is paid back at other speeds",
+        ),
+    )
+
+
+LAW = Law(bind=bind, axes=axes, advise=advise)

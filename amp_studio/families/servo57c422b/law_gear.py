@@ -1,0 +1,56 @@
+"""Electronic gearing of the 57C422B: where the module wants the geared axis to be, scan by scan (pages 4-15, 4-20, 4-24)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from amp_studio.sim import SimulationError
+
+from .formulas.motion import GEAR_SCALE
+from .law_sample import SCAN
+
+LARGEST, SMALLEST = 127.0, 1.0 / 32767.0
+"""Range of the gear ratio (page 4-15)."""
+
+
+def gear_fraction(ratio: float | None, numerator: float | None, denominator: float | None) -> tuple[int, int]:
+    """Return the gear ratio as two whole numbers: of register 25 and 26, or the 32-bit number over 16777216 (page 4-15).
+
+    ``ratio`` counts where there is no numerator. Raises SimulationError outside 127:1 to 1:32767, where gearing is not
+    enabled.
+    """
+    if numerator is None or denominator is None:
+        upper, lower = round((ratio or 0.0) * GEAR_SCALE), int(GEAR_SCALE)
+    else:
+        upper, lower = round(numerator), round(denominator)
+    if lower <= 0 or not SMALLEST <= abs(upper / lower) <= LARGEST:
+        raise SimulationError(
+            f"The gear ratio {upper}/{lower} is not between 1:32767 and 127:1, so gearing is not enabled",
+            "command.gear_ratio",
+        )
+    return upper, lower
+
+
+def geared(master: Sequence[int], upper: int, lower: int) -> Iterator[int]:
+    """Yield the commanded position of the geared axis for each position of the master, in counts from the first.
+
+    Nothing is lost, however long the axis runs: the module keeps all remainders (page 4-15). Towards which side a
+    broken count is cut is not printed; here it is down.
+    """
+    rest, position, before = 0, 0, master[0] if master else 0
+    for now in master:
+        travel, rest = divmod((now - before) * upper + rest, lower)
+        position, before = position + travel, now
+        yield position
+
+
+def engage_time(speed: float, acceleration: float) -> float:
+    """Return the time in s in which ramp velocity control brings the axis to the speed of its master, counts/s.
+
+    Only until then the acceleration of the trapezoid bounds it (page 4-21); without it the axis goes there in current
+    limit (page 4-24), which is 0 here.
+    """
+    if acceleration <= 0.0:
+        return 0.0
+    return math.ceil(abs(speed) / acceleration / SCAN - 1e-9) * SCAN

@@ -1,0 +1,51 @@
+"""LOPASS and NOTCH of an ACR controller do what appendix C says of them (page 128)."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.families.acromill import formulas as acromill
+from amp_studio.families.acromill.law_filters import lopass, notch
+from amp_studio.sim import SimulationError
+
+
+def gain(section: tuple[float, ...], frequency: float, servo_hz: float = 5000.0) -> float:
+    return float(acromill.filter_gain([section], frequency, servo_hz))
+
+
+def test_a_notch_as_wide_as_its_frequency_lets_nothing_through_there() -> None:
+    # NOTCH X(100,100) at a servo update of 5000 Hz, the command of the guide.
+    assert gain(notch(100, 100, 5000), 100) == pytest.approx(0.0, abs=1e-12)
+    assert gain(notch(100, 100, 5000), 1) == pytest.approx(1.0, abs=1e-3)
+    assert gain(notch(100, 100, 5000), 2000) == pytest.approx(1.0, abs=1e-2)
+
+
+def test_a_wider_notch_takes_out_more_and_one_of_1_hz_very_little() -> None:
+    depths = [gain(notch(500, width, 5000), 500) for width in (1, 50, 250, 500)]
+    assert depths == pytest.approx([0.998, 0.9, 0.5, 0.0], abs=1e-9)
+
+
+def test_the_widest_notch_is_3_db_down_over_its_width() -> None:
+    section = notch(100, 100, 50_000.0)  # far below the servo update, where the transform bends nothing
+    assert gain(section, 61.8, 50_000.0) == pytest.approx(0.5**0.5, rel=0.001)
+    assert gain(section, 161.8, 50_000.0) == pytest.approx(0.5**0.5, rel=0.001)
+
+
+def test_lopass_is_3_db_down_at_its_frequency() -> None:
+    section = lopass(200, 5000)  # LOPASS X200 at 5000 Hz, the command of the guide
+    assert gain(section, 200) == pytest.approx(0.5**0.5, rel=1e-9)
+    assert gain(section, 1) == pytest.approx(1.0, abs=1e-6)
+    assert gain(section, 1000) < 0.05
+
+
+def test_the_same_filter_twice_falls_twice_as_steep() -> None:
+    # Page 128: the parameters of the first filter copied into the second.
+    once, twice = gain(lopass(200, 5000), 500), acromill.filter_gain([lopass(200, 5000)] * 2, 500, 5000)
+    assert twice == pytest.approx(once**2)
+
+
+def test_a_filter_above_half_the_servo_update_is_refused_with_both_figures() -> None:
+    with pytest.raises(SimulationError, match=r"LOPASS 1250 Hz .* servo update frequency, which is 2500 Hz"):
+        lopass(1250, 2500)
+    with pytest.raises(SimulationError, match=r"NOTCH\(100, 101\): the width"):
+        notch(100, 101, 5000)
