@@ -42,7 +42,8 @@ def test_the_gear_of_one_is_16777216() -> None:
 
 
 @pytest.mark.parametrize(
-    ("ratio", "numerator", "denominator"), [(127.1, None, None), (0.0, None, None), (None, 1, 32768), (None, 1, 0), (None, 1, -2)]
+    ("ratio", "numerator", "denominator"),
+    [(127.1, None, None), (0.0, None, None), (None, 1, 32768), (None, 1, 0), (None, 1, -2)],
 )
 def test_outside_127_to_1_and_1_to_32767_gearing_is_not_enabled(
     ratio: float | None, numerator: float | None, denominator: float | None
