@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +20,15 @@ ENDINGS = (".csv", ".svg", ".png")
 
 
 def trace_csv(trace: Trace) -> str:
-    """Return the trace as CSV: column names, then one line for each row with exact numbers."""
+    """Return the trace as CSV: column names, then one line for each row with exact numbers, empty where nothing was measured."""
     lines = [",".join(_heading(trace))]
     columns = [column.tolist() for column in trace.columns.values()]
-    lines += [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
+    lines += [",".join(map(_cell, row)) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
+
+
+def _cell(number: float) -> str:
+    return "" if math.isnan(number) else repr(number)
 
 
 def _heading(trace: Trace) -> list[str]:

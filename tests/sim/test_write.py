@@ -39,23 +39,24 @@ def test_the_plot_is_wellformed_and_names_axes_units_and_limits(trace: Trace) ->
     root = ET.fromstring(plot_svg(trace))
     texts = ["".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text")]
     for words in (
-        "step, axis 1: 60 mm at 6000 mm/min",
+        "Step, axis 1: 60 mm at 6000 mm/min",
         "position (mm)",
         "following error (mm)",
         "velocity (mm/min)",
-        "torque (% of rated)",
+        "torque (%)",
+        "settling (mm)",
         "time (s)",
     ):
         assert words in texts
     assert any("excess error 7 mm" in text for text in texts)
     curves = [node.get("points", "") for node in root.iter("{http://www.w3.org/2000/svg}polyline")]
-    assert len(curves) == 6
+    assert len(curves) == 7
     for points in curves:
         xy = np.array([[float(v) for v in point.split(",")] for point in points.split()])
-        assert xy[:, 0].min() >= 92
-        assert xy[:, 0].max() <= 868
-        assert xy[:, 1].min() >= 0
-        assert xy[:, 1].max() <= 760
+        assert xy[:, 0].min() >= 84
+        assert xy[:, 0].max() <= 930
+        assert xy[:, 1].min() >= 84
+        assert xy[:, 1].max() <= float(root.get("height", "0"))
 
 
 def test_an_alarm_stands_in_the_plot(axis: Axis) -> None:
@@ -76,7 +77,9 @@ def test_the_file_is_written_by_its_ending(trace: Trace, tmp_path: Path) -> None
     assert (tmp_path / "b.SVG").read_text(encoding="utf-8") == plot_svg(trace)
     png = (tmp_path / "c.png").read_bytes()
     assert png.startswith(b"\x89PNG\r\n\x1a\n")
-    assert struct.unpack(">II", png[16:24]) == (1440, 1140)
+    width, height = struct.unpack(">II", png[16:24])
+    assert width == 1440
+    assert 1300 < height < 1700
     with pytest.raises(SimulationError, match=r"\.csv, \.svg, \.png"):
         write_trace(trace, tmp_path / "d.pdf")
     with pytest.raises(OSError, match="gone"):
@@ -108,7 +111,7 @@ def test_thinning_keeps_every_peak() -> None:
     y = np.zeros(100_000)
     y[12_345], y[67_890] = 5.0, -3.0
     x, thin = thinned(np.arange(100_000.0), y, 700)
-    assert len(x) <= 1402
+    assert len(x) <= 2800
     assert thin.max() == 5.0
     assert thin.min() == -3.0
     assert (x[0], x[-1]) == (0.0, 99_999.0)

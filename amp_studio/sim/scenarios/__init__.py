@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from . import step
+from . import frequency, step
 from .scenario import Scenario
 
-SCENARIOS: dict[str, Scenario] = {each.name: each for each in (step.SCENARIO,)}
+SCENARIOS: dict[str, Scenario] = {each.name: each for each in (step.SCENARIO, frequency.SCENARIO)}
 
 __all__ = ["SCENARIOS", "Scenario"]

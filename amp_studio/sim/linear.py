@@ -1,0 +1,204 @@
+"""The linear model of an axis, sampled as its control samples it: margins, bandwidth and poles.
+
+The law is not written twice: its own sample functions are differentiated at rest, where a linear function is zero, so that the
+differences are exact to rounding. The position loop is cut where the control measures the position, with every inner loop closed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from . import signals
+from .compiled import Sample
+from .law import AxisLaw
+from .sampled import Matrix, Places, SampledLoop, jacobian, plant_of, sampled
+
+Response = npt.NDArray[np.complex128]
+
+_POINTS = 2400
+"""Points of the grid on which crossings are sought before they are refined."""
+_LOWEST = 1e-4
+"""Lowest frequency of the grid as a share of the sampling frequency."""
+HALF_POWER = math.sqrt(0.5)
+"""Share of the amplitude at the bandwidth: -3 dB."""
+
+
+@dataclass(frozen=True)
+class Margins:
+    """Distance of a loop from its limit of stability; None where the loop does not cross."""
+
+    phase: float | None
+    """deg"""
+    phase_frequency: float | None
+    """Hz, where the gain of the loop is 1."""
+    gain: float | None
+    """dB; negative: the gain must be lowered by so much."""
+    gain_frequency: float | None
+    """Hz, where the phase of the loop is -180 deg."""
+
+
+class LinearModel(SampledLoop):
+    """What a sampled loop says about its axis."""
+
+    @property
+    def nyquist(self) -> float:
+        """Highest frequency in Hz that the samples can tell apart."""
+        return 0.5 / self.period
+
+    def poles(self) -> Response:
+        """Return the poles of the closed loop in the z plane, the slowest first."""
+        found = np.linalg.eigvals(self.closed).astype(np.complex128)
+        return found[np.argsort(-np.abs(found))]
+
+    def is_stable_inside(self) -> bool:
+        """Return whether the loop is stable where it is cut: what is inside of it does not run away by itself."""
+        return bool(np.all(np.abs(np.linalg.eigvals(self.open)) < 1.0 + 1e-7))
+
+    def is_stable(self) -> bool:
+        """Return whether every motion of the closed loop dies away."""
+        return bool(np.all(np.abs(self.poles()) < 1.0 - 1e-9))
+
+    def loop(self, frequencies: Matrix) -> Response:
+        """Return the open position loop at frequencies in Hz: from position error to position."""
+        return -_response(self.open, self.measured, self.sensed, self._z(frequencies))
+
+    def follows(self, frequencies: Matrix) -> Response:
+        """Return the closed loop: from commanded to actual position, feed-forward included."""
+        z, turn = self._z(frequencies), 2j * math.pi * frequencies
+        parts = [_response(self.closed, self.command[:, [n]], self.position, z) for n in range(3)]
+        return np.asarray(parts[0] + turn * parts[1] + turn**2 * parts[2])
+
+    def forwards_velocity(self) -> bool:
+        """Return whether the law uses velocity or acceleration of the command."""
+        return bool(np.any(self.command[:, 1:] != 0.0))
+
+    def forwards_position(self) -> bool:
+        """Return whether the law uses the commanded position for more than the position error."""
+        grid = np.geomspace(_LOWEST, 0.4, 20) / self.period
+        wanted = _response(self.closed, self.command[:, [0]], self.sensed, self._z(grid))
+        return not np.allclose(wanted, self.feedback(grid), rtol=1e-3)
+
+    def feedback(self, frequencies: Matrix) -> Response:
+        """Return the closed loop without feed-forward: L / (1 + L)."""
+        loop = self.loop(frequencies)
+        return np.asarray(loop / (1.0 + loop))
+
+    def grid(self, lowest: float | None = None) -> Matrix:
+        """Return frequencies in Hz up to Nyquist, close together where a pole is."""
+        low = lowest or _LOWEST / self.period
+        even = np.geomspace(low, self.nyquist, _POINTS)
+        found = np.concatenate([self.poles(), np.linalg.eigvals(self.open)])
+        peaks = np.abs(np.angle(found[np.abs(found) > 1e-6])) / (2.0 * math.pi * self.period)
+        near = (peaks[:, None] * np.geomspace(0.8, 1.25, 41)[None, :]).ravel()
+        every = np.concatenate([even, near[(near > low) & (near < self.nyquist)]])
+        return np.unique(every)
+
+    def margins(self) -> Margins:
+        """Return the least phase and gain margin of the position loop."""
+        grid = self.grid()
+        size = _crossings(lambda f: np.log(np.abs(self.loop(f))), grid)
+        phase = _least([(_phase_margin(self._at(f)), f) for f in size])
+        real = _crossings(lambda f: self.loop(f).imag, grid)
+        gains = [(-20.0 * math.log10(abs(at)), f) for f in [*real, self.nyquist] if (at := self._at(f)).real < 0.0
+                 and abs(at.imag) < 1e-3 * abs(at)]  # fmt: skip
+        gain = _least(gains)
+        return Margins(*phase, *gain)
+
+    def bandwidth(self) -> float | None:
+        """Return the frequency in Hz from which the axis follows less than -3 dB; None if it always does."""
+        grid = self.grid()
+        fall = _crossings(lambda f: np.log(np.abs(self.follows(f)) / HALF_POWER), grid)
+        return fall[0] if fall else None
+
+    def slowest_damping(self) -> float:
+        """Return the least damping ratio of the closed loop's oscillating poles; 1 if none oscillates."""
+        poles = self.poles()
+        rates = np.log(poles[np.abs(poles) > 1e-9]) / self.period
+        swinging = rates[np.abs(rates.imag) > 1e-6 * np.abs(rates)]
+        return float(np.min(-swinging.real / np.abs(swinging))) if swinging.size else 1.0
+
+    def _z(self, frequencies: Matrix) -> Response:
+        return np.asarray(np.exp(2j * math.pi * np.asarray(frequencies) * self.period))
+
+    def _at(self, frequency: float) -> complex:
+        return complex(self.loop(np.array([frequency]))[0])
+
+
+def linear_model(axis: AxisLaw) -> LinearModel:
+    """Return the model of the position loop of an axis, its velocity loop closed."""
+    plant = plant_of(axis.machine)
+    position = _law_matrix(axis, axis.position_sample)
+    velocity = _law_matrix(axis, axis.velocity_sample) if axis.velocity_sample else None
+    places = _places(axis)
+    loop = sampled(plant, position, velocity, places, axis.servo_period, axis.velocity_period)
+    return LinearModel(**vars(loop))
+
+
+def velocity_model(axis: AxisLaw) -> LinearModel | None:
+    """Return the model of the velocity loop alone, cut where it measures the motor; None for a law without one."""
+    if axis.velocity_sample is None:
+        return None
+    places = _places(axis)
+    swapped = {**places.signals, "position": places.signals["motor"], "motor": places.signals["position"]}
+    matrix = _law_matrix(axis, axis.velocity_sample)
+    period = axis.servo_period / max(1, round(axis.servo_period / axis.velocity_period))
+    return LinearModel(**vars(sampled(plant_of(axis.machine), matrix, None, Places(swapped), period, period)))
+
+
+def _places(axis: AxisLaw) -> Places:
+    first = axis.state_size
+    names = {
+        "command": signals.COMMAND,
+        "command_velocity": signals.COMMAND_VELOCITY,
+        "command_acceleration": signals.COMMAND_ACCELERATION,
+        "position": signals.POSITION,
+        "motor": signals.MOTOR,
+        "output": signals.OUTPUT,
+    }
+    return Places({name: first + index for name, index in names.items()}, axis.machine.load_sensor)
+
+
+def _law_matrix(axis: AxisLaw, function: Sample) -> Matrix:
+    """Return the matrix of a sample function over its state and signals, at rest."""
+    given = axis.parameters if axis.linear_parameters is None else axis.linear_parameters
+    parameters, states = [float(each) for each in given], axis.state_size
+    rest = np.zeros(states + signals.MONITOR + len(axis.monitors))
+    rest[states + signals.FEED_SHARE], rest[states + signals.MODE] = 1.0, signals.POSITION_LOOP
+
+    def sample(z: Matrix) -> Matrix:
+        s, io = z[:states].tolist(), z[states:].tolist()
+        function(parameters, s, io)
+        return np.array([*s, *io])
+
+    return jacobian(sample, rest)
+
+
+def _response(a: Matrix, b: Matrix, c: Matrix, z: Response) -> Response:
+    """Return c (z - a)^-1 b for every z."""
+    system = z[:, None, None] * np.eye(len(a)) - a
+    return np.asarray((c @ np.linalg.solve(system, np.broadcast_to(b, (len(z), *b.shape))))[:, 0, 0])
+
+
+def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix) -> list[float]:
+    """Return where a function of the frequency changes its sign, refined by halving."""
+    values = function(grid)
+    changes = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
+    low, high, sign = grid[changes], grid[changes + 1], values[changes] > 0.0
+    for _ in range(48):
+        middle = 0.5 * (low + high)
+        same = (function(middle) > 0.0) == sign if middle.size else sign
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return [float(f) for f in 0.5 * (low + high)]
+
+
+def _phase_margin(at: complex) -> float:
+    return (math.degrees(math.atan2(at.imag, at.real)) + 180.0 + 180.0) % 360.0 - 180.0
+
+
+def _least(found: Sequence[tuple[float, float]]) -> tuple[float | None, float | None]:
+    return min(found, key=lambda margin: abs(margin[0])) if found else (None, None)

@@ -1,0 +1,245 @@
+"""A law and its machine as one matrix a servo period: the loop as the control samples it.
+
+The machine is discretised exactly over each velocity period with its output held, delay included (K. J. Åström, B. Wittenmark,
+Computer-Controlled Systems, 1997, chapter 3); the law is the matrices of its two sample functions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from .machine import CONTACT, INERTIA_ASSUMED, Machine
+
+Matrix = npt.NDArray[np.float64]
+
+_STEP = 1e-7
+"""Disturbance of a signal at rest, in its own unit: far below every limit, far above rounding."""
+
+
+@dataclass(frozen=True)
+class Plant:
+    """The machine as a linear system: dx/dt = a x + b u(t - delay), positions of motor and load in x."""
+
+    a: Matrix
+    b: Matrix
+    motor: Matrix
+    load: Matrix
+    delay: float = 0.0
+    """s"""
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where the signals of a law are in its vector of states and signals."""
+
+    signals: dict[str, int]
+    """command, command_velocity, command_acceleration, position, motor, output -> index"""
+    load_sensor: bool = False
+    """Whether the position is measured at the load."""
+
+
+@dataclass(frozen=True)
+class SampledLoop:
+    """x' = open x + measured w + command (r, dr/dt, d2r/dt2); one step is one ``period`` in s.
+
+    ``w`` is the position that the control measures, ``sensed x`` the position that it would measure, ``position x``
+    the position of the load.
+    """
+
+    period: float
+    open: Matrix
+    measured: Matrix
+    command: Matrix
+    sensed: Matrix
+    position: Matrix
+
+    @property
+    def closed(self) -> Matrix:
+        """The matrix of the closed loop."""
+        return self.open + self.measured @ self.sensed
+
+
+def plant_of(machine: Machine) -> Plant:
+    """Return the linear machine: no dry friction, no backlash (motor and load in contact), no limits, no weight."""
+    motor, motor_speed, load, load_speed, torque, error_sum = range(6)
+    a, b = np.zeros((6, 6)), np.zeros((6, 1))
+    acceleration = machine.acceleration_per_output
+    ratio = machine.inertia_ratio or INERTIA_ASSUMED
+    push = {motor_speed: acceleration * (1.0 + ratio), load_speed: acceleration * (1.0 + ratio) / ratio}
+    a[motor, motor_speed] = a[load, load_speed] = 1.0
+    if machine.two_masses:
+        both, rate = sum(push.values()), 2.0 * math.pi * (machine.resonance or CONTACT)
+        stiffness, damping = rate**2 / both, 2.0 * machine.damping * rate / both
+        own = {motor_speed: machine.motor_friction, load_speed: 1.0 - machine.motor_friction}
+        for speed, sign in ((motor_speed, -1.0), (load_speed, 1.0)):
+            a[speed, motor] += sign * push[speed] * stiffness
+            a[speed, load] -= sign * push[speed] * stiffness
+            a[speed, motor_speed] += sign * push[speed] * damping
+            a[speed, load_speed] -= sign * push[speed] * damping
+            a[speed, speed] -= push[speed] * own[speed] * machine.viscous_friction
+        a[load_speed, load] -= push[load_speed] * machine.spring
+        driven = push[motor_speed]
+    else:
+        a[motor_speed, motor] = -acceleration * machine.spring
+        a[motor_speed, motor_speed] = -acceleration * machine.viscous_friction
+        driven = acceleration
+    wanted, scale = np.zeros(6), 1.0
+    if machine.velocity_per_output > 0.0:
+        gain = 2.0 * math.pi * machine.velocity_bandwidth / acceleration
+        wanted[motor_speed], wanted[error_sum] = -gain, gain * machine.velocity_integral
+        scale = gain * machine.velocity_per_output
+        a[error_sum, motor_speed], b[error_sum, 0] = -1.0, machine.velocity_per_output
+    if machine.bandwidth > 0.0:
+        lag = 2.0 * math.pi * machine.bandwidth
+        a[torque] += lag * wanted
+        a[torque, torque] -= lag
+        b[torque, 0] = lag * scale
+        a[motor_speed, torque] += driven
+    else:
+        a[motor_speed] += driven * wanted
+        b[motor_speed, 0] += driven * scale
+    row = np.eye(6)
+    return Plant(a, b, row[[motor]], row[[load if machine.two_masses else motor]], machine.delay)
+
+
+def sampled(
+    plant: Plant,
+    position: Matrix,
+    velocity: Matrix | None,
+    places: Places,
+    period: float,
+    velocity_period: float,
+) -> SampledLoop:
+    """Join the matrices of a law's two sample functions with the machine.
+
+    ``position`` and ``velocity`` map the law's states and signals to their next values (``jacobian``).
+    """
+    loops = max(1, round(period / velocity_period)) if velocity is not None else 1
+    step = period / loops
+    whole, rest = divmod(plant.delay / step, 1.0)
+    if 1.0 - rest < 1e-9:
+        whole, rest = whole + 1.0, 0.0
+    waiting = int(whole) + (1 if rest > 1e-9 else 0)
+    x, law = len(plant.a), len(position)
+    size = x + law + waiting
+    signal = {name: x + place for name, place in places.signals.items()}
+    every = np.eye(size)
+
+    def applied(matrix: Matrix) -> Matrix:
+        full = np.eye(size)
+        full[x : x + law, x : x + law] = matrix
+        return full
+
+    def sensing(place: int, row: Matrix) -> Matrix:
+        full = np.eye(size)
+        full[place] = 0.0
+        full[place, :x] = row
+        return full
+
+    move = _moved(plant, step, rest, waiting, size, x, signal["output"])
+    clear = every.copy()
+    for name in ("command", "command_velocity", "command_acceleration", "position"):
+        clear[signal[name]] = 0.0
+    inputs = every[
+        :, [signal[n] for n in ("position", "command", "command_velocity", "command_acceleration")]
+    ]
+    after = applied(position) @ sensing(signal["motor"], plant.motor)
+    open_, inputs = after @ clear, after @ inputs
+    for _ in range(loops):
+        if velocity is not None:
+            turn = move @ applied(velocity) @ sensing(signal["motor"], plant.motor)
+        else:
+            turn = move
+        open_, inputs = turn @ open_, turn @ inputs
+    sensed, load = np.zeros((1, size)), np.zeros((1, size))
+    sensed[0, :x] = plant.load if places.load_sensor else plant.motor
+    load[0, :x] = plant.load
+    return _reduced(SampledLoop(period, open_, inputs[:, :1], inputs[:, 1:], sensed, load))
+
+
+def jacobian(sample: Callable[[Matrix], Matrix], rest: Matrix) -> Matrix:
+    """Return the matrix of a sample function at rest, by central differences (exact for a linear function)."""
+    columns = []
+    for n in range(len(rest)):
+        ahead, behind = rest.copy(), rest.copy()
+        ahead[n] += _STEP
+        behind[n] -= _STEP
+        columns.append((sample(ahead) - sample(behind)) / (2.0 * _STEP))
+    return np.array(columns).T
+
+
+def exponential(matrix: Matrix) -> Matrix:
+    """Return the exponential of a matrix by scaling, a Taylor series and squaring (Golub, Van Loan, 9.3)."""
+    halvings = max(
+        0, math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=1).max(initial=0.0)), 1e-300))) + 4
+    )
+    small = matrix / 2.0**halvings
+    total, term = np.eye(len(matrix)), np.eye(len(matrix))
+    for n in range(1, 14):
+        term = term @ small / n
+        total = total + term
+    for _ in range(halvings):
+        total = total @ total
+    return total
+
+
+def held(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
+    """Return (phi, gamma) of dx/dt = a x + b u over a time in s with u held."""
+    n, m = b.shape
+    joined = np.zeros((n + m, n + m))
+    joined[:n, :n], joined[:n, n:] = a, b
+    over = exponential(joined * time)
+    return over[:n, :n], over[:n, n:]
+
+
+def _moved(plant: Plant, step: float, rest: float, waiting: int, size: int, x: int, output: int) -> Matrix:
+    """Return the matrix of one velocity period of the machine: its input is ``waiting`` outputs old."""
+    late, early = rest * step, (1.0 - rest) * step
+    phi, _ = held(plant.a, plant.b, step)
+    phi_early, gamma_early = held(plant.a, plant.b, early)
+    _, gamma_late = held(plant.a, plant.b, late)
+    move = np.eye(size)
+    move[:x, :x] = phi
+    queue = size - waiting  # the oldest output first
+    places = [*range(queue, size), output]
+    if rest > 1e-9:
+        move[:x, places[0]] += (phi_early @ gamma_late)[:, 0]
+        move[:x, places[1]] += gamma_early[:, 0]
+    else:
+        _, gamma = held(plant.a, plant.b, step)
+        move[:x, places[0]] += gamma[:, 0]
+    for place, following in pairwise(places):
+        move[place] = 0.0
+        move[place, following] = 1.0
+    return move
+
+
+def _reduced(model: SampledLoop) -> SampledLoop:
+    """Leave out the states that no input reaches or no position shows: signals that the law does not use."""
+    links = np.abs(model.closed) + np.abs(model.open) > 0.0
+    inputs = np.abs(np.hstack([model.measured, model.command])).sum(axis=1) > 0.0
+    outputs = (np.abs(model.sensed) + np.abs(model.position))[0] > 0.0
+    keep = _spread(links, inputs) & _spread(links.T, outputs)
+    return SampledLoop(
+        model.period,
+        model.open[np.ix_(keep, keep)],
+        model.measured[keep],
+        model.command[keep],
+        model.sensed[:, keep],
+        model.position[:, keep],
+    )
+
+
+def _spread(links: npt.NDArray[np.bool_], begin: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    reached = begin
+    while True:
+        more = reached | (links @ reached)
+        if np.array_equal(more, reached):
+            return reached
+        reached = more

@@ -1,0 +1,261 @@
+"""Scenario `frequency`: a sine of many frequencies on the simulated axis, beside the linear model of its law.
+
+The open loop follows from the closed one without feed-forward: T = L / (1 + L), both of the measured position.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.linear import LinearModel, Margins, linear_model, velocity_model
+from amp_studio.sim.model import assumptions
+from amp_studio.sim.rounding import shown
+from amp_studio.sim.trace import Alarm, Figure, Trace
+
+from .scenario import Scenario, Settings, above_zero, refuse_unknown
+from .step import alarms_of
+from .sweep import sweep, tones_of, without_feed_forward
+
+SETTINGS = {
+    "move.lowest": "lowest frequency of the sweep (Hz); default: a tenth of the bandwidth",
+    "move.highest": "highest frequency of the sweep (Hz); default: past bandwidth and margins",
+    "move.amplitude": "amplitude of the sine (mm or deg); default: as small as counts and friction allow",
+    "move.points": "frequencies of the sweep; default: 24",
+}
+
+POINTS, MOST_POINTS = 24, 400
+CURVE = 400
+"""Points of the drawn linear model."""
+Series = npt.NDArray[np.float64]
+Response = npt.NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class _Loop:
+    """An axis and what its linear model says."""
+
+    axis: AxisLaw
+    model: LinearModel
+    inner: LinearModel | None
+    """The velocity loop."""
+    stable: bool
+    margins: Margins
+    bandwidth: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class _Swept:
+    """The measured loops over the frequencies of the curve, nan where they were not measured."""
+
+    closed: Response
+    opened: Response
+
+
+_LINEAR = (
+    "The linear model is the law at rest on the machine without dry friction, backlash, counts and limits; it is sampled as"
+    " the control samples, and its loop is cut where the position is measured."
+)
+
+
+def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
+    """Sweep an axis; raises SimulationError for impossible settings."""
+    refuse_unknown(settings, SETTINGS)
+    model = linear_model(axis)
+    loop = _Loop(axis, model, velocity_model(axis), model.is_stable(), model.margins(), model.bandwidth())
+    low, high, points = _span(loop, settings)
+    curve = np.unique(np.concatenate([np.geomspace(low, high, CURVE), _known(loop, low, high)]))
+    notes, alarms = [_LINEAR], tuple[Alarm, ...]()
+    swept = _Swept(
+        np.full(len(curve), np.nan, dtype=np.complex128), np.full(len(curve), np.nan, dtype=np.complex128)
+    )
+    if loop.stable:
+        swept, alarms, note = _measured(loop, curve, _frequencies(low, high, points, curve), settings)
+        notes += [note] if note else []
+    else:
+        alarms = (Alarm("UNSTABLE", 0.0, _unstable(loop)),)
+    return Trace(
+        scenario="frequency",
+        axis=axis.axis,
+        model=axis.title,
+        columns=_columns(model, curve, swept),
+        units=_UNITS,
+        result=_figures(loop, curve, swept),
+        alarms=alarms,
+        recommendations=(),
+        assumptions=(*assumptions(axis), *notes),
+        limits={},
+    )
+
+
+def _span(loop: _Loop, settings: Settings) -> tuple[float, float, int]:
+    """Return lowest and highest frequency in Hz and the number of frequencies."""
+    model = loop.model
+    middle = loop.bandwidth or loop.margins.phase_frequency or 0.03 * model.nyquist
+    far = max(10.0 * middle, 1.5 * (loop.margins.gain_frequency or 0.0))
+    low = above_zero(settings, "move.lowest") or middle / 10.0
+    high = above_zero(settings, "move.highest") or min(far, 0.9 * model.nyquist)
+    if high > model.nyquist:
+        raise SimulationError(
+            f"move.highest is {shown(high)} Hz; the control samples the position often enough for"
+            f" {shown(model.nyquist)} Hz at most",
+            "move.highest",
+        )
+    if not low < high:
+        raise SimulationError(
+            f"move.lowest is {shown(low)} Hz; it must be below {shown(high)} Hz", "move.lowest"
+        )
+    points = above_zero(settings, "move.points") or float(POINTS)
+    if not (points.is_integer() and 2 <= points <= MOST_POINTS):
+        raise SimulationError(
+            f"move.points is {shown(points)}; it must be a whole number from 2 to {MOST_POINTS}",
+            "move.points",
+        )
+    return low, high, int(points)
+
+
+def _known(loop: _Loop, low: float, high: float) -> list[float]:
+    """Return the frequencies at which the figures are read, and two beside each."""
+    figures = (loop.bandwidth, loop.margins.phase_frequency, loop.margins.gain_frequency)
+    places = [f for f in figures if f is not None]
+    near = [f * factor for f in places for factor in (0.94, 1.0, 1.06)]
+    return [f for f in near if low < f < high]
+
+
+def _frequencies(low: float, high: float, points: int, curve: Series) -> npt.NDArray[np.int64]:
+    """Return the indices of the swept frequencies in the curve: evenly spaced, and those of the figures."""
+    even = np.searchsorted(curve, np.geomspace(low, high, points) * (1.0 - 1e-12))
+    own = np.flatnonzero(~np.isin(curve, np.geomspace(low, high, CURVE)))
+    return np.unique(np.concatenate([np.minimum(even, len(curve) - 1), own])).astype(np.int64)
+
+
+# -- the result ----------------------------------------------------------------
+
+_UNITS = {"frequency_hz": "Hz"} | {
+    f"{loop}_{what}{source}": unit
+    for loop in ("closed", "open")
+    for what, unit in (("gain_db", "dB"), ("phase_deg", "deg"))
+    for source in ("", "_model")
+}
+
+
+def _measured(
+    loop: _Loop, curve: Series, places: npt.NDArray[np.int64], settings: Settings
+) -> tuple[_Swept, tuple[Alarm, ...], str]:
+    """Sweep the axis; return closed and open loop, an alarm that ended it, and how the open loop was found."""
+    axis, model = loop.axis, loop.model
+    tones = tones_of(axis, model, curve[places].tolist(), above_zero(settings, "move.amplitude"))
+    first = last = sweep(axis, tones)
+    note, sensed = "", first.measured
+    if model.forwards_position():
+        note = (
+            "The open loop was not swept: the law takes its feed-forward from the commanded position itself."
+        )
+        sensed = np.full(len(tones), np.nan, dtype=np.complex128)
+    elif model.forwards_velocity():
+        note = "The open loop was swept with velocity and acceleration feed-forward off."
+        last = sweep(replace(axis, position_sample=without_feed_forward(axis.position_sample)), tones)
+        sensed = last.measured
+    closed, opened = (np.full(len(curve), np.nan, dtype=np.complex128) for _ in range(2))
+    closed[places] = first.position
+    known = np.isfinite(sensed)
+    opened[places[known]] = sensed[known] / (1.0 - sensed[known])
+    return _Swept(closed, opened), alarms_of(axis, first.motion) or alarms_of(axis, last.motion), note
+
+
+def _columns(model: LinearModel, curve: Series, swept: _Swept) -> dict[str, Series]:
+    columns: dict[str, Series] = {"frequency_hz": curve}
+    pairs = (("closed", model.follows(curve), swept.closed), ("open", model.loop(curve), swept.opened))
+    for name, linear, found in pairs:
+        phase = np.degrees(np.unwrap(np.angle(linear)))
+        phase -= 360.0 * round((phase[0] + 90.0) / 360.0)
+        known, apart = np.isfinite(found), np.full(len(curve), np.nan)
+        apart[known] = np.degrees(np.angle(found[known] / linear[known]))
+        columns[f"{name}_gain_db_model"], columns[f"{name}_phase_deg_model"] = _db(linear), phase
+        columns[f"{name}_gain_db"], columns[f"{name}_phase_deg"] = _db(found), phase + apart
+    return columns
+
+
+def _db(response: Response) -> Series:
+    return np.asarray(20.0 * np.log10(np.maximum(np.abs(response), 1e-12)))
+
+
+def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
+    """Return the named figures; the margins are those of the loop that is unstable, where the velocity loop is."""
+    inside = loop.inner.margins() if loop.inner else None
+    margins = loop.margins if loop.model.is_stable_inside() or inside is None else inside
+    peak = float(_db(loop.model.follows(curve)).max())
+    return {
+        "bandwidth": (loop.bandwidth if loop.stable else None, "Hz"),
+        "swept_bandwidth": (_falls(curve, np.abs(swept.closed), math.sqrt(0.5)), "Hz"),
+        "phase_margin": (margins.phase, "deg"),
+        "phase_margin_frequency": (margins.phase_frequency, "Hz"),
+        "swept_phase_margin": (_swept_phase(curve, swept.opened), "deg"),
+        "gain_margin": (margins.gain, "dB"),
+        "gain_margin_frequency": (margins.gain_frequency, "Hz"),
+        "swept_gain_margin": (_swept_gain(swept.opened), "dB"),
+        "resonance_peak": (peak if loop.stable else None, "dB"),
+        "damping_ratio": (loop.model.slowest_damping(), ""),
+        "velocity_loop_phase_margin": (inside.phase if inside else None, "deg"),
+        "velocity_loop_gain_margin": (inside.gain if inside else None, "dB"),
+        "velocity_loop_bandwidth": (inside.phase_frequency if inside else None, "Hz"),
+    }
+
+
+def _unstable(loop: _Loop) -> str:
+    """Return how the loop is unstable, and by how much."""
+    inside = loop.inner if loop.inner and not loop.model.is_stable_inside() else None
+    margins = inside.margins() if inside else loop.margins
+    pole = complex(loop.model.poles()[0])
+    rate = math.log(abs(pole)) / loop.model.period
+    swing = abs(np.angle(pole).item()) / (2.0 * math.pi * loop.model.period)
+    grows = f"an oscillation of {shown(swing, 'Hz', 3)}" if swing > 1e-6 else "a motion without oscillation"
+    double = f"doubles every {shown(math.log(2.0) / rate, 's', 3)}" if rate > 1e-9 else "never dies away"
+    by = (
+        f"; the gain is {shown(-margins.gain, 'dB', 3)} too high"
+        if margins.gain and margins.gain < 0.0
+        else ""
+    )
+    return f"The {'velocity' if inside else 'position'} loop is not stable: {grows} {double}{by}. It was not swept."
+
+
+def _falls(curve: Series, size: Series, level: float) -> float | None:
+    """Return where a swept amplitude falls below a level, between the two frequencies around it."""
+    known = np.isfinite(size)
+    f, y = np.log(curve[known]), np.log(np.maximum(size[known], 1e-12))
+    below = np.flatnonzero(y < math.log(level))
+    if not below.size or below[0] == 0:
+        return None
+    n = int(below[0])
+    return math.exp(float(np.interp(-math.log(level), -y[[n - 1, n]], f[[n - 1, n]])))
+
+
+def _swept_phase(curve: Series, opened: Response) -> float | None:
+    known = np.isfinite(opened)
+    at = _falls(curve, np.abs(opened), 1.0)
+    if at is None:
+        return None
+    phase = np.unwrap(np.angle(opened[known]))
+    return (math.degrees(float(np.interp(math.log(at), np.log(curve[known]), phase))) + 360.0) % 360.0 - 180.0
+
+
+def _swept_gain(opened: Response) -> float | None:
+    known = np.isfinite(opened)
+    response = opened[known]
+    turn = np.flatnonzero((response.imag[:-1] < 0.0) & (response.imag[1:] >= 0.0) & (response.real[1:] < 0.0))
+    if not turn.size:
+        return None
+    n = int(turn[0])
+    share = -response.imag[n] / (response.imag[n + 1] - response.imag[n])
+    size = np.log(np.abs(response[[n, n + 1]]))
+    return -20.0 / math.log(10.0) * float(size[0] + share * (size[1] - size[0]))
+
+
+SCENARIO = Scenario(
+    "frequency", "Swept sine beside the linear model: bandwidth and margins", SETTINGS, run_frequency
+)

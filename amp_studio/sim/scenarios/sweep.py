@@ -1,0 +1,154 @@
+"""A stepped sine on the simulated axis: amplitude and phase of its position at one frequency after the other.
+
+At each frequency the axis follows a sine until what the start left has died away; then amplitude and phase are taken from whole
+cycles by least squares (R. Pintelon, J. Schoukens, System Identification, 2012).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from types import FunctionType
+from typing import cast
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.sim.arrays import Vector
+from amp_studio.sim.compiled import Sample
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.linear import LinearModel
+from amp_studio.sim.motion import Motion, Until, run_axis
+from amp_studio.sim.profiles import SINE
+from amp_studio.sim.signals import COMMAND_ACCELERATION, COMMAND_VELOCITY
+
+CYCLES = 3
+"""Whole cycles that a frequency is measured over, at least."""
+SAMPLES = 60
+"""Servo samples that a frequency is measured over, at least."""
+DIES = 7.0
+"""Time constants of the slowest pole before a frequency is measured: what is left is 0.1 %."""
+LONGEST = 2000.0
+"""Most simulated seconds."""
+SHARE = 0.25
+"""Share of feedrate, torque and limits of the following error that the sine uses."""
+COUNTS = 50.0
+"""Counts of the answer, where the limits allow it."""
+FINEST = 1e-4
+"""u: a count of an ideal device, for the choice of an amplitude."""
+
+Series = npt.NDArray[np.float64]
+Response = npt.NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Tone:
+    """One frequency of a sweep: Hz, u, its start and the times between which it is measured, in s."""
+
+    frequency: float
+    amplitude: float
+    start: float
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """Actual and measured position as a share of the command; nan from where an alarm ended the run."""
+
+    position: Response
+    measured: Response
+    motion: Motion
+
+
+def tones_of(
+    axis: AxisLaw, model: LinearModel, frequencies: Sequence[float], amplitude: float | None
+) -> list[Tone]:
+    """Return the tones of a sweep one after the other; each lasts whole cycles. ``amplitude`` in u, None for a fitting one.
+
+    Raises SimulationError where the sweep would take too long.
+    """
+    slowest = float(np.max(np.abs(model.poles()), initial=0.0))
+    dies = DIES * model.period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
+    tones: list[Tone] = []
+    start = 0.0
+    for frequency in frequencies:
+        wait = math.ceil(dies * frequency) / frequency
+        cycles = max(CYCLES, math.ceil(SAMPLES * model.period * frequency))
+        begin, end = start + wait, start + wait + cycles / frequency
+        tones.append(Tone(frequency, amplitude or _amplitude(axis, model, frequency), start, begin, end))
+        start = end
+    if start > LONGEST:
+        raise SimulationError(
+            f"The sweep takes {start:.0f} s of the axis; {LONGEST:.0f} s are simulated at most. Raise move.lowest",
+            "move.lowest",
+        )
+    return tones
+
+
+def _amplitude(axis: AxisLaw, model: LinearModel, frequency: float) -> float:
+    """Return an amplitude in u within a quarter of feedrate, torque and limits, and above 50 counts where it can be."""
+    rate, machine = 2.0 * math.pi * frequency, axis.machine
+    answer = complex(model.follows(np.array([frequency]))[0])
+    follows, error = max(abs(answer), 1e-3), max(abs(1.0 - answer), 1e-3)
+    limits = [level for level in axis.limits.values() if 2.0 * axis.inposition_band < level < math.inf]
+    most = [SHARE * level / error for level in limits]
+    if axis.feedrate:
+        most.append(SHARE * axis.feedrate / rate)
+    torque = min(machine.torque_limit_positive, machine.torque_limit_negative)
+    if machine.velocity_per_output == 0.0:
+        torque = min(torque, machine.output_limit)
+    if math.isfinite(torque):
+        most.append(SHARE * torque * machine.acceleration_per_output / rate**2 / follows)
+    if most and (machine.coulomb_friction or machine.backlash):
+        return min(most)  # friction and backlash weigh less
+    return min([COUNTS * max(machine.position_count, machine.motor_count, FINEST) / follows, *most])
+
+
+def sweep(axis: AxisLaw, tones: Sequence[Tone]) -> Sweep:
+    """Run the axis over the tones."""
+    rows: list[float] = []
+    for tone in tones:
+        duration = tone.end - tone.start if tone is not tones[-1] else math.inf
+        rows += [tone.start, duration, 0.0, tone.amplitude, 2.0 * math.pi * tone.frequency, 0.0, SINE, 0.0]
+    motion = run_axis(axis, rows, Until(tones[-1].end), thin=True)
+    columns = {name: column[:: motion.rows_per_servo_period] for name, column in motion.columns.items()}
+    time = columns["time_s"]
+    found = np.full((2, len(tones)), np.nan, dtype=np.complex128)
+    for n, tone in enumerate(tones):
+        if time[-1] < tone.end - 2.0 * axis.servo_period:
+            break
+        inside = (time >= tone.begin - 1e-9) & (time < tone.end - 1e-9)
+        for row, name in enumerate(("position", "measured_position")):
+            found[row, n] = _fitted(time[inside] - tone.start, columns[name][inside], tone)
+    return Sweep(found[0], found[1], motion)
+
+
+def _fitted(time: Series, position: Series, tone: Tone) -> complex:
+    """Return amplitude and phase of a position as a share of the commanded sine."""
+    angle = 2.0 * math.pi * tone.frequency * time
+    base = np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)])
+    found = np.linalg.lstsq(base, position, rcond=None)[0]
+    return complex(found[0], found[1]) / tone.amplitude
+
+
+def sample_of_law(p: Vector, s: Vector, io: Vector) -> None:
+    """Stand for the position sample of the law."""
+
+
+def _without_feed_forward(p: Vector, s: Vector, io: Vector) -> None:
+    """Take the derivatives of the command from a law."""
+    io[COMMAND_VELOCITY] = 0.0
+    io[COMMAND_ACCELERATION] = 0.0
+    sample_of_law(p, s, io)
+
+
+@lru_cache(maxsize=16)
+def without_feed_forward(sample: Sample) -> Sample:
+    """Return a law's position sample without its feed-forward, as a function that can be compiled."""
+    template = cast(FunctionType, _without_feed_forward)
+    own = {**template.__globals__, "sample_of_law": sample}
+    return FunctionType(template.__code__, own, template.__name__)

@@ -1,0 +1,93 @@
+"""A swept sine on the simulated axis and the linear model of its law say the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isfinite
+
+import numpy as np
+import pytest
+
+from amp_studio.sim import SCENARIOS, SimulationError, Trace
+from amp_studio.sim.arrays import Vector
+from amp_studio.sim.linear import linear_model
+from amp_studio.sim.signals import COMMAND, COMMAND_VELOCITY, POSITION
+from tests.sim.tiny import GAIN, WANTED, tiny
+
+
+@pytest.fixture(scope="module")
+def elastic() -> Trace:
+    """An axis with everything that a linear model has: two masses, a lag, a delay, a scale at the load."""
+    axis = tiny(
+        gain=30.0, resonance=60.0, inertia_ratio=2.0, bandwidth=300.0, delay=0.0004, viscous_friction=0.02,
+        load_sensor=True, position_count=0.0001,
+    )  # fmt: skip
+    return SCENARIOS["frequency"].run(axis, {})
+
+
+def test_the_swept_axis_is_its_linear_model_at_every_frequency(elastic: Trace) -> None:
+    for loop in ("closed", "open"):
+        apart = np.abs(elastic.columns[f"{loop}_gain_db"] - elastic.columns[f"{loop}_gain_db_model"])
+        turned = np.abs(elastic.columns[f"{loop}_phase_deg"] - elastic.columns[f"{loop}_phase_deg_model"])
+        assert np.count_nonzero(np.isfinite(apart)) > 24
+        assert np.nanmax(apart) < 0.12
+        assert np.nanmax(turned) < 0.8
+
+
+@pytest.mark.parametrize(
+    ("figure", "near"),
+    [("bandwidth", 0.005), ("phase_margin", 0.005), ("gain_margin", 0.01)],
+)
+def test_the_swept_figures_are_those_of_the_model(elastic: Trace, figure: str, near: float) -> None:
+    assert elastic.result[f"swept_{figure}"][0] == pytest.approx(elastic.result[figure][0], rel=near)
+
+
+def test_an_unstable_loop_is_called_so_with_its_margin_and_not_swept() -> None:
+    trace = SCENARIOS["frequency"].run(tiny(gain=2500.0), {})
+    (alarm,) = trace.alarms
+    assert alarm.code == "UNSTABLE"
+    assert "position loop is not stable: an oscillation of 111 Hz" in alarm.message
+    assert trace.result["gain_margin"] == (pytest.approx(-1.762, abs=0.01), "dB")
+    assert trace.result["bandwidth"][0] is None
+    assert not np.isfinite(trace.columns["closed_gain_db"]).any()
+
+
+def test_an_unstable_velocity_loop_is_named_and_its_margin_given() -> None:
+    trace = SCENARIOS["frequency"].run(tiny(velocity_rate=1200.0, delay=0.0013), {})
+    assert "velocity loop is not stable" in trace.alarms[0].message
+    assert trace.result["gain_margin"][0] < 0.0
+
+
+def forwarded(p: Vector, s: Vector, io: Vector) -> None:
+    """A law with full velocity feed-forward."""
+    s[WANTED] = p[GAIN] * (io[COMMAND] - io[POSITION]) + io[COMMAND_VELOCITY]
+
+
+def test_feed_forward_changes_what_follows_but_not_the_margins() -> None:
+    plain, ahead = tiny(gain=30.0), replace(tiny(gain=30.0), position_sample=forwarded)
+    assert linear_model(ahead).margins() == linear_model(plain).margins()
+    assert linear_model(ahead).bandwidth() > 5 * linear_model(plain).bandwidth()
+    trace = SCENARIOS["frequency"].run(ahead, {"move.points": 4.0})
+    assert trace.result["swept_phase_margin"][0] == pytest.approx(trace.result["phase_margin"][0], rel=0.01)
+    assert any("feed-forward off" in note for note in trace.assumptions)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"move.highest": 900.0}, "500 Hz at most"),
+        ({"move.lowest": 90.0, "move.highest": 20.0}, "below 20 Hz"),
+        ({"move.lowest": -1.0}, "above 0"),
+        ({"move.lowest": 1e-5}, "Raise move.lowest"),
+        ({"move.points": 2.5}, "whole number"),
+        ({"move.amplitude": float("nan")}, "finite"),
+        ({"move.feedrate": 100.0}, "Unknown setting"),
+    ],
+)
+def test_an_impossible_sweep_is_one_sentence(settings: dict[str, float], words: str) -> None:
+    with pytest.raises(SimulationError, match=words):
+        SCENARIOS["frequency"].run(tiny(), settings)
+
+
+def test_every_figure_is_a_number_or_nothing(elastic: Trace) -> None:
+    assert all(value is None or isfinite(value) for value, _ in elastic.result.values())

@@ -1,0 +1,183 @@
+"""The linear sampled model agrees with python-control, scipy and its own law run step by step."""
+
+from __future__ import annotations
+
+import control
+import numpy as np
+import pytest
+import scipy.linalg
+import scipy.signal
+
+from amp_studio.sim import sampled as matrices
+from amp_studio.sim.linear import LinearModel
+from amp_studio.sim.sampled import Places, Plant, exponential, held, jacobian
+
+COMMAND, COMMAND_VELOCITY, COMMAND_ACCELERATION, POSITION, MOTOR, OUTPUT = range(6)
+PLACES = Places(
+    {
+        "command": 2,
+        "command_velocity": 3,
+        "command_acceleration": 4,
+        "position": 5,
+        "motor": 6,
+        "output": 7,
+    }
+)
+"""Two states of the law, then six signals."""
+
+PERIOD = 0.002
+
+
+def sampled(*parts) -> LinearModel:
+    """Join law and machine."""
+    return LinearModel(**vars(matrices.sampled(*parts)))
+
+
+def rigid(gain: float, viscous: float, delay: float = 0.0) -> Plant:
+    """A mass with viscous friction: position and speed."""
+    return Plant(
+        np.array([[0.0, 1.0], [0.0, -viscous]]), np.array([[0.0], [gain]]), np.array([[1.0, 0.0]]),
+        np.array([[1.0, 0.0]]), delay,
+    )  # fmt: skip
+
+
+def pid(kp: float, ki: float, kd: float):
+    """A law in one loop: states are the sum of the error and the error before."""
+
+    def sample(z: np.ndarray) -> np.ndarray:
+        after = z.copy()
+        error = z[2] - z[5]
+        after[0] = z[0] + error * PERIOD
+        after[1] = error
+        after[7] = kp * error + ki * after[0] + kd * (error - z[1]) / PERIOD
+        return after
+
+    return jacobian(sample, np.zeros(8))
+
+
+def by_control(plant: Plant, kp: float, ki: float, kd: float) -> control.StateSpace:
+    """The same open loop by python-control."""
+    body = control.sample_system(control.ss(plant.a, plant.b, plant.load, 0.0), PERIOD, "zoh")
+    z = control.tf([1, 0], [1], PERIOD)
+    law = kp + ki * PERIOD * z / (z - 1) + kd / PERIOD * (z - 1) / z
+    return body * control.ss(law)
+
+
+@pytest.fixture(scope="module")
+def model() -> LinearModel:
+    """A PID axis."""
+    return sampled(rigid(40.0, 3.0), pid(60.0, 200.0, 1.2), None, PLACES, PERIOD, PERIOD)
+
+
+def test_the_margins_are_those_of_python_control(model: LinearModel) -> None:
+    gain, phase, at_gain, at_phase = control.margin(by_control(rigid(40.0, 3.0), 60.0, 200.0, 1.2))
+    found = model.margins()
+    assert found.phase == pytest.approx(phase, rel=1e-3)
+    assert found.phase_frequency == pytest.approx(at_phase / 2 / np.pi, rel=1e-3)
+    assert found.gain == pytest.approx(20 * np.log10(gain), rel=1e-3)
+    assert found.gain_frequency == pytest.approx(at_gain / 2 / np.pi, rel=1e-3)
+
+
+def test_the_poles_are_those_of_python_control(model: LinearModel) -> None:
+    wanted = control.feedback(by_control(rigid(40.0, 3.0), 60.0, 200.0, 1.2)).poles()
+    assert sorted(np.abs(model.poles())) == pytest.approx(sorted(np.abs(wanted)), abs=1e-6)
+    assert model.is_stable()
+
+
+def test_the_bandwidth_is_that_of_python_control(model: LinearModel) -> None:
+    closed = control.feedback(by_control(rigid(40.0, 3.0), 60.0, 200.0, 1.2))
+    w = np.linspace(1.0, 2 * np.pi * 249.0, 20_001)
+    response = closed(np.exp(1j * w * PERIOD))
+    wanted = w[np.flatnonzero(np.abs(response) < np.sqrt(0.5))[0]] / 2 / np.pi
+    assert model.bandwidth() == pytest.approx(wanted, rel=1e-3)
+
+
+def test_the_matrix_exponential_is_that_of_scipy() -> None:
+    matrix = np.array([[0.0, 1.0, 0.0], [-9e4, -6.0, 9e4], [3.0, 0.0, -2000.0]])
+    assert exponential(matrix * 0.001) == pytest.approx(
+        scipy.linalg.expm(matrix * 0.001), rel=1e-9, abs=1e-12
+    )
+
+
+def test_a_held_input_moves_the_machine_as_scipy_discretises_it() -> None:
+    plant = rigid(40.0, 3.0)
+    a, b, *_ = scipy.signal.cont2discrete((plant.a, plant.b, plant.load, np.zeros((1, 1))), PERIOD)
+    for found, wanted in zip(held(plant.a, plant.b, PERIOD), (a, b), strict=True):
+        assert found == pytest.approx(wanted, rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.0007, 0.002, 0.0033])
+def test_a_delay_costs_its_phase_at_every_frequency(delay: float) -> None:
+    """A delayed output that is held moves the machine as late: e^(-j w d) of the continuous machine, not of its holds."""
+    frequencies = np.array([1.0, 10.0, 40.0])
+    prompt = sampled(rigid(40.0, 3.0), pid(60.0, 0.0, 1.2), None, PLACES, PERIOD, PERIOD)
+    late = sampled(rigid(40.0, 3.0, delay), pid(60.0, 0.0, 1.2), None, PLACES, PERIOD, PERIOD)
+    lag = np.angle(late.loop(frequencies) / prompt.loop(frequencies))
+    assert lag == pytest.approx(-2 * np.pi * frequencies * delay, rel=2e-2)
+
+
+def test_a_faster_velocity_loop_is_joined_as_it_runs() -> None:
+    """Four velocity periods a servo period: the matrices move as the functions and the machine do, step by step."""
+    loops, plant = 4, rigid(500.0, 2.0, 0.0002)
+    velocity_period = PERIOD / loops
+
+    def position(z: np.ndarray) -> np.ndarray:
+        after = z.copy()
+        after[1] = 30.0 * (z[2] - z[5]) + 0.5 * z[3]
+        return after
+
+    def velocity(z: np.ndarray) -> np.ndarray:
+        after = z.copy()
+        after[7] = 0.3 * (z[1] - (z[6] - z[0]) / velocity_period)
+        after[0] = z[6]
+        return after
+
+    rest = np.zeros(8)
+    model = sampled(
+        plant, jacobian(position, rest), jacobian(velocity, rest), PLACES, PERIOD, velocity_period
+    )
+
+    x, z, waiting = np.zeros((2, 1)), np.zeros(8), 0.0
+    fine = velocity_period / 5 * 2  # the delay is two fifths of a velocity period
+    found, wanted, state = [], [], np.zeros(len(model.open))
+    for k in range(60):
+        command = np.sin(60.0 * k * PERIOD)
+        found.append((model.position @ state)[0])
+        wanted.append(x[0, 0])
+        state = model.closed @ state + model.command @ np.array([command, 7.0, 0.0])
+        z[2], z[3], z[5], z[6] = command, 7.0, x[0, 0], x[0, 0]
+        z = position(z)
+        for _ in range(loops):
+            z[6] = x[0, 0]
+            z = velocity(z)
+            for time, output in ((fine, waiting), (velocity_period - fine, z[7])):
+                phi, gamma = held(plant.a, plant.b, time)
+                x = phi @ x + gamma * output
+            waiting = z[7]
+    assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+
+
+def test_the_answer_to_a_sine_is_the_frequency_response() -> None:
+    model = sampled(rigid(40.0, 3.0), pid(60.0, 200.0, 1.2), None, PLACES, PERIOD, PERIOD)
+    frequency, state, found = 12.5, np.zeros(len(model.open)), []
+    for k in range(4000):  # 40 samples a cycle
+        found.append((model.position @ state)[0])
+        turn = 2 * np.pi * frequency * k * PERIOD
+        state = model.closed @ state + model.command @ np.array([np.sin(turn), 0.0, 0.0])
+    tail = np.array(found[2000:])
+    turn = 2 * np.pi * frequency * np.arange(2000, 4000) * PERIOD
+    answer = 2.0 * np.mean(tail * np.exp(-1j * turn)) * 1j
+    assert answer == pytest.approx(complex(model.follows(np.array([frequency]))[0]), rel=1e-6)
+
+
+def test_a_gain_beyond_the_margin_is_unstable_and_has_a_negative_margin(model: LinearModel) -> None:
+    factor = 10 ** (model.margins().gain / 20)
+    for share, stable in ((0.99, True), (1.01, False)):
+        k = factor * share
+        louder = sampled(rigid(40.0, 3.0), pid(60.0 * k, 200.0 * k, 1.2 * k), None, PLACES, PERIOD, PERIOD)
+        assert louder.is_stable() is stable
+        assert louder.margins().gain == pytest.approx(-20 * np.log10(share), abs=0.01)
+
+
+def test_signals_that_the_law_does_not_use_add_no_poles(model: LinearModel) -> None:
+    assert len(model.open) == 4  # position and speed, the sum of the error and the error before
