@@ -69,7 +69,9 @@ STRIDE = 8
 """Physics steps for one row."""
 MONITORS = 9
 """How many there are."""
-TIMING_SIZE = 10
+FORWARD = 10
+"""1; 0 takes velocity and acceleration of the command from the law, for a loop without feed-forward."""
+TIMING_SIZE = 11
 
 BOUNDLESS = 1e12
 """Positions beyond are no motion of a machine any more, u."""
@@ -144,8 +146,8 @@ def run(
         x[PIECE] = float(piece)
         begun, share = x[COMMAND_TIME], x[SHARE]
         command(profile, piece, begun, io)
-        io[COMMAND_VELOCITY] *= share
-        io[COMMAND_ACCELERATION] *= share * share
+        io[COMMAND_VELOCITY] *= share * timing[FORWARD]
+        io[COMMAND_ACCELERATION] *= share * share * timing[FORWARD]
         sensed = x[LOAD_POSITION] if m[LOAD_SENSOR] == 1.0 else x[MOTOR_POSITION]
         io[TIME], io[TORQUE] = start, x[MOTOR_TORQUE]
         io[POSITION] = counted(sensed, m[POSITION_COUNT])

@@ -63,11 +63,13 @@ def run_axis(
     engine: Engine = "auto",
     refine: int = 1,
     thin: bool = False,
+    feed_forward: bool = True,
 ) -> Motion:
     """Run an axis from rest over a profile (`profiles.py`).
 
     ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share; ``refine`` divides the
-    physics step; ``thin`` keeps one row for each velocity sample. Raises SimulationError where the run would take too long.
+    physics step; ``thin`` keeps one row for each velocity sample; without ``feed_forward`` the law
+    sees the commanded position only. Raises SimulationError where the run would take too long.
     """
     samples, substeps = steps(axis, refine)
     step = axis.servo_period / samples / substeps
@@ -84,6 +86,7 @@ def run_axis(
     timing[kernel.VELOCITY_SAMPLES], timing[kernel.SUBSTEPS] = float(samples), float(substeps)
     timing[kernel.SHARE_RATE], timing[kernel.STRIDE] = share_rate, float(stride)
     timing[kernel.REST_BAND], timing[kernel.REST_TIME] = until.rest_band, until.rest_time
+    timing[kernel.FORWARD] = float(feed_forward)
     timing[kernel.SETTLE_TIME], timing[kernel.MONITORS] = until.settle_time, float(len(axis.monitors))
     io = [0.0] * (MONITOR + len(axis.monitors))
     io[FEED_SHARE], io[MODE] = 1.0, mode

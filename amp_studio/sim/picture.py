@@ -188,12 +188,17 @@ def _motion(trace: Trace, before: Trace | None) -> Picture:
         _error(trace, before),
         _panel(trace, before, "velocity", ("command_velocity", "velocity"), 1.0),
         _panel(trace, before, "torque", ("torque_percent", "torque"), 0.8),
-        _panel(trace, before, "output", ("output",), 0.8) if "torque_percent" not in trace.columns else None,
+        _panel(trace, before, "output", ("output",), 0.8) if _has_own_output(trace) else None,
     ]
     return Picture(
         "", (), "time (s)", tuple(p for p in panels if p is not None), close=_settling(trace, before),
         alarms=tuple((a.code, a.time_s) for a in trace.alarms),
     )  # fmt: skip
+
+
+def _has_own_output(trace: Trace) -> bool:
+    """Return whether the output is another thing than the torque: the input of a drive with a velocity loop."""
+    return trace.units.get("output", "") != trace.units.get("torque", trace.units.get("output", ""))
 
 
 _WORDS = {

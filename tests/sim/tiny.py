@@ -20,7 +20,7 @@ from amp_studio.sim.signals import (
     STOP,
 )
 
-GAIN, VELOCITY_GAIN, EXCESS, PERIOD = 0, 1, 2, 3  # 1/s, % per u/s, u, s
+GAIN, VELOCITY_GAIN, EXCESS, PERIOD, FORWARD = 0, 1, 2, 3, 4  # 1/s, % per u/s, u, s, share
 WANTED, LAST = 0, 1  # u/s, u
 
 
@@ -30,7 +30,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     if io[MODE] == POSITION_LOOP:
         if abs(error) > p[EXCESS]:
             io[STOP] = 1.0
-        s[WANTED] = p[GAIN] * error
+        s[WANTED] = p[GAIN] * error + p[FORWARD] * io[COMMAND_VELOCITY]
     else:
         s[WANTED] = io[COMMAND_VELOCITY]
     io[MONITOR] = s[WANTED]
@@ -46,7 +46,12 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
 
 
 def tiny(
-    *, gain: float = 20.0, velocity_rate: float = 200.0, excess: float = 20.0, **machine: Any
+    *,
+    gain: float = 20.0,
+    velocity_rate: float = 200.0,
+    excess: float = 20.0,
+    forward: float = 0.0,
+    **machine: Any,
 ) -> AxisLaw:
     """Return an axis of 50 mm/s2 per % of torque; position loop in ``gain``, velocity loop in ``velocity_rate`` 1/s."""
     figures = {"acceleration_per_output": 50.0, "position_count": 0.001, "motor_count": 0.0} | machine
@@ -57,7 +62,7 @@ def tiny(
         title="tiny axis",
         position_sample=position_sample,
         velocity_sample=velocity_sample,
-        parameters=(gain, velocity_rate / acceleration, excess, 0.00025),
+        parameters=(gain, velocity_rate / acceleration, excess, 0.00025, forward),
         state_size=2,
         servo_period=0.001,
         velocity_period=0.00025,

@@ -6,7 +6,7 @@ The open loop follows from the closed one without feed-forward: T = L / (1 + L),
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +20,7 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .scenario import Scenario, Settings, above_zero, refuse_unknown
 from .step import alarms_of
-from .sweep import sweep, tones_of, without_feed_forward
+from .sweep import sweep, tones_of
 
 SETTINGS = {
     "move.lowest": "lowest frequency of the sweep (Hz); default: a tenth of the bandwidth",
@@ -159,7 +159,7 @@ def _measured(
         sensed = np.full(len(tones), np.nan, dtype=np.complex128)
     elif model.forwards_velocity():
         note = "The open loop was swept with velocity and acceleration feed-forward off."
-        last = sweep(replace(axis, position_sample=without_feed_forward(axis.position_sample)), tones)
+        last = sweep(axis, tones, feed_forward=False)
         sensed = last.measured
     closed, opened = (np.full(len(curve), np.nan, dtype=np.complex128) for _ in range(2))
     closed[places] = first.position

@@ -9,21 +9,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from types import FunctionType
-from typing import cast
 
 import numpy as np
 import numpy.typing as npt
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.compiled import Sample
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.linear import LinearModel
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.profiles import SINE
-from amp_studio.sim.signals import COMMAND_ACCELERATION, COMMAND_VELOCITY
 
 CYCLES = 3
 """Whole cycles that a frequency is measured over, at least."""
@@ -108,13 +102,13 @@ def _amplitude(axis: AxisLaw, model: LinearModel, frequency: float) -> float:
     return min([COUNTS * max(machine.position_count, machine.motor_count, FINEST) / follows, *most])
 
 
-def sweep(axis: AxisLaw, tones: Sequence[Tone]) -> Sweep:
+def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) -> Sweep:
     """Run the axis over the tones."""
     rows: list[float] = []
     for tone in tones:
         duration = tone.end - tone.start if tone is not tones[-1] else math.inf
         rows += [tone.start, duration, 0.0, tone.amplitude, 2.0 * math.pi * tone.frequency, 0.0, SINE, 0.0]
-    motion = run_axis(axis, rows, Until(tones[-1].end), thin=True)
+    motion = run_axis(axis, rows, Until(tones[-1].end), thin=True, feed_forward=feed_forward)
     columns = {name: column[:: motion.rows_per_servo_period] for name, column in motion.columns.items()}
     time = columns["time_s"]
     found = np.full((2, len(tones)), np.nan, dtype=np.complex128)
@@ -133,22 +127,3 @@ def _fitted(time: Series, position: Series, tone: Tone) -> complex:
     base = np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)])
     found = np.linalg.lstsq(base, position, rcond=None)[0]
     return complex(found[0], found[1]) / tone.amplitude
-
-
-def sample_of_law(p: Vector, s: Vector, io: Vector) -> None:
-    """Stand for the position sample of the law."""
-
-
-def _without_feed_forward(p: Vector, s: Vector, io: Vector) -> None:
-    """Take the derivatives of the command from a law."""
-    io[COMMAND_VELOCITY] = 0.0
-    io[COMMAND_ACCELERATION] = 0.0
-    sample_of_law(p, s, io)
-
-
-@lru_cache(maxsize=16)
-def without_feed_forward(sample: Sample) -> Sample:
-    """Return a law's position sample without its feed-forward, as a function that can be compiled."""
-    template = cast(FunctionType, _without_feed_forward)
-    own = {**template.__globals__, "sample_of_law": sample}
-    return FunctionType(template.__code__, own, template.__name__)
