@@ -26,10 +26,14 @@ class AxisParameters:
         axis: str,
         overrides: Mapping[str, ParameterValue],
         tables: Mapping[str, Table] | None = None,
+        machine: str = "",
+        application: str = "",
     ) -> None:
         self._value, self.axis, self._overrides = value, axis, dict(overrides)
         self.tables = tables or {}
         """The printed tables of the family by name."""
+        self.machine, self.application = machine, application
+        """What the file is for, as its head says."""
         self._used: set[str] = set()
 
     def given(self, parameter: str) -> bool:

@@ -41,6 +41,7 @@ from .signals import (
     MOTOR,
     OUTPUT,
     POSITION,
+    REFERENCE_LAG,
     STOP,
     TIME,
     TORQUE,
@@ -179,7 +180,7 @@ def run(
                     rows[row, 2] = io[COMMAND_VELOCITY]
                     rows[row, 3] = x[LOAD_POSITION]
                     rows[row, 4] = counted(sensed, m[POSITION_COUNT])
-                    rows[row, 5] = io[COMMAND] - rows[row, 4]
+                    rows[row, 5] = io[COMMAND] - io[REFERENCE_LAG] - rows[row, 4]
                     rows[row, 6] = x[LOAD_SPEED]
                     rows[row, 7] = io[OUTPUT]
                     rows[row, 8] = x[MOTOR_TORQUE]

@@ -160,6 +160,7 @@ class Law:
 
     ``bind``       one axis from a file; raises SimulationError naming the parameter
     ``axes``       the axes of a file that can be simulated
+    ``without_axes``  what to do about a file that has none, in a sentence
     ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what they are
     ``scenarios``  those that the manual of the family carries
     ``advise``     the family's own advice after a scenario
@@ -167,6 +168,7 @@ class Law:
 
     bind: Callable[[AxisParameters], AxisLaw]
     axes: Callable[[ParameterFile], Sequence[str]] = fitted_axes
+    without_axes: str = "No axis is fitted. Set the type of an axis first"
     settings: Mapping[str, str] = field(default_factory=dict)
     scenarios: Sequence[str] = ("step", "velocity", "frequency", "circle")
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice

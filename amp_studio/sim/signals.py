@@ -28,6 +28,8 @@ MODE = 9
 """in: what is commanded: POSITION_LOOP, VELOCITY_LOOP or OUTPUT_TEST."""
 TORQUE = 10
 """in: torque of the motor now, in the output unit (a velocity drive: in % of rated torque)."""
+REFERENCE_LAG = 11
+"""out: u by which the position that the control takes as its reference is behind COMMAND (a filter, an interpolation time)."""
 MONITOR = 16
 """out: the first of the columns that the law names in ``AxisLaw.monitors``."""
 

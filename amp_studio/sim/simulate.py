@@ -66,11 +66,13 @@ def bind_axis(
     """
     fitted = tuple(law.axes(file))
     if not fitted:
-        raise SimulationError("No axis is fitted. Set the type of an axis first")
+        raise SimulationError(law.without_axes)
     chosen = axis or fitted[0]
     if chosen not in fitted:
         raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
-    read = AxisParameters(_values(file), chosen, overrides or {}, file.schema.tables)
+    read = AxisParameters(
+        _values(file), chosen, overrides or {}, file.schema.tables, file.machine, file.header.application
+    )
     bound = with_model(law.bind(read), read)
     read.refuse_unused()
     return bound

@@ -8,4 +8,5 @@ REGISTRATION = Registration(
     family="num",
     formulas="amp_studio.families.num.formulas:FORMULAS",
     formats=("amp_studio.families.num.formats.table:FORMAT",),
+    law="amp_studio.families.num.law:LAW",
 )

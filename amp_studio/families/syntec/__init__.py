@@ -7,4 +7,5 @@ from amp_studio.schema.registration import Registration
 REGISTRATION = Registration(
     family="syntec",
     formulas="amp_studio.families.syntec.formulas:FORMULAS",
+    law="amp_studio.families.syntec.law:LAW",
 )

@@ -196,8 +196,8 @@ def test_a_value_given_by_hand_goes_before_the_file_and_a_slip_is_refused(ninepc
 
 
 def test_a_family_without_a_servo_model_is_refused(ninepc: File) -> None:
-    with pytest.raises(SimulationError, match="family 'num' cannot be simulated yet"):
-        axis_servo(ninepc(), "1", family="num")
+    with pytest.raises(SimulationError, match="family 'facts-alone' cannot be simulated yet"):
+        axis_servo(ninepc(), "1", family="facts-alone")
 
 
 def test_every_assumption_names_its_page_or_is_marked(ninepc: File) -> None:

@@ -1,0 +1,165 @@
+"""The servo axes of a NUM 1020, 1040 or 1060: from the words of a parameter file to the law of one axis.
+
+An axis is an address that P2 and P3 both declare (4-14) and that neither a spindle (P6) nor a handwheel (P14) takes. Lengths
+of the file are internal units of P4 (4-18); here they are mm or deg. The drive is not in the file: it is a velocity drive
+with its top speed (P30) at 9 V (6-14), and all else of it is assumed and can be set.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from amp_studio.files import ParameterFile
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw, Law, Prediction, Ramp, Source
+from amp_studio.sim.machine import Machine
+
+from . import law_sample as sample
+from .formulas import increments_per_sample, measured_step
+from .law_loop import loop
+from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
+from .law_words import FILTER, VOLTAGE, Words, above, read_words
+
+SCALE = "model.scale"
+SETTINGS = {
+    VOLTAGE: "reference at which the drive has the speed of P30 (V); 9 unless set",
+    SCALE: "1 where the position is measured on the load, 0 where on the motor",
+    FILTER: "1 where E11012 has the filter of P55 work, 0 where not; 1 unless set",
+}
+
+BANDWIDTH, TORQUE_LIMIT = 50.0, 200.0
+
+
+def axes(file: ParameterFile) -> tuple[str, ...]:
+    """Return the addresses of the servo-controlled axes."""
+
+    def word(parameter: str) -> int:
+        value = file.evaluation.canonical((parameter, ""))
+        return int(value) if isinstance(value, float) else 0
+
+    taken = (word("spindle.measured") & 15) << 24 | (word("axes.handwheels") & 15) << 28
+    declared = word("axes.measured") & word("axes.servoed") & ~taken
+    return tuple(str(address) for address in range(32) if declared >> address & 1)
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return the law of one axis; raises SimulationError naming the words that are missing or impossible."""
+    notes: list[str] = []
+    try:
+        words = read_words(read, notes)
+        parameters, alarms, limits = loop(read, words, notes)
+        machine, assumed = _machine(read, words)
+    except SimulationError:
+        raise
+    except ValueError as error:  # of a formula
+        raise SimulationError(f"Axis {read.axis}: {error}") from None
+    ramps = _ramps(read, notes)
+    linear = list(parameters)
+    linear[sample.WHOLE], linear[sample.FRICTION], linear[sample.TOLERANCE] = 0.0, 0.0, -1.0
+    linear[sample.EMAX] = linear[sample.SYNC_LIMIT] = math.inf
+    return AxisLaw(
+        axis=read.axis,
+        unit=words.unit,
+        title="NUM 1020/1040/1060: position loop with KVAR and speed anticipation, reference of 15 bits, velocity drive",
+        position_sample=sample.position_sample,
+        velocity_sample=None,
+        parameters=parameters,
+        state_size=sample.STATES,
+        servo_period=words.period,
+        velocity_period=words.period,
+        machine=machine,
+        output_unit="V",
+        position_rate=words.rate,
+        feedrate=words.top,
+        inposition_band=read.number("servo.in_position_window") * words.length,
+        ramps=ramps,
+        monitors=(
+            ("reference_points", "points"),
+            ("theoretical_speed", f"{words.unit}/s"),
+            ("measured_speed", f"{words.unit}/s"),
+            ("synchronisation_error", words.unit),
+        ),
+        alarms=alarms,
+        predict=lambda feedrate: predicted(words, feedrate),
+        limits=limits,
+        sources=SOURCES,
+        assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
+        assumed=assumed,
+        linear_parameters=linear,
+    )
+
+
+def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
+    """Return what the equations of chapter 6 give for a steady speed in u/s."""
+    behind = abs(feedrate) * (1.0 / words.rate - words.anticipated)
+    volts = words.voltage * abs(feedrate) / words.top
+    increments = increments_per_sample(abs(feedrate) * 60.0, words.period * 1000.0, words.length)
+    return {
+        "steady_following_error": Prediction(behind if volts <= 10.0 else None, words.unit, "6-14"),
+        "time_constant_following_error": Prediction(
+            abs(feedrate) * words.constant * (1.0 - words.share), words.unit, "6-18"
+        ),
+        "reference": Prediction(volts if volts <= 10.0 else None, "V", "6-14"),
+        "increments_per_sample": Prediction(increments, "increments", "6-6"),
+    }
+
+
+def _ramps(read: AxisParameters, notes: list[str]) -> dict[str, Ramp]:
+    """Return the ramps: in S (sin²) where bit 5 of P7N1 says so (9-6), else straight, with the fast acceleration of P32."""
+    acceleration = read.number("servo.acceleration_fast")
+    above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
+    functions = read.optional("misc.functions_more", everywhere=True)
+    least = read.optional("servo.acceleration_least_time", everywhere=True)
+    if functions is None:
+        notes.append("P7N1 is not set: the ramps are straight, as with bit 5 at 0 (9-6).")
+    if least is None:
+        notes.append("P53N0 is not set: 0 is taken, the sin² ramps of older software (6-38).")
+    sine = Ramp("sine-squared", acceleration=acceleration, time=(least or 0.0) / 1000.0)
+    straight = Ramp("linear", acceleration=acceleration)
+    notes.append(
+        "Bit 5 of P7N1 (speed variation in S, 9-6) chooses the sin² ramps of 6-38: acceleration sin², on average half of the"
+        " greatest one. ASSUMED: without it the ramp is straight with the whole of it; the figure of 6-10 is lost."
+    )
+    own = [sine, straight] if functions is not None and int(functions) >> 5 & 1 else [straight, sine]
+    return {ramp.kind: ramp for ramp in (*own, Ramp("none"))}
+
+
+def _machine(read: AxisParameters, words: Words) -> tuple[Machine, dict[str, str]]:
+    sensor = read.optional("measure.sensor") or 0.0
+    scale = read.optional(SCALE)
+    if scale is not None and scale not in (0.0, 1.0):
+        raise SimulationError(f"{SCALE} is {scale:g}; it is 0 or 1", SCALE)
+    step = measured_step(read.number("measure.multi"), read.number("measure.divi"), sensor)
+    above(step, "measure.multi", f"MULTI / DIVI (P11) of axis {read.axis}")
+    ruled = int(sensor) >> 25 & 3 == 3
+    machine = Machine(
+        acceleration_per_output=read.number("servo.acceleration_fast") / 100.0,
+        velocity_per_output=words.top / words.voltage,
+        velocity_bandwidth=BANDWIDTH,
+        output_limit=10.0,
+        torque_limit_positive=TORQUE_LIMIT,
+        torque_limit_negative=TORQUE_LIMIT,
+        position_count=step * words.length,
+        load_sensor=ruled if scale is None else scale == 1.0,
+    )
+    return machine, DRIVE
+
+
+SOURCES = {
+    "position_gain": Source("servo.loop_gain", page="6-14", whole=True),
+    "servo_period": Source("misc.sampling_period", 1e6, "us", True, page="9-10"),
+    "excess_error": Source("servo.max_following_error", unit="iu", whole=True, page="6-22"),
+    "inposition_band": Source("servo.in_position_window", unit="iu", whole=True, page="6-20"),
+    "feedrate": Source("servo.max_speed", 60.0, whole=True, page="6-6"),
+    "acceleration": Source("servo.acceleration_fast", whole=True, page="6-10"),
+    "feed_forward": Source("servo.speed_anticipation", 100.0, "%", True, page="6-26"),
+}
+
+LAW = Law(
+    bind,
+    axes,
+    "No axis is servo-controlled. Declare one in P2N0 and P3N0, with its name and group in P9",
+    SETTINGS,
+)

@@ -1,0 +1,116 @@
+"""The position loop of a NUM axis from sample to sample: what the CNC does in every sampling period of P50.
+
+Lengths are in the axis' unit u (mm or deg), times in s, the output in V. Printed, and taken as printed: the reference
+in points of a 15-bit converter, KVAR x following error, 10 V for 32768 points (6-14); the filter that averages 2j+1
+references (6-26); the share of the speed reference that is added (6-26); the recursion of the dry friction correction
+(6-34); the limit of the following error (6-22) and the two speeds between which the axis must move (6-24); the share of
+the synchronisation error that is given back to the driven axis (6-30). Where a figure is lost, ``law.py`` names what
+is assumed in its place. The function is plain Python over arrays, so that it also runs compiled.
+"""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.sim.arrays import Vector
+from amp_studio.sim.signals import (
+    COMMAND,
+    COMMAND_VELOCITY,
+    MODE,
+    MONITOR,
+    OUTPUT,
+    OUTPUT_TEST,
+    POSITION,
+    REFERENCE_LAG,
+    STOP,
+    VELOCITY_LOOP,
+)
+
+FULL_POINTS = 32768.0
+"""Points of the converter at its full 10 V (6-14)."""
+MOST_TERMS = 13
+"""Most references that the filter averages: E32005 takes less than 14 (6-26)."""
+
+# Parameters
+GAIN, CONSTANT, PERIOD, SHARE, TERMS, FRICTION, FRICTION_LEFT, EMAX, TOLERANCE, VOLTS = range(10)
+LEADER_GAIN, CORRECTION, SYNC_LIMIT, WHOLE = 10, 11, 12, 13
+PARAMETERS = 14
+
+# State
+REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, LEADER, THEORETICAL = range(6)
+RING = 6
+STATES = RING + MOST_TERMS
+
+# Monitors
+POINTS, THEORETICAL_SPEED, REAL_SPEED, SYNC_ERROR = range(4)
+
+# Alarms
+EXCESS_ERROR, DYNAMIC_CHECK, SYNCHRONISATION = 1.0, 2.0, 3.0
+
+_SLOWEST, _FASTEST = 0.875, 1.125
+
+
+def position_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """Set the speed reference of one sample in V.
+
+    p: GAIN in points per u, CONSTANT of the loop and PERIOD in s, SHARE of the speed reference 0 to 1, TERMS of the
+    filter, FRICTION amplitude in u and what a sample leaves of it, EMAX in u, TOLERANCE in u per sample (negative: no
+    check), VOLTS for 1 u/s; LEADER_GAIN in 1/s (0: not synchronised), CORRECTION 0 to 1, SYNC_LIMIT in u;
+    WHOLE: 0 for a converter without steps (the linear model).
+    """
+    if io[MODE] == VELOCITY_LOOP or io[MODE] == OUTPUT_TEST:
+        volts = io[COMMAND] if io[MODE] == OUTPUT_TEST else p[VOLTS] * io[COMMAND_VELOCITY]
+        points = volts * FULL_POINTS / 10.0
+        if p[WHOLE] != 0.0:
+            points = 1.0 * math.floor(points + 0.5)
+        io[OUTPUT] = 10.0 * min(max(points, -FULL_POINTS), FULL_POINTS) / FULL_POINTS
+        return
+    terms = int(p[TERMS])
+    total = io[COMMAND]
+    for place in range(terms - 1, 0, -1):
+        s[RING + place] = s[RING + place - 1]
+        total += s[RING + place]
+    s[RING] = io[COMMAND]
+    reference = total / terms
+    step = reference - s[REFERENCE]
+    moved = io[POSITION] - s[MEASURED]
+
+    apart = 0.0
+    if p[LEADER_GAIN] > 0.0:
+        apart = s[LEADER] - io[POSITION]
+        s[LEADER] += p[LEADER_GAIN] * p[PERIOD] * (reference - s[LEADER]) + p[SHARE] * step
+
+    amplitude = s[AMPLITUDE]
+    if step > 0.0:
+        amplitude = p[FRICTION]
+    elif step < 0.0:
+        amplitude = -p[FRICTION]
+    s[FRICTION_NOW] = amplitude - s[AMPLITUDE] + s[FRICTION_NOW] * p[FRICTION_LEFT]
+
+    error = reference - io[POSITION]
+    wanted = error + p[SHARE] * p[CONSTANT] / p[PERIOD] * step
+    points = p[GAIN] * (wanted + p[CORRECTION] * apart + s[FRICTION_NOW])
+    if p[WHOLE] != 0.0:
+        points = 1.0 * math.floor(points + 0.5)
+    points = min(max(points, -FULL_POINTS), FULL_POINTS)
+
+    theoretical = s[THEORETICAL]
+    slowest, fastest = _SLOWEST * theoretical, _FASTEST * theoretical
+    if theoretical < 0.0:
+        slowest, fastest = fastest, slowest
+    io[OUTPUT] = 10.0 * points / FULL_POINTS
+    io[REFERENCE_LAG] = io[COMMAND] - reference
+    if abs(error) > p[EMAX]:
+        io[STOP] = EXCESS_ERROR
+    elif p[TOLERANCE] >= 0.0 and not (slowest - p[TOLERANCE] <= moved <= fastest + p[TOLERANCE]):
+        io[STOP] = DYNAMIC_CHECK
+    elif abs(apart) > p[SYNC_LIMIT]:
+        io[STOP] = SYNCHRONISATION
+    io[MONITOR + POINTS] = points
+    io[MONITOR + THEORETICAL_SPEED] = theoretical / p[PERIOD]
+    io[MONITOR + REAL_SPEED] = moved / p[PERIOD]
+    io[MONITOR + SYNC_ERROR] = apart
+    s[REFERENCE] = reference
+    s[MEASURED] = io[POSITION]
+    s[AMPLITUDE] = amplitude
+    s[THEORETICAL] = wanted * p[PERIOD] / p[CONSTANT]

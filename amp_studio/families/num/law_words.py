@@ -1,0 +1,178 @@
+"""The words of one NUM axis that its position loop needs, in mm or deg and s.
+
+Values that are not set are asked for in one sentence; what the control takes in their place, where it is printed, is noted.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+
+from . import law_sample as sample
+from .formulas import (
+    axis_time_constant,
+    axis_turns,
+    axis_unit,
+    effective_anticipation,
+    sampling_period_in_force,
+)
+
+VOLTAGE, FILTER = "model.drive_voltage", "model.filter"
+UC_SII = "1060 UCSII"
+"""The application with that processor."""
+
+_OF_CONTROL = ("axes.measured", "axes.servoed", "misc.sampling_period")
+_OF_AXIS = (
+    "axes.assignment",
+    "measure.multi",
+    "measure.divi",
+    "servo.max_speed",
+    "servo.acceleration_fast",
+    "servo.loop_gain",
+    "servo.in_position_window",
+    "servo.max_following_error",
+)
+
+
+@dataclass(frozen=True)
+class Words:
+    """What the words of one axis say, in u and s."""
+
+    unit: str
+    length: float
+    """u: the internal unit."""
+    turns: bool
+    group: str | None
+    period: float
+    gain: float
+    """Points for 1 u."""
+    constant: float
+    top: float
+    """u/s"""
+    share: float
+    terms: int
+    voltage: float
+
+    @property
+    def rate(self) -> float:
+        """Return u/s for 1 u of following error: the gain of the loop in 1/s."""
+        return self.gain * 10.0 / sample.FULL_POINTS * self.top / self.voltage
+
+    @property
+    def anticipated(self) -> float:
+        """Return the following error that the speed reference takes away, in s of its speed."""
+        return self.share * self.constant
+
+
+def read_words(read: AxisParameters, notes: list[str]) -> Words:
+    """Return the words of an axis; what is taken for a word that is not set goes to ``notes``."""
+    _demand(read, _OF_CONTROL, _OF_AXIS)
+    address, assignment = float(read.axis), read.number("axes.assignment")
+    bits = [read.optional(name, everywhere=True) for name in ("axes.modulo", "axes.limited_excursion")]
+    if None in bits:
+        notes.append("P1 is not set: only an axis with the name A, B or C is taken to turn (4-12).")
+    modulo, limited = (each or 0.0 for each in bits)
+    turns = axis_turns(address, modulo, limited, assignment)
+    length = axis_unit(address, modulo, limited, assignment, *_dividers(read, turns, notes))
+    group = int(assignment) >> 4
+    named = str(group + 1) if group < 8 else None
+    own = read.optional("servo.axis_time_constant")
+    of_group = None if named is None else read.optional("servo.group_time_constant", at=named)
+    constant = axis_time_constant(own or 0.0, of_group or 0.0) / 1000.0
+    above(constant, "servo.group_time_constant", "The time constant of P56 (or P66)")
+    top, gain = read.number("servo.max_speed") / 60.0, read.number("servo.loop_gain")
+    above(top, "servo.max_speed", f"Maximum Axis Traverse Rate (P30N{read.axis})")
+    above(gain, "servo.loop_gain", f"KVAR (P21N{read.axis}), which a DISC NT drive holds itself,")
+    voltage = read.optional(VOLTAGE)
+    voltage = 9.0 if voltage is None else voltage
+    if not 0.0 < voltage <= 10.0:
+        raise SimulationError(f"{VOLTAGE} is {voltage:g} V; it must be above 0 and at most 10", VOLTAGE)
+    terms, share = _anticipation(read, named, notes)
+    return Words(
+        unit="deg" if turns else "mm",
+        length=length,
+        turns=turns,
+        group=named,
+        period=_period(read, notes),
+        gain=gain / 1000.0 / length,
+        constant=constant,
+        top=top,
+        share=share,
+        terms=terms,
+        voltage=voltage,
+    )
+
+
+def _demand(read: AxisParameters, of_control: Sequence[str], of_axis: Sequence[str]) -> None:
+    """Raise one SimulationError with all words that are not set."""
+    missing = [name for name in of_control if read.value(name, everywhere=True) is None]
+    missing += [f"{name}@{read.axis}" for name in of_axis if read.value(name) is None]
+    if missing:
+        raise SimulationError(
+            f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
+            missing[0].partition("@")[0],
+        )
+
+
+def _dividers(read: AxisParameters, turns: bool, notes: list[str]) -> tuple[float, float]:
+    digits = read.optional("axes.internal_unit", everywhere=True)
+    divider = read.optional("axes.rotary_unit", everywhere=True)
+    if not turns and digits is None:
+        _demand(read, ("axes.internal_unit",), ())
+    if turns and divider is None:
+        notes.append(
+            "P4N4 is not set: the internal unit is deg/10000, as in software before index LA (4-18)."
+        )
+    return digits or 0.0, divider or 0.0
+
+
+def above(figure: float, parameter: str, what: str) -> None:
+    """Raise SimulationError for a figure that is not above 0."""
+    if not (math.isfinite(figure) and figure > 0.0):
+        raise SimulationError(f"{what} is {figure:g}; a simulated axis needs one above 0", parameter)
+
+
+def _period(read: AxisParameters, notes: list[str]) -> float:
+    """Return the sampling period in force in s (9-10)."""
+    given = round(read.number("misc.sampling_period", everywhere=True) * 1000.0, 6)
+    taken = sampling_period_in_force(given, read.application == UC_SII)
+    if taken != given:
+        notes.append(f"P50N0 is {given:g} us: the control takes {taken:g} us (9-10).")
+    elif not read.application and taken % 2000.0:
+        notes.append("A UC SII would round the sampling period down to a multiple of 2 ms (9-10).")
+    return taken * 1e-6
+
+
+def _anticipation(read: AxisParameters, group: str | None, notes: list[str]) -> tuple[int, float]:
+    """Return (references averaged, share of the speed reference 0 to 1) of the axis' group (6-26)."""
+    percent = None if group is None else read.optional("servo.speed_anticipation", at=group)
+    terms = None if group is None else read.optional("servo.filter_terms", at=group)
+    for value, word in ((percent, "Speed Anticipation Coefficient"), (terms, "Number of Filtered Terms")):
+        if value is None:
+            notes.append(
+                f"{word} (P55) of the axis' group is not set: 0 is taken, which does nothing (6-26)."
+            )
+    works = read.optional(FILTER)
+    if works is not None and works not in (0.0, 1.0):
+        raise SimulationError(f"{FILTER} is {works:g}; it is 0 or 1", FILTER)
+    if not terms or works == 0.0:
+        return 1, effective_anticipation(percent or 0.0) / 100.0
+    if terms % 2.0 != 1.0 or terms > sample.MOST_TERMS:
+        raise SimulationError(
+            f"The filter (P55) averages {terms:g} references; it takes an odd number, 2j+1 (6-26), below 14 (6-26)",
+            "servo.filter_terms",
+        )
+    notes.append(
+        f"ASSUMED: E11012 has the filter of {terms:g} references work (6-26), of which the file knows nothing; set {FILTER}"
+        " to 0 where it does not. With it the speed anticipation is 100 % (6-34)."
+    )
+    notes.append(
+        "ASSUMED: the filtered reference stands for the reference in the position loop as well. Page 6-26 speaks of the speed"
+        " reference; but the usual acceleration anticipation of 400 us (6-34) leaves no room for a delay of the one against"
+        " the other."
+    )
+    return int(terms), 1.0

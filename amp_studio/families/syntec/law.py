@@ -1,0 +1,313 @@
+"""The servo axes of a Syntec control: from the parameters of a file to the law of one axis.
+
+The control sends whole pulses, the drive closes the loop (1.2.4, 1.4). Lengths of the file are counts of the BLU (1.2.6);
+here they are mm or deg. Drive and mechanics are not in the file: what is assumed about them is named in the result.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source
+from amp_studio.sim.machine import Machine
+from amp_studio.sim.rounding import shown
+
+from . import law_sample as sample
+from .formulas import (
+    DDA_LIMIT,
+    alarm_speed,
+    fatal_alarm_speed,
+    hardware_basic_time_us,
+    interpolation_time_us,
+    is_basic_time_printed,
+    pulse_length,
+    pulses_per_turn,
+)
+
+STANDARD_BLU = 0.001
+"""mm or deg (1.2.6)."""
+DRIVE_SAMPLES = 8
+"""Samples of the drive in one interpolation time; an assumption."""
+BANDWIDTH, TORQUE_LIMIT = 50.0, 200.0
+"""Hz and % of rated torque; assumptions."""
+
+_NEEDED = (
+    "axis.type",
+    "resolution.encoder",
+    "resolution.multiplication",
+    "resolution.encoder_type",
+    "resolution.screw_teeth",
+    "resolution.motor_teeth",
+    "resolution.pitch",
+    "feed.rapid",
+    "servo.loop_gain",
+)
+_NEEDED_ONCE = ("control.blu", "control.series", "dda.interpolation_time")
+
+
+@dataclass(frozen=True)
+class _Axis:
+    """What the parameters of one axis say, in u and s."""
+
+    unit: str
+    pulse: float
+    gain: float
+    rapid: float
+    """u/s"""
+    home: float
+    """u/s: first homing speed, 0 where it is not set."""
+    period: float
+    most_pulses: float
+    encoder: str
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Return the following errors in u beyond which MOT-019 and MOT-023 come (1.5.3, 1.5.4)."""
+        if self.encoder == "none":
+            return math.inf, math.inf
+        speeds = alarm_speed(self.home, self.rapid), fatal_alarm_speed(self.home, self.rapid)
+        return speeds[0] / self.gain, speeds[1] / self.gain
+
+
+def axes(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes that have a port, or are set to a type while the port is not set."""
+    return tuple(a for a in fitted_axes(file) if file.get(("axis.port", a)) or file.get(("axis.type", a)))
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return the law of one axis; raises SimulationError naming the parameters that are missing or impossible."""
+    notes: list[str] = []
+    _demand(read)
+    try:
+        axis = _axis(read, notes)
+    except SimulationError:
+        raise
+    except ValueError as error:  # of a formula
+        raise SimulationError(f"Axis {read.axis}: {error}") from None
+    acceleration = _acceleration(read, axis, notes)
+    parameters = _parameters(read, axis)
+    linear = list(parameters)
+    linear[sample.WHOLE] = 0.0
+    linear[sample.MOST_PULSES] = linear[sample.LIMIT] = linear[sample.FATAL_LIMIT] = math.inf
+    limits = {"MOT-019": axis.limits[0], "MOT-023": axis.limits[1]}
+    return AxisLaw(
+        axis=read.axis,
+        unit=axis.unit,
+        title="Syntec: whole pulses in every interpolation time, position loop with loop gain, velocity drive",
+        position_sample=sample.position_sample,
+        velocity_sample=sample.velocity_sample,
+        parameters=parameters,
+        state_size=sample.STATES,
+        servo_period=axis.period,
+        velocity_period=axis.period / DRIVE_SAMPLES,
+        machine=_machine(axis, acceleration),
+        output_unit=f"{axis.unit}/min",
+        position_rate=axis.gain,
+        feedrate=axis.rapid,
+        inposition_band=axis.pulse,
+        ramps={"linear": Ramp("linear", acceleration=acceleration), "none": Ramp("none")},
+        monitors=(("pulses", "pulses"),),
+        alarms=_alarms(axis),
+        predict=lambda feedrate: predicted(axis, feedrate),
+        limits=limits,
+        sources=SOURCES,
+        assumptions=(*notes, *ALWAYS),
+        assumed=ASSUMED,
+        linear_parameters=linear,
+    )
+
+
+def predicted(axis: _Axis, feedrate: float) -> Mapping[str, Prediction]:
+    """Return what the printed equations give for a steady speed in u/s."""
+    pulses = abs(feedrate) * axis.period / axis.pulse
+    behind = abs(feedrate) / axis.gain if pulses <= axis.most_pulses else None
+    most = axis.most_pulses * axis.pulse / axis.period * 60.0
+    found = {
+        "steady_following_error": Prediction(behind, axis.unit, "1.5.3"),
+        "pulses_per_interpolation_time": Prediction(pulses, "pulses", "1.4.1"),
+    }
+    if math.isfinite(most):
+        found["dda_feedrate"] = Prediction(most, f"{axis.unit}/min", "1.4.2")
+    return found
+
+
+def _demand(read: AxisParameters) -> None:
+    """Raise one SimulationError with all parameters that are not set."""
+    missing = [f"{name}@{read.axis}" for name in _NEEDED if read.value(name) is None]
+    missing += [name for name in _NEEDED_ONCE if read.value(name, everywhere=True) is None]
+    times = read.value("motion.axis_acceleration"), read.value("motion.acceleration_time", everywhere=True)
+    if times == (None, None):
+        missing.append(f"motion.axis_acceleration@{read.axis}")
+    if missing:
+        raise SimulationError(
+            f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
+            missing[0].partition("@")[0],
+        )
+
+
+def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
+    unit = "mm" if read.choice("axis.type") == "linear" else "deg"
+    if read.choice("control.blu", everywhere=True) != "standard":
+        raise SimulationError(
+            "The length of the BLU is printed for its default alone (1.2.6); this file has another one",
+            "control.blu",
+        )
+    series = read.choice("control.series", everywhere=True)
+    basic = hardware_basic_time_us(series)
+    if not is_basic_time_printed(series):
+        notes.append(f"ASSUMED: hardware basic time {basic:g} us; for this series none is printed (1.4.1).")
+    setting = read.number("dda.interpolation_time", everywhere=True)
+    gain, rapid = read.number("servo.loop_gain"), read.number("feed.rapid") / 60.0
+    for figure, parameter in ((gain, "servo.loop_gain"), (rapid, "feed.rapid")):
+        if not (math.isfinite(figure) and figure > 0.0):
+            raise SimulationError(
+                f"{parameter} of axis {read.axis} is {figure:g}; it must be above 0", parameter
+            )
+    home = read.optional("home.first_speed")
+    if home is None:
+        notes.append(
+            "The first homing speed is not set: the alarm limits go by the rapid feedrate alone (1.5.3)."
+        )
+    return _Axis(
+        unit=unit,
+        pulse=_pulse(read, unit, notes),
+        gain=gain,
+        rapid=rapid,
+        home=(home or 0.0) / 60.0,
+        period=interpolation_time_us(setting, basic) * 1e-6,
+        most_pulses=_most_pulses(read, notes),
+        encoder=read.choice("resolution.encoder_type"),
+    )
+
+
+def _pulse(read: AxisParameters, unit: str, notes: list[str]) -> float:
+    """Return the length of one pulse in u (1.2.5, 1.2.6)."""
+    pulses = pulses_per_turn(
+        read.number("resolution.encoder"), float(read.choice("resolution.multiplication"))
+    )
+    kind = read.choice("resolution.encoder_type")
+    if kind == "linear":
+        if unit == "deg":
+            raise SimulationError(
+                f"Axis {read.axis} turns, and a linear encoder has pulses per mm (1.2.5)",
+                "resolution.encoder_type",
+            )
+        notes.append(
+            "ASSUMED: a pulse of the command is one of the linear encoder (1.2.5); the drive is set up for it."
+        )
+        return 1.0 / pulses
+    if kind == "none":
+        notes.append(
+            "The axis has no feedback (1.2.7): the control has no following error, and no alarm of it."
+        )
+    return pulse_length(
+        read.number("resolution.pitch") * STANDARD_BLU,
+        pulses,
+        read.number("resolution.screw_teeth"),
+        read.number("resolution.motor_teeth"),
+    )
+
+
+def _most_pulses(read: AxisParameters, notes: list[str]) -> float:
+    """Return the most pulses in one interpolation time: the DDA is that of generic controllers (1.4.1)."""
+    if read.machine != "serial":
+        return DDA_LIMIT
+    notes.append("A serial controller has no DDA (1.4.1): no limit of pulses, but the same times are taken.")
+    return math.inf
+
+
+def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
+    """Return the acceleration of the ramps in u/s2; what Pr541 and Pr401 mean together is not printed."""
+    own = read.optional("motion.axis_acceleration")
+    name, word = ("motion.axis_acceleration", "Pr541 of the axis")
+    if own is None:
+        own, name, word = (
+            read.number("motion.acceleration_time", everywhere=True),
+            "motion.acceleration_time",
+            "Pr401",
+        )
+    if not (math.isfinite(own) and own > 0.0):
+        raise SimulationError(f"{name} is {own:g}; a simulated axis needs a time above 0", name)
+    notes.append(
+        f"ASSUMED: {word}, {own:g}, is the time in ms in which a straight ramp reaches the rapid feedrate; neither unit nor"
+        " ramp is printed (1.5.3)."
+    )
+    return axis.rapid / (own / 1000.0)
+
+
+def _parameters(read: AxisParameters, axis: _Axis) -> list[float]:
+    p = [0.0] * sample.PARAMETERS
+    p[sample.PULSE], p[sample.GAIN], p[sample.MOST_PULSES] = axis.pulse, axis.gain, axis.most_pulses
+    p[sample.LIMIT], p[sample.FATAL_LIMIT] = axis.limits
+    p[sample.PARTS], p[sample.WHOLE] = float(DRIVE_SAMPLES), 1.0
+    p[sample.BY_SCALE] = float(axis.encoder == "linear" and read.value("axis.servo_mode") == "voltage")
+    return p
+
+
+def _machine(axis: _Axis, acceleration: float) -> Machine:
+    counted = axis.encoder != "none"
+    return Machine(
+        acceleration_per_output=acceleration / 100.0,
+        velocity_per_output=1.0 / 60.0,
+        velocity_bandwidth=BANDWIDTH,
+        torque_limit_positive=TORQUE_LIMIT,
+        torque_limit_negative=TORQUE_LIMIT,
+        motor_count=0.0 if axis.encoder == "linear" else axis.pulse,
+        position_count=axis.pulse if counted else 0.0,
+        load_sensor=axis.encoder == "linear",
+    )
+
+
+def _alarms(axis: _Axis) -> dict[int, AlarmText]:
+    first, fatal = (shown(limit, axis.unit) for limit in axis.limits)
+    fastest = "the greater of rapid feedrate and first homing speed / loop gain"
+    return {
+        int(sample.DDA_OVERFLOW): AlarmText(
+            "MOT-005",
+            f"DDA command overflow: more than {DDA_LIMIT:g} pulses in one interpolation time (1.5.1).",
+        ),
+        int(sample.EXCESS_ERROR): AlarmText(
+            "MOT-019", f"Following error exceed: above {first}, 2 times {fastest} (1.5.3)."
+        ),
+        int(sample.FATAL_ERROR): AlarmText(
+            "MOT-023", f"Fatal following error exceed: above {fatal}, 4 times {fastest} (1.5.4)."
+        ),
+    }
+
+
+ALWAYS = (
+    (
+        "In every interpolation time the control sends the whole pulses of what was commanded up to its start, evenly spread (1.4.1);"
+        " the following error is counted from the pulses that have left the card."
+    ),
+    (
+        "Following error = speed / loop gain (1.5.3): the loop is proportional. ASSUMED: it is closed 8 times in one interpolation"
+        " time, by the drive (pulse modes) or by the card (voltage mode)."
+    ),
+    "The run ends at the first alarm, so MOT-023 follows MOT-019 only where one interpolation time passes both limits.",
+    (
+        "Not simulated, because unit or meaning is not printed: feed forward (Pr581), mechanical compensation (Pr1401), range of loss"
+        " pulse (Pr561, MOT-008); and how the axis stops after an alarm."
+    ),
+)
+
+ASSUMED: Mapping[str, str] = {
+    "acceleration_per_output": "The file says nothing of inertia and torque: 100 % of rated torque is taken to give the ramp of"
+    " the axis, and the drive to end at 200 %.",
+    "velocity_bandwidth": "The drive is not in the file: the bandwidth of its velocity loop is taken.",
+    "inertia_ratio": "Load and motor are one rigid mass unless model.resonance or model.backlash is set.",
+}
+
+SOURCES: Mapping[str, Source] = {
+    "position_gain": Source("servo.loop_gain", whole=True, page="1.5.3"),
+    "servo_period": Source("dda.interpolation_time", whole=True, page="1.4.1"),
+    "feedrate": Source("feed.rapid", 60.0, whole=True, page="1.5.1"),
+    "acceleration": Source("motion.axis_acceleration", whole=True, page="1.5.4"),
+}
+
+LAW = Law(bind, axes, "No axis has a port. Give one its port (Pr21) and its type (Pr221)")
