@@ -6,6 +6,7 @@ from amp_studio.schema.registration import Registration
 
 REGISTRATION = Registration(
     family="57c422b",
+    law="amp_studio.families.servo57c422b.law:LAW",
     formulas="amp_studio.families.servo57c422b.formulas:FORMULAS",
     formats=(
         "amp_studio.families.servo57c422b.formats.automax:TASK",

@@ -1,0 +1,266 @@
+"""Binds an axis of the 57C422B from its registers: gains, limits and the command, and an assumed motor behind them.
+
+The only module of the law with ids of the module. Pages are those of the manual J-3642-7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import load_schema
+from amp_studio.sim import (
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    Recommendation,
+    SimulationError,
+    Source,
+    Trace,
+)
+from amp_studio.sim.model import with_model
+
+from . import law_plant as plant
+from . import law_sample as loop
+
+AXES = ("X", "Y")
+PROPORTIONAL, INTEGRAL, VELOCITY = "gain.proportional", "gain.integral", "gain.velocity"
+FEED_FORWARD, DEADBAND, CLAMP = "gain.feedforward", "gain.deadband", "output.max_voltage"
+POSITION_ERROR, VELOCITY_ERROR = "setup.max_position_error", "setup.max_velocity_error"
+BAND = "setup.in_position_tolerance"
+SPEED, ACCELERATION, DECELERATION = "command.velocity", "command.acceleration", "command.deceleration"
+NEEDED = (PROPORTIONAL, INTEGRAL, VELOCITY, FEED_FORWARD, DEADBAND, CLAMP, SPEED, ACCELERATION, DECELERATION)
+
+PER_VOLT = "model.velocity_per_output"
+_SCALES = {
+    "model.proportional_scale": (65536.0, "Proportional Gain that wants 1 count a scan for 1 count of error"),
+    "model.integral_scale": (65536.0, "Integral Gain that wants 1 count a scan for 1 count of summed error"),
+    "model.feedforward_scale": (8192.0, "Feedforward Gain that wants the commanded velocity itself"),
+    "model.velocity_scale": (1.0, "Velocity Gain that puts out 1 word (10 V / 1984) for 1 count a scan"),
+}
+SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
+    PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)"
+}
+
+_LOST = (
+    "The diagram of the control loop and the scales of the gains are lost with the figures of the manual (sections 4.5"
+    " to 4.9). ASSUMED: a cascade with model.proportional_scale = {0:g}, model.integral_scale = {1:g},"
+    " model.feedforward_scale = {2:g}, model.velocity_scale = {3:g}; the two printed programs (pages 4-48, 5-5) make"
+    " well damped loops with them."
+)
+_SIGNS = (
+    "The bits of Drive Setup are lost with figure 4.2: polarity is taken to fit, and {0} because Velocity Gain is {1}"
+    " (page 5-3)."
+)
+_DEADBAND = "Deadband Compensation is added to the output in words, in the direction of the output: figure 4.8 is lost."
+_S_CURVE = (
+    "The S-curve takes twice the time of the trapezoid (page 4-25); its shape is lost. Taken: sine squared, with the"
+    " programmed acceleration as its peak."
+)
+_MATCHED = "The output for a velocity reference is taken to be the wanted velocity at the speed of the drive."
+_LINEAR = "Linearization Constants other than -1 are not simulated: their scale is not printed (page 4-18)."
+
+
+def axes(file: ParameterFile) -> Sequence[str]:
+    """Return the axes whose Proportional Gain is set, both where none is."""
+    tuned = tuple(axis for axis in AXES if file.get((PROPORTIONAL, axis)) is not None)
+    return tuned or AXES
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return one axis; raises SimulationError that names every register that has to be set."""
+    _refuse_missing(read)
+    if read.number(PROPORTIONAL) <= 0.0:
+        raise SimulationError(
+            f"{PROPORTIONAL} of axis {read.axis} is {read.number(PROPORTIONAL):g}: without it the axis does not follow."
+            " Begin with 100 (page 5-3)",
+            PROPORTIONAL,
+        )
+    current = read.number(VELOCITY) != 0.0
+    per_volt = read.optional(PER_VOLT)
+    machine = plant.machine(current_reference=current, velocity_per_volt=per_volt)
+    p, notes = _parameters(read, machine, current)
+    assumed = dict(plant.CURRENT if current else plant.VELOCITY)
+    if per_volt is not None:
+        assumed.pop("velocity_per_output", None)
+    axis = AxisLaw(
+        axis=read.axis,
+        unit="counts",
+        title=f"57C422B: scan of 1.25 ms, drive with {'current' if current else 'velocity'} reference",
+        position_sample=loop.position_sample,
+        velocity_sample=None,
+        parameters=p,
+        state_size=loop.STATE,
+        servo_period=loop.SCAN,
+        velocity_period=loop.SCAN,
+        machine=machine,
+        output_unit="V",
+        position_rate=p[loop.PROPORTIONAL] / loop.SCAN,
+        feedrate=read.number(SPEED),
+        inposition_band=read.optional(BAND) or 0.0,
+        ramps=_ramps(read),
+        monitors=loop.MONITORS,
+        alarms=_alarms(p),
+        limits={"maximum_position_error": p[loop.POSITION_ERROR]} if p[loop.POSITION_ERROR] >= 0.0 else {},
+        sources=_sources(),
+        assumptions=tuple(notes),
+        assumed=assumed,
+        linear_parameters=_linear(p),
+    )
+    whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
+    return replace(axis, predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)})
+
+
+def _refuse_missing(read: AxisParameters) -> None:
+    missing = [parameter for parameter in NEEDED if read.value(parameter) is None]
+    if missing:
+        names = ", ".join(_named(parameter, read.axis) for parameter in missing)
+        raise SimulationError(
+            f"Axis {read.axis} cannot be simulated before these registers are set: {names}. Manual tuning begins with"
+            " gains of 100, 0, 25 (0 for a velocity reference) and 0 (page 5-3)",
+            missing[0],
+        )
+
+
+def _named(parameter: str, axis: str) -> str:
+    schema = load_schema("57c422b")
+    return f"{schema.on('module').number((parameter, axis))} {schema.parameters[parameter].name}"
+
+
+def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[list[float], list[str]]:
+    scales = [_scale(read, name) for name in _SCALES]
+    p = [0.0] * loop.PARAMETERS
+    p[loop.PROPORTIONAL] = read.number(PROPORTIONAL) / scales[0]
+    p[loop.INTEGRAL] = read.number(INTEGRAL) / scales[1]
+    p[loop.FEED_FORWARD] = read.number(FEED_FORWARD) / scales[2]
+    p[loop.VELOCITY] = read.number(VELOCITY) / scales[3]
+    p[loop.CURRENT_REFERENCE], p[loop.WHOLE_WORDS] = float(current), 1.0
+    if not current:
+        p[loop.VELOCITY] = loop.WORDS_PER_VOLT / (machine.velocity_per_output * loop.SCAN)
+    p[loop.DEADBAND], p[loop.CLAMP] = read.number(DEADBAND), read.number(CLAMP) * loop.WORDS_PER_VOLT
+    notes = [_LOST.format(*scales)]
+    kind = "a current reference is simulated" if current else "a velocity reference is simulated"
+    notes.append(_SIGNS.format(kind, f"{read.number(VELOCITY):g}"))
+    notes += [_DEADBAND] * (p[loop.DEADBAND] != 0.0) + [_MATCHED] * (not current) + [_S_CURVE]
+    if any(
+        read.optional(f"output.linearization_{side}") not in (None, -1.0) for side in ("positive", "negative")
+    ):
+        notes.append(_LINEAR)
+    for place, parameter, factor in (
+        (loop.POSITION_ERROR, POSITION_ERROR, 1.0),
+        (loop.VELOCITY_ERROR, VELOCITY_ERROR, loop.SCAN),
+    ):
+        limit = read.optional(parameter)
+        p[place] = -1.0 if limit is None else limit * factor
+        if limit is None:
+            notes.append(f"{_named(parameter, read.axis)} is not set: simulated without this fault. Set it.")
+    return p, notes
+
+
+def _scale(read: AxisParameters, name: str) -> float:
+    value = read.optional(name)
+    if value is None:
+        return _SCALES[name][0]
+    if not value > 0.0:
+        raise SimulationError(f"{name} is {value:g}; it must be above 0", name)
+    return value
+
+
+def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
+    up, down = read.number(ACCELERATION), read.number(DECELERATION)
+    if up <= 0.0 or down <= 0.0:
+        raise SimulationError(
+            f"Axis {read.axis} has an acceleration of {up:g} and a deceleration of {down:g} counts/s2: the module answers"
+            " a move with an illegal command fault (page 4-38). Both must be above 0",
+            ACCELERATION if up <= 0.0 else DECELERATION,
+        )
+    return {
+        "linear": Ramp("linear", up, down),
+        "s-curve": Ramp("sine-squared", up, down),
+        "none": Ramp(),
+    }
+
+
+def _alarms(p: Sequence[float]) -> Mapping[int, AlarmText]:
+    return {
+        1: AlarmText(
+            "POSITION ERROR",
+            f"The following error exceeds Maximum Position Error, {p[loop.POSITION_ERROR]:.6g} counts: register 73, the"
+            " loop is switched off (page 4-8)",
+        ),
+        2: AlarmText(
+            "VELOCITY ERROR",
+            f"The velocity error exceeds Maximum Velocity Error, {p[loop.VELOCITY_ERROR]:.6g} counts a scan: register 73,"
+            " the loop is switched off (page 4-9)",
+        ),
+    }
+
+
+def _linear(p: Sequence[float]) -> list[float]:
+    """Return the figures of the linear model: broken words, and no deadband, which is a step."""
+    q = list(p)
+    q[loop.WHOLE_WORDS] = q[loop.DEADBAND] = 0.0
+    return q
+
+
+def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction:
+    """Return the following error at a steady speed in counts/s: none with an integral gain (page 5-4)."""
+    commanded = speed * loop.SCAN
+    volts = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    if machine.velocity_per_output > 0.0:
+        volts = speed / machine.velocity_per_output
+    words = volts * loop.WORDS_PER_VOLT
+    if words > p[loop.CLAMP]:
+        return Prediction(None, "counts", "4-17")
+    if p[loop.INTEGRAL] > 0.0:
+        return Prediction(0.0, "counts", "5-4")
+    left = (words - p[loop.DEADBAND]) / p[loop.VELOCITY] + commanded * (
+        p[loop.CURRENT_REFERENCE] - p[loop.FEED_FORWARD]
+    )
+    return Prediction(abs(left) / p[loop.PROPORTIONAL], "counts", "5-4")
+
+
+def _sources() -> Mapping[str, Source]:
+    return {
+        "position_gain": Source(PROPORTIONAL, whole=True, page="4-7"),
+        "feed_forward": Source(FEED_FORWARD, whole=True, page="4-8"),
+        "excess_error": Source(POSITION_ERROR, whole=True, page="4-8"),
+        "inposition_band": Source(BAND, whole=True, page="4-10"),
+        "feedrate": Source(SPEED, page="4-13"),
+        "linear_acceleration": Source(ACCELERATION, page="4-13"),
+        "linear_deceleration": Source(DECELERATION, page="4-14"),
+    }
+
+
+def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
+    """Return the Feedforward Gain that makes the following error of this speed as small as possible (page 5-4)."""
+    error, speed = (
+        trace.result.get("steady_following_error", (None, ""))[0],
+        trace.result.get("feedrate", (None, ""))[0],
+    )
+    p = axis.parameters
+    if trace.alarms or not error or not speed or error < 2.0 or p[loop.INTEGRAL] > 0.0:
+        return ()
+    own = p[loop.FEED_FORWARD]
+    if float(trace.columns["following_error"].mean()) * speed < 0.0:
+        error = -error
+    wanted = own + p[loop.PROPORTIONAL] * error / (abs(speed) / 60.0 * loop.SCAN)
+    scale = _SCALES["model.feedforward_scale"][0]
+    return (
+        Recommendation(
+            FEED_FORWARD,
+            float(int(wanted * scale)),
+            "",
+            f"the axis is {abs(error):.3g} counts {'behind' if error > 0.0 else 'ahead'} at this speed; as small as possible"
+            " without going negative (page 5-4). Its price: overshoot in moves (page 4-30); 0 for a drive whose own"
+            " velocity loop has an integral (page 5-4)",
+        ),
+    )
+
+
+LAW = Law(bind=bind, axes=axes, settings=SETTINGS, advise=advise)
