@@ -26,6 +26,9 @@ Run = Callable[..., int]
 PLAIN_STEPS = 30_000
 """Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation.md)."""
 
+OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy"}
+"""Sums are computed in the written order; a division does not look whether it is by 0."""
+
 
 @lru_cache(maxsize=64)
 def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
@@ -37,27 +40,27 @@ def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
 def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     """Return the kernel of a law as machine code; its vectors are contiguous numpy arrays.
 
-    The first call on a machine compiles it and stores the result. ``fastmath`` is off, so that sums are computed in the
-    written order. Raises ImportError where numba is not installed.
+    The first call on a machine compiles it and stores the result. Raises ImportError where numba is not installed.
     """
     import numba
 
     own = _own(position_sample, velocity_sample)
-    digest = hashlib.sha256("\n".join(_described(kernel.run, own, {})).encode()).hexdigest()[:16]
+    described = [repr(OPTIONS), *_described(kernel.run, own, {})]
+    digest = hashlib.sha256("\n".join(described).encode()).hexdigest()[:16]
     jitted: dict[FunctionType, Any] = {}
 
     def machine_code(function: FunctionType) -> Any:
         if function not in jitted:
             names = {name: machine_code(called) for name, called in _called(function, own).items()}
-            jitted[function] = numba.njit(_copy(function, names), fastmath=False)
+            jitted[function] = numba.njit(_copy(function, names), forceinline=True, **OPTIONS)
         return jitted[function]
 
     called = {name: machine_code(each) for name, each in _called(kernel.run, own).items()}
     run = _copy(kernel.run, called)
     run.__qualname__ = run.__name__ = f"run_{digest}"
     vector = numba.float64[::1]
-    signature = numba.int64(*[vector] * 7, numba.float64[:, ::1])
-    return cast(Run, numba.njit(signature, cache=True, fastmath=False)(run))
+    signature = numba.int64(*[vector] * 8, numba.float64[:, ::1])
+    return cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
 
 
 def jit_is_off() -> bool:

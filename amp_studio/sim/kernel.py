@@ -16,21 +16,17 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Vector
-from .machine import LOAD_SENSOR, MOTOR_COUNT, POSITION_COUNT
-from .plant import (
-    COMMAND_TIME,
-    ENDED,
-    LOAD_POSITION,
-    LOAD_SPEED,
-    MOTOR_POSITION,
-    PIECE,
-    RESTLESS,
-    SAMPLES,
-    SHARE,
-    advance,
+from .machine import (
+    DELAY_SHARE,
+    DELAY_STEPS,
+    LOAD_SENSOR,
+    MOTOR_COUNT,
+    MOTOR_COUNTS,
+    POSITION_COUNT,
+    POSITION_COUNTS,
 )
-from .plant import TORQUE as MOTOR_TORQUE
-from .profiles import ACCELERATION, VELOCITY, WIDTH, command, piece_at
+from .plant import advance, delayed
+from .profiles import WIDTH, command, piece_at
 from .signals import (
     COMMAND,
     COMMAND_ACCELERATION,
@@ -74,6 +70,13 @@ FORWARD = 10
 """1; 0 takes velocity and acceleration of the command from the law, for a loop without feed-forward."""
 TIMING_SIZE = 11
 
+SAMPLES, COMMAND_TIME, SHARE, PIECE, RESTLESS, ENDED = range(6)
+"""State of the run: servo samples since the start; time, s, share of the feedrate and piece of the command; sample of the last
+motion; sample at which the command ended, -1 before."""
+PLANT = 6
+"""State of the plant: the first of the six figures of `plant.State`."""
+STATE_SIZE = 12
+
 BOUNDLESS = 1e12
 """Positions beyond are no motion of a machine any more, u."""
 
@@ -86,37 +89,31 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Stand for the law's sample function of the velocity period."""
 
 
-def counted(position: float, count: float) -> float:
+def counted(m: Vector, position: float, count: int, counts: int) -> float:
     """Return a position in whole counts, the nearest one; as it is for an ideal device (count 0)."""
-    if count == 0.0:
+    if m[count] == 0.0:
         return position
-    return math.floor(position / count + 0.5) * count
+    return math.floor(position * m[counts] + 0.5) * m[count]
 
 
-def feed(x: Vector, timing: Vector, wanted: float) -> float:
-    """Move the time of the command by a servo period at the feed share; return the share at its end."""
+def feed(x: Vector, timing: Vector, wanted: float) -> None:
+    """Move the time of the command by a servo period; its share of the feedrate goes towards the wanted one."""
     share = x[SHARE]
     most = timing[SHARE_RATE] * timing[SERVO_PERIOD]
     after = min(max(wanted, share - most), share + most)
     x[COMMAND_TIME] += 0.5 * (share + after) * timing[SERVO_PERIOD]
     x[SHARE] = after
-    return after
 
 
-def at_rest(x: Vector, timing: Vector, profile: Vector, error: float) -> bool:
+def over(x: Vector, timing: Vector, profile: Vector, error: float) -> bool:
     """Return whether the run is over: at rest long enough after the end of the command, or not within the time for it."""
-    k = int(x[PIECE]) * WIDTH
-    over = (
-        int(x[PIECE]) == len(profile) // WIDTH - 1
-        and profile[k + VELOCITY] == 0.0
-        and profile[k + ACCELERATION] == 0.0
-    )
-    if x[ENDED] < 0.0 and over:
-        x[ENDED] = x[SAMPLES]
-    if not over or error > timing[REST_BAND]:
+    if int(x[PIECE]) < len(profile) // WIDTH - 1:
         x[RESTLESS] = x[SAMPLES]
-    if not over:
         return False
+    if x[ENDED] < 0.0:
+        x[ENDED] = x[SAMPLES]
+    if error > timing[REST_BAND]:
+        x[RESTLESS] = x[SAMPLES]
     if (x[SAMPLES] - x[RESTLESS]) * timing[SERVO_PERIOD] > timing[REST_TIME]:
         return True
     return (x[SAMPLES] - x[ENDED]) * timing[SERVO_PERIOD] > timing[SETTLE_TIME]
@@ -128,44 +125,52 @@ def run(
     io: Vector,
     m: Vector,
     x: Vector,
+    line: Vector,
     timing: Vector,
     profile: Vector,
     rows: npt.NDArray[np.float64],
 ) -> int:
     """Run the axis until the command is over and the axis at rest, an alarm, or all rows are filled; return the rows.
 
-    ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m``, ``x`` machine and state of the plant, ``timing``
-    and ``profile`` as their indices say; all but p, m, timing and profile are changed, so that a run can be continued.
+    ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine, ``x`` the state of run and plant, ``line``
+    the delay line, ``timing`` and ``profile`` as their indices say; s, io, x and line are changed.
     """
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])
     monitors = int(timing[MONITORS])
+    late = m[DELAY_STEPS] > 0.0 or m[DELAY_SHARE] > 0.0
+    on_load = m[LOAD_SENSOR] == 1.0
+    motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
+    load, torque, error_sum = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5]
     row, since = 0, stride
     while True:
         start = x[SAMPLES] * period
         piece = piece_at(profile, int(x[PIECE]), x[COMMAND_TIME])
-        x[PIECE] = float(piece)
         begun, share = x[COMMAND_TIME], x[SHARE]
+        x[PIECE] = float(piece)
         command(profile, piece, begun, io)
         io[COMMAND_VELOCITY] *= share * timing[FORWARD]
         io[COMMAND_ACCELERATION] *= share * share * timing[FORWARD]
-        sensed = x[LOAD_POSITION] if m[LOAD_SENSOR] == 1.0 else x[MOTOR_POSITION]
-        io[TIME], io[TORQUE] = start, x[MOTOR_TORQUE]
-        io[POSITION] = counted(sensed, m[POSITION_COUNT])
-        io[MOTOR] = counted(x[MOTOR_POSITION], m[MOTOR_COUNT])
+        io[TIME], io[TORQUE] = start, torque
+        io[POSITION] = counted(
+            m, load_position if on_load else motor_position, POSITION_COUNT, POSITION_COUNTS
+        )
+        io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
         position_sample(p, s, io)
-        if at_rest(x, timing, profile, abs(io[COMMAND] - io[POSITION])):
+        if over(x, timing, profile, abs(io[COMMAND] - io[POSITION])):
             return row
         sampled, velocity = io[COMMAND], io[COMMAND_VELOCITY]
         feed(x, timing, io[FEED_SHARE])
         rate = (x[COMMAND_TIME] - begun) / period
         for k in range(samples):
             if k > 0:
-                io[TIME], io[TORQUE] = start + k * substeps * h, x[MOTOR_TORQUE]
-                io[MOTOR] = counted(x[MOTOR_POSITION], m[MOTOR_COUNT])
+                io[TIME], io[TORQUE] = start + k * substeps * h, torque
+                io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
             velocity_sample(p, s, io)
+            output = io[OUTPUT]
+            stopped = io[STOP] != 0.0
             for j in range(substeps):
-                if since == stride or io[STOP] != 0.0:
+                if since == stride or stopped:
                     if row >= rows.shape[0]:
                         return row
                     since = 0
@@ -174,24 +179,29 @@ def run(
                         moment = begun + passed * rate
                         command(profile, piece_at(profile, piece, moment), moment, io)
                         io[COMMAND_VELOCITY] *= rate
-                    sensed = x[LOAD_POSITION] if m[LOAD_SENSOR] == 1.0 else x[MOTOR_POSITION]
+                    measured = counted(
+                        m, load_position if on_load else motor_position, POSITION_COUNT, POSITION_COUNTS
+                    )
                     rows[row, 0] = start + passed
                     rows[row, 1] = io[COMMAND]
                     rows[row, 2] = io[COMMAND_VELOCITY]
-                    rows[row, 3] = x[LOAD_POSITION]
-                    rows[row, 4] = counted(sensed, m[POSITION_COUNT])
-                    rows[row, 5] = io[COMMAND] - io[REFERENCE_LAG] - rows[row, 4]
-                    rows[row, 6] = x[LOAD_SPEED]
-                    rows[row, 7] = io[OUTPUT]
-                    rows[row, 8] = x[MOTOR_TORQUE]
+                    rows[row, 3] = load_position
+                    rows[row, 4] = measured
+                    rows[row, 5] = io[COMMAND] - io[REFERENCE_LAG] - measured
+                    rows[row, 6] = load
+                    rows[row, 7] = output
+                    rows[row, 8] = torque
                     for n in range(monitors):
                         rows[row, 9 + n] = io[MONITOR + n]
                     row += 1
                     io[COMMAND], io[COMMAND_VELOCITY] = sampled, velocity
-                if io[STOP] != 0.0:
+                if stopped:
                     return row
                 since += 1
-                advance(m, x, io[OUTPUT], h)
-        if not abs(x[MOTOR_POSITION]) < BOUNDLESS:
+                held = delayed(m, line, output) if late else output
+                motor_position, motor, load_position, load, torque, error_sum = advance(
+                    m, motor_position, motor, load_position, load, torque, error_sum, held, h
+                )
+        if not abs(motor_position) < BOUNDLESS:
             io[STOP] = DIVERGED
         x[SAMPLES] += 1.0

@@ -108,47 +108,42 @@ def words(name: str) -> str:
 
 # -- the flat array for the plant (`plant.py`) ------------------------------------------------------
 
-ACCELERATION = 0
-"""u/s2 for one unit of torque, of the one mass."""
-MOTOR_ACCELERATION, LOAD_ACCELERATION = 1, 2
-"""u/s2 for one unit of torque, of each of two masses."""
-STIFFNESS, DAMPING, HALF_GAP = 3, 4, 5
-"""Torque for 1 u, torque for 1 u/s, u."""
-VISCOUS, COULOMB, STATIC = 6, 7, 8
-"""Of the load's side; of the motor's side the next three."""
-MOTOR_VISCOUS, MOTOR_COULOMB, MOTOR_STATIC = 9, 10, 11
-GRAVITY, SPRING = 12, 13
-LAG, LAG_MEAN = 14, 15
+KEEP, KICK, COULOMB, STATIC = 0, 1, 2, 3
+"""Of the one mass: share of the speed that viscous friction leaves after a step, u/s for one unit of torque in a step, dry
+friction in motion and at rest. Of motor and load of two masses the same four from MOTOR and LOAD on."""
+MOTOR, LOAD = 4, 8
+STIFFNESS, DAMPING, HALF_GAP = 12, 13, 14
+"""Of the coupling: torque for 1 u, torque for the mean of 1 u/s in a step, u."""
+MOTOR_KICK, LOAD_KICK, ELASTIC_KICK = 15, 16, 17
+"""u/s in half a step for one unit of torque on the motor, on the load, between both."""
+GRAVITY, SPRING = 18, 19
+LAG, LAG_MEAN = 20, 21
 """What is left of a difference between wanted and present torque after one physics step, and its mean in the step."""
-DELAY_STEPS, DELAY_SHARE = 16, 17
+DELAY_STEPS, DELAY_SHARE = 22, 23
 """Delay as whole physics steps and the share of one more."""
-OUTPUT_LIMIT, TORQUE_POSITIVE, TORQUE_NEGATIVE = 18, 19, 20
-VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL = 21, 22, 23
+OUTPUT_LIMIT, TORQUE_POSITIVE, TORQUE_NEGATIVE = 24, 25, 26
+VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL = 27, 28, 29
 """u/s for one unit of output, torque for 1 u/s, 1/s."""
-MOTOR_COUNT, POSITION_COUNT, LOAD_SENSOR, TWO_MASSES = 24, 25, 26, 27
-SIZE = 28
+MOTOR_COUNT, POSITION_COUNT, LOAD_SENSOR, TWO_MASSES = 30, 31, 32, 33
+MOTOR_COUNTS, POSITION_COUNTS = 34, 35
+"""Counts in 1 u."""
+SIZE = 36
 
 
 def machine_array(machine: Machine, step: float) -> list[float]:
     """Return the figures as the plant uses them with physics steps of ``step`` s; indices as above."""
     m = [0.0] * SIZE
     ratio = machine.inertia_ratio or INERTIA_ASSUMED
-    m[ACCELERATION] = machine.acceleration_per_output
-    m[MOTOR_ACCELERATION] = machine.acceleration_per_output * (1.0 + ratio)
-    m[LOAD_ACCELERATION] = machine.acceleration_per_output * (1.0 + ratio) / ratio
-    both = m[MOTOR_ACCELERATION] + m[LOAD_ACCELERATION]
+    own, total = machine.motor_friction, machine.acceleration_per_output
+    motor, load = total * (1.0 + ratio), total * (1.0 + ratio) / ratio
+    m[KEEP : STATIC + 1] = _mass(machine, total, 1.0, step)
+    m[MOTOR : MOTOR + STATIC + 1] = _mass(machine, motor, own, step)
+    m[LOAD : LOAD + STATIC + 1] = _mass(machine, load, 1.0 - own, step)
     rate = 2.0 * math.pi * (machine.resonance or CONTACT)
-    m[STIFFNESS] = rate * rate / both
-    m[DAMPING] = 2.0 * machine.damping * rate / both
-    m[HALF_GAP] = 0.5 * machine.backlash
-    dry = (
-        machine.viscous_friction,
-        machine.coulomb_friction,
-        max(machine.static_friction, machine.coulomb_friction),
-    )
-    for k, figure in enumerate(dry):
-        m[VISCOUS + k] = figure * (1.0 - machine.motor_friction)
-        m[MOTOR_VISCOUS + k] = figure * machine.motor_friction
+    damping = 2.0 * machine.damping * rate / (motor + load)
+    m[STIFFNESS], m[HALF_GAP] = rate * rate / (motor + load), 0.5 * machine.backlash
+    m[DAMPING] = damping / (1.0 + 0.5 * step * (motor + load) * damping)
+    m[MOTOR_KICK], m[LOAD_KICK], m[ELASTIC_KICK] = (0.5 * step * each for each in (motor, load, motor + load))
     m[GRAVITY], m[SPRING] = machine.gravity, machine.spring
     if machine.bandwidth > 0.0:
         lag = 2.0 * math.pi * machine.bandwidth * step
@@ -157,12 +152,27 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     m[DELAY_SHARE] = max(0.0, machine.delay / step - m[DELAY_STEPS])
     m[OUTPUT_LIMIT] = machine.output_limit
     m[TORQUE_POSITIVE], m[TORQUE_NEGATIVE] = machine.torque_limit_positive, machine.torque_limit_negative
-    if machine.velocity_per_output > 0.0:
+    if machine.velocity_per_output == 0.0:
+        m[TORQUE_POSITIVE], m[TORQUE_NEGATIVE] = (
+            min(limit, machine.output_limit) for limit in m[TORQUE_POSITIVE : TORQUE_NEGATIVE + 1]
+        )
+    else:
         # With this gain an ideal current loop makes the velocity an exact first-order lag, whatever the step is.
         share = -math.expm1(-2.0 * math.pi * machine.velocity_bandwidth * step)
         m[VELOCITY_PER_OUTPUT] = machine.velocity_per_output
-        m[VELOCITY_GAIN] = share / step / machine.acceleration_per_output
+        m[VELOCITY_GAIN] = share / step / total
         m[VELOCITY_INTEGRAL] = machine.velocity_integral
     m[MOTOR_COUNT], m[POSITION_COUNT] = machine.motor_count, machine.position_count
+    m[MOTOR_COUNTS], m[POSITION_COUNTS] = (
+        1.0 / count if count > 0.0 else 0.0 for count in (machine.motor_count, machine.position_count)
+    )
     m[LOAD_SENSOR], m[TWO_MASSES] = float(machine.load_sensor), float(machine.two_masses)
     return m
+
+
+def _mass(machine: Machine, acceleration: float, share: float, step: float) -> list[float]:
+    """Return the four figures of one mass that has this share of the friction; viscous friction by the mean speed of a step."""
+    drag = 0.5 * step * acceleration * machine.viscous_friction * share
+    static = max(machine.static_friction, machine.coulomb_friction)
+    kick = step * acceleration / (1.0 + drag)
+    return [(1.0 - drag) / (1.0 + drag), kick, machine.coulomb_friction * share, static * share]

@@ -13,8 +13,7 @@ from . import kernel
 from .compiled import PLAIN_STEPS, compiled, is_loaded, jit_is_off, plain
 from .errors import SimulationError
 from .law import AxisLaw
-from .machine import machine_array
-from .plant import ENDED, SHARE, state_size
+from .machine import DELAY_STEPS, machine_array
 from .signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 
 Engine = Literal["auto", "plain", "compiled"]
@@ -91,11 +90,12 @@ def run_axis(
     io = [0.0] * (MONITOR + len(axis.monitors))
     io[FEED_SHARE], io[MODE] = 1.0, mode
     machine = machine_array(axis.machine, step)
-    plant = [0.0] * state_size(math.floor(axis.machine.delay / step + 1e-9))
-    plant[SHARE], plant[ENDED] = 1.0, -1.0
+    x = [0.0] * kernel.STATE_SIZE
+    x[kernel.SHARE], x[kernel.ENDED] = 1.0, -1.0
+    line = [0.0] * (int(machine[DELAY_STEPS]) + 3)
     rows = np.empty((max(1, math.ceil(most / stride)), len(kernel.COLUMNS) + len(axis.monitors)))
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
-    vectors = [parameters, state, io, machine, plant, timing, profile]
+    vectors = [parameters, state, io, machine, x, line, timing, profile]
     filled, io = _run(axis, vectors, rows, engine, most)
     stop = int(io[STOP])
     names = [*kernel.COLUMNS, *(name for name, _ in axis.monitors)]

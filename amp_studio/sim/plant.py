@@ -13,20 +13,21 @@ import math
 
 from .arrays import Vector
 from .machine import (
-    ACCELERATION,
     COULOMB,
     DAMPING,
     DELAY_SHARE,
     DELAY_STEPS,
+    ELASTIC_KICK,
     GRAVITY,
     HALF_GAP,
+    KEEP,
+    KICK,
     LAG,
     LAG_MEAN,
-    LOAD_ACCELERATION,
-    MOTOR_ACCELERATION,
-    MOTOR_COULOMB,
-    MOTOR_STATIC,
-    MOTOR_VISCOUS,
+    LOAD,
+    LOAD_KICK,
+    MOTOR,
+    MOTOR_KICK,
     OUTPUT_LIMIT,
     SPRING,
     STATIC,
@@ -37,126 +38,64 @@ from .machine import (
     VELOCITY_GAIN,
     VELOCITY_INTEGRAL,
     VELOCITY_PER_OUTPUT,
-    VISCOUS,
 )
 
-MOTOR_POSITION, MOTOR_SPEED, LOAD_POSITION, LOAD_SPEED = 0, 1, 2, 3
-TORQUE = 4
-"""Torque of the motor at the end of the last step."""
-ERROR_SUM = 5
-"""u: integral of the velocity error in a drive with a velocity loop."""
-SLOT = 6
-"""Place of the next output in the delay line."""
-SAMPLES, COMMAND_TIME, SHARE, PIECE = 7, 8, 9, 10
-"""Servo samples since the start; time, s, and piece of the command; share of the feedrate."""
-RESTLESS, ENDED = 11, 12
-"""Sample of the last motion, sample at which the command ended (-1 before)."""
-LINE = 16
-"""Start of the delay line: the outputs of the last physics steps."""
+State = tuple[float, float, float, float, float, float]
+"""Motor position and speed, load position and speed, torque of the motor at the end of the last step, integral of the velocity
+error in a drive with a velocity loop (u)."""
 
 
-def state_size(delay_steps: int) -> int:
-    """Return the length of the state."""
-    return LINE + delay_steps + 2
+def delayed(m: Vector, line: Vector, output: float) -> float:
+    """Return the output that reaches the drive in this step; the mean where a step sees two of them.
 
-
-def delayed(m: Vector, x: Vector, output: float) -> float:
-    """Return the output that reaches the drive in this step, limited; the mean where a step sees two of them."""
-    if m[OUTPUT_LIMIT] < math.inf:
-        output = min(max(output, -m[OUTPUT_LIMIT]), m[OUTPUT_LIMIT])
-    if m[DELAY_STEPS] == 0.0 and m[DELAY_SHARE] == 0.0:
-        return output
-    length = int(m[DELAY_STEPS]) + 2
-    slot = int(x[SLOT])
-    x[LINE + slot] = output
+    ``line`` are the outputs of the last steps, then the place of the next one; of length DELAY_STEPS + 3.
+    """
+    last = len(line) - 1
+    slot = int(line[last])
+    line[slot] = output
     newer = slot - int(m[DELAY_STEPS])
     if newer < 0:
-        newer += length
+        newer += last
     older = newer - 1
     if older < 0:
-        older += length
-    following = slot + 1
-    x[SLOT] = float(following) if following < length else 0.0
-    return (1.0 - m[DELAY_SHARE]) * x[LINE + newer] + m[DELAY_SHARE] * x[LINE + older]
+        older += last
+    line[last] = float(slot + 1) if slot + 1 < last else 0.0
+    return (1.0 - m[DELAY_SHARE]) * line[newer] + m[DELAY_SHARE] * line[older]
 
 
-def motor_torque(m: Vector, x: Vector, output: float, h: float) -> float:
-    """Return the mean torque of the motor in a step of ``h`` s, and put the torque at its end into the state."""
-    target = output
+def wanted_torque(m: Vector, output: float, speed: float, error_sum: float, h: float) -> tuple[float, float]:
+    """Return the torque that the drive asks its current loop for, limited, and the integral of the velocity error."""
+    torque, error = output, 0.0
     if m[VELOCITY_PER_OUTPUT] > 0.0:
-        error = m[VELOCITY_PER_OUTPUT] * output - x[MOTOR_SPEED]
-        asked = m[VELOCITY_GAIN] * (error + m[VELOCITY_INTEGRAL] * x[ERROR_SUM])
-        target = min(max(asked, -m[TORQUE_NEGATIVE]), m[TORQUE_POSITIVE])
-        if target == asked or error * asked < 0.0:  # at its limit it does not sum what would go further
-            x[ERROR_SUM] += h * error
-    else:
-        target = min(max(target, -m[TORQUE_NEGATIVE]), m[TORQUE_POSITIVE])
-    mean = target + (x[TORQUE] - target) * m[LAG_MEAN]
-    x[TORQUE] = target + (x[TORQUE] - target) * m[LAG]
-    return mean
+        output = min(max(output, -m[OUTPUT_LIMIT]), m[OUTPUT_LIMIT])
+        error = m[VELOCITY_PER_OUTPUT] * output - speed
+        torque = m[VELOCITY_GAIN] * (error + m[VELOCITY_INTEGRAL] * error_sum)
+    # At its limit a drive does not sum what would go further.
+    if torque > m[TORQUE_POSITIVE]:
+        return m[TORQUE_POSITIVE], error_sum + min(error, 0.0) * h
+    if torque < -m[TORQUE_NEGATIVE]:
+        return -m[TORQUE_NEGATIVE], error_sum + max(error, 0.0) * h
+    return torque, error_sum + error * h
 
 
-def speed_after(
-    speed: float, push: float, acceleration: float, viscous: float, coulomb: float, static: float, h: float
-) -> float:
-    """Return the speed in u/s after ``h`` s under the torque ``push`` and friction.
+def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
+    """Return the speed in u/s after a step under the torque ``push`` and friction, of the mass whose figures begin at ``k``.
 
     A mass at rest stays there until the push is above the static friction; one whose speed changes its sign is at rest.
     """
     if speed == 0.0:
-        if abs(push) <= static:
+        if abs(push) <= m[k + STATIC]:
             return 0.0
-        dry = math.copysign(coulomb, push)
+        dry = math.copysign(m[k + COULOMB], push)
     else:
-        dry = math.copysign(coulomb, speed)
-    drag = 0.5 * h * acceleration * viscous
-    after = ((1.0 - drag) * speed + h * acceleration * (push - dry)) / (1.0 + drag)
+        dry = math.copysign(m[k + COULOMB], speed)
+    after = m[k + KEEP] * speed + m[k + KICK] * (push - dry)
     if after * dry < 0.0:
         return 0.0
     return after
 
 
-def advance(m: Vector, x: Vector, output: float, h: float) -> None:
-    """Move the plant by one physics step of ``h`` s."""
-    torque = motor_torque(m, x, delayed(m, x, output), h)
-    if m[TWO_MASSES] == 0.0:
-        speed, position = x[MOTOR_SPEED], x[MOTOR_POSITION]
-        push = torque - m[GRAVITY] - m[SPRING] * (position + 0.5 * h * speed)
-        after = speed_after(
-            speed,
-            push,
-            m[ACCELERATION],
-            m[VISCOUS] + m[MOTOR_VISCOUS],
-            m[COULOMB] + m[MOTOR_COULOMB],
-            m[STATIC] + m[MOTOR_STATIC],
-            h,
-        )
-        x[MOTOR_POSITION] = x[LOAD_POSITION] = position + 0.5 * h * (speed + after)
-        x[MOTOR_SPEED] = x[LOAD_SPEED] = after
-        return
-    motor, load = x[MOTOR_SPEED], x[LOAD_SPEED]
-    motor_position = x[MOTOR_POSITION] + 0.5 * h * motor
-    load_position = x[LOAD_POSITION] + 0.5 * h * load
-    weight = -m[GRAVITY] - m[SPRING] * load_position
-    coupling = coupling_torque(m, motor_position - load_position, motor - load, torque, weight, h)
-    motor = speed_after(
-        motor,
-        torque - coupling,
-        m[MOTOR_ACCELERATION],
-        m[MOTOR_VISCOUS],
-        m[MOTOR_COULOMB],
-        m[MOTOR_STATIC],
-        h,
-    )
-    load = speed_after(load, coupling + weight, m[LOAD_ACCELERATION], m[VISCOUS], m[COULOMB], m[STATIC], h)
-    x[MOTOR_SPEED], x[LOAD_SPEED] = motor, load
-    x[MOTOR_POSITION] = motor_position + 0.5 * h * motor
-    x[LOAD_POSITION] = load_position + 0.5 * h * load
-
-
-def coupling_torque(
-    m: Vector, twist: float, difference: float, torque: float, weight: float, h: float
-) -> float:
+def coupling_torque(m: Vector, twist: float, difference: float, torque: float, weight: float) -> float:
     """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load.
 
     The damping acts on the mean difference of speeds in the step, so that it takes energy out at any step.
@@ -164,10 +103,39 @@ def coupling_torque(
     if abs(twist) <= m[HALF_GAP]:
         return 0.0
     elastic = m[STIFFNESS] * (twist - math.copysign(m[HALF_GAP], twist))
-    both = m[MOTOR_ACCELERATION] + m[LOAD_ACCELERATION]
-    kick = m[MOTOR_ACCELERATION] * torque - m[LOAD_ACCELERATION] * weight - both * elastic
-    mean = (difference + 0.5 * h * kick) / (1.0 + 0.5 * h * both * m[DAMPING])
-    coupling = elastic + m[DAMPING] * mean
+    kick = m[MOTOR_KICK] * torque - m[LOAD_KICK] * weight - m[ELASTIC_KICK] * elastic
+    coupling = elastic + m[DAMPING] * (difference + kick)
     if m[HALF_GAP] > 0.0 and coupling * elastic < 0.0:
         return 0.0
     return coupling
+
+
+def advance(
+    m: Vector,
+    motor_position: float,
+    motor: float,
+    load_position: float,
+    load: float,
+    torque: float,
+    error_sum: float,
+    output: float,
+    h: float,
+) -> State:
+    """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the drive."""
+    target, error_sum = wanted_torque(m, output, motor, error_sum, h)
+    mean = target + (torque - target) * m[LAG_MEAN]
+    torque = target + (torque - target) * m[LAG]
+    motor_position += 0.5 * h * motor
+    if m[TWO_MASSES] == 0.0:
+        push = mean - m[GRAVITY] - m[SPRING] * motor_position
+        motor = speed_after(m, 0, motor, push)
+        motor_position += 0.5 * h * motor
+        return motor_position, motor, motor_position, motor, torque, error_sum
+    load_position += 0.5 * h * load
+    weight = -m[GRAVITY] - m[SPRING] * load_position
+    coupling = coupling_torque(m, motor_position - load_position, motor - load, mean, weight)
+    motor = speed_after(m, MOTOR, motor, mean - coupling)
+    load = speed_after(m, LOAD, load, coupling + weight)
+    motor_position += 0.5 * h * motor
+    load_position += 0.5 * h * load
+    return motor_position, motor, load_position, load, torque, error_sum

@@ -20,7 +20,7 @@ from amp_studio.sim.signals import (
     STOP,
 )
 
-GAIN, VELOCITY_GAIN, EXCESS, PERIOD, FORWARD = 0, 1, 2, 3, 4  # 1/s, % per u/s, u, s, share
+GAIN, VELOCITY_GAIN, EXCESS, RATE, FORWARD = range(5)  # 1/s, % per u/s, u, velocity samples in 1 s, share
 WANTED, LAST = 0, 1  # u/s, u
 
 
@@ -38,7 +38,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
 def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Ask for a torque in proportion to the velocity error."""
-    velocity = (io[MOTOR] - s[LAST]) / p[PERIOD]
+    velocity = (io[MOTOR] - s[LAST]) * p[RATE]
     s[LAST] = io[MOTOR]
     io[OUTPUT] = p[VELOCITY_GAIN] * (s[WANTED] - velocity)
     if io[MODE] == OUTPUT_TEST:
@@ -62,7 +62,7 @@ def tiny(
         title="tiny axis",
         position_sample=position_sample,
         velocity_sample=velocity_sample,
-        parameters=(gain, velocity_rate / acceleration, excess, 0.00025, forward),
+        parameters=(gain, velocity_rate / acceleration, excess, 4000.0, forward),
         state_size=2,
         servo_period=0.001,
         velocity_period=0.00025,
