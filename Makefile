@@ -26,8 +26,8 @@ test: setup ## set up what is missing and run all tests
 durations: setup ## run all tests and print the sixty that take longest
 	@$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations=60 --durations-min=0.5 $(TESTS)
 
-mutants: setup ## change every rule and what it tells in every way, one at a time, and tell what no case notices
-	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_told_mutants.py
+mutants: setup ## change every rule and its findings in every way, one at a time, and list what no case notices
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_finding_mutants.py
 
 campaign: setup ## write anything whatever into machines of every family, thousands of times
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py

@@ -54,7 +54,7 @@ def _file_in(folder: Path) -> Path:
 
 
 def _in_terminal() -> int:
-    """Do the main job step by step and say what happens; 0 when nothing differs at the end."""
+    """Do the main job step by step and print what happens; 0 when nothing differs at the end."""
     from amp_studio.files import Document, compare, open_file
     from amp_studio.report import counted, write_report
     from amp_studio.transfer.client.parameters import download_file, fetch_file
@@ -65,37 +65,39 @@ def _in_terminal() -> int:
     shutil.copytree(examples_folder() / EXAMPLE, folder, dirs_exist_ok=True)
     path = _file_in(folder)
     file = open_file(path).file
-    _tell(1, f"opened {path.name}: {file.schema.family.name}, {file.machine}, {len(file.values)} values")
+    _print_step(
+        1, f"opened {path.name}: {file.schema.family.name}, {file.machine}, {len(file.values)} values"
+    )
     findings = Validator(file).run()
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
-    _tell(
+    _print_step(
         2,
         f"validated: {', '.join(counted(count, severity) for severity, count in counts.items())}",
     )
     report = folder / f"{path.stem}.pdf"
     write_report(file, report, sort="group", changed_only=False, source=path)
-    _tell(3, f"printed {report} ({report.stat().st_size // 1024} KiB)")
+    _print_step(3, f"printed {report} ({report.stat().st_size // 1024} KiB)")
     control = _start_control(folder / "control", file.schema.family.family, file.machine)
     try:
         address = _address_of(control)
-        _tell(4, f"emulated control at {address}, in E-stop")
+        _print_step(4, f"emulated control at {address}, in E-stop")
         outcome = download_file(file, address, folder, path.stem, _percent)
-        _tell(5, outcome.text)
-        held = fetch_file(address, _percent)
+        _print_step(5, outcome.text)
+        fetched = fetch_file(address, _percent)
         upload = folder / "from-control.amp"
-        held.header.name = upload.stem
-        Document.create(held, upload).close()
-        _tell(6, f"uploaded under a new name: {upload}")
+        fetched.header.name = upload.stem
+        Document.create(fetched, upload).close()
+        _print_step(6, f"uploaded under a new name: {upload}")
     finally:
         _stop(control)
     found = compare(file.schema, file.values, open_file(upload).file.values)
-    _tell(7, f"compared: {len(found.differences)} values differ, {found.same} are the same")
+    _print_step(7, f"compared: {len(found.differences)} values differ, {found.same} are the same")
     print(f"Done in {time.monotonic() - begin:.1f} s. Everything is in {folder}")
     print("Next: amp-studio --help, or amp-studio on a machine with a display.")
     return 0 if outcome.verified and not found.differences and not counts["error"] else 1
 
 
-def _tell(step: int, text: str) -> None:
+def _print_step(step: int, text: str) -> None:
     print(f"{step}. {text}", flush=True)
 
 

@@ -36,7 +36,7 @@ DIALECT = "http://json-schema.org/draft-07/schema#"
 
 
 class BuilderRules(Model):
-    """A file of a builder's own rules, and of findings that somebody has looked at and leaves as they are."""
+    """A file of a builder's own rules, and of findings that somebody has checked and leaves as they are."""
 
     rules: tuple[BuilderRule, ...] | None = None
     suppressions: tuple[Suppression, ...] | None = None

@@ -1,6 +1,6 @@
 """The words of messages, help, docstrings, comments and documents: the terms of the field, no private idiom.
 
-A room or document is added to the list once it is edited, and stays in it. Code identifiers, names in backquotes
+Every room of the program is checked, and every document listed here. Code identifiers, names in backquotes
 and the values in braces of a message are not looked at, and neither is a text of a single word (a key).
 """
 
@@ -41,13 +41,20 @@ FORBIDDEN = {
     "the other way round": "in the opposite direction",
     "born": "default",
     "looked at": "checked",
+    "stand": "are",
+    "stood": "was",
+    "speaks of": "names",
 }
 """Word or phrase -> what to write instead."""
 
 ALLOWED: dict[tuple[str, str], str] = {}
 """(file, word) -> why it may stay there."""
 
-ROOMS = ("ui", "report", "sim")
+ROOMS = sorted(
+    p.name
+    for p in (ROOT / "amp_studio").iterdir()
+    if p.suffix == ".py" or (p.is_dir() and p.name != "__pycache__")
+)
 DOCUMENTS = (
     "README.md",
     "CONTRIBUTING.md",
@@ -57,6 +64,8 @@ DOCUMENTS = (
     "docs/schema.md",
     "docs/simulation.md",
     "docs/protocols/image.md",
+    "docs/protocols/exchange.md",
+    "Makefile",
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
 )
 
@@ -64,12 +73,22 @@ _PATTERN = re.compile(rf"\b({'|'.join(map(re.escape, FORBIDDEN))})\b", re.IGNORE
 _NAMES = re.compile(r"``.*?``|`[^`\n]*`|\{[^{}]*\}|[\w-]+\.[\w.-]+|\"[^\"\n]*\"")
 
 
+_PART_OF_A_MESSAGE = getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING)
+"""From Python 3.12 on an f-string is several tokens."""
+
+
 def texts_of(path: Path) -> Iterator[tuple[int, str]]:
     """Yield line and text of every docstring, message and comment of a module."""
     with path.open(encoding="utf-8") as source:
         for token in tokenize.generate_tokens(io.StringIO(source.read()).readline):
-            if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and " " in token.string):
+            is_text = token.type in (tokenize.STRING, _PART_OF_A_MESSAGE) and " " in token.string
+            if token.type == tokenize.COMMENT or is_text:
                 yield token.start[0], token.string.strip("frb").strip("\"'")
+
+
+def modules_of(room: Path) -> list[Path]:
+    """Return the modules of a folder, or the one module."""
+    return sorted(room.rglob("*.py")) if room.is_dir() else [room]
 
 
 def words_in(text: str) -> list[str]:
@@ -81,7 +100,7 @@ def words_in(text: str) -> list[str]:
 def test_a_room_uses_the_words_of_the_field(room: str) -> None:
     found = [
         f"{path.relative_to(ROOT)}:{line}: '{word}' ({FORBIDDEN[word]}) in: {text.strip()[:90]}"
-        for path in sorted((ROOT / "amp_studio" / room).rglob("*.py"))
+        for path in modules_of(ROOT / "amp_studio" / room)
         for line, text in texts_of(path)
         for word in words_in(text)
         if (path.relative_to(ROOT).as_posix(), word) not in ALLOWED

@@ -2,7 +2,7 @@
 
 Exit codes: 0 done and nothing wrong; 1 done, and what was checked has errors; 2 the input cannot be used, or the verb
 was stopped, and nothing was changed; 3 something was changed before the verb failed or was stopped, and the message
-says what holds now; 4 it is not known whether the control changed.
+describes the present state; 4 it is not known whether the control changed.
 """
 
 from __future__ import annotations

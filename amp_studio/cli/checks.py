@@ -41,19 +41,19 @@ AT_A_TIME = 8
 
 @dataclass(frozen=True)
 class Checked:
-    """What there is to say of one file; passes from one process to another."""
+    """The result of one file; passes from one process to another."""
 
     path: Path
     errors: int = 0
-    told: Any = None
+    result: Any = None
     """Text, or the JSON document."""
     fault: str = ""
     """Why the file cannot be checked."""
 
     @property
     def json(self) -> Any:
-        """What stands in the list of several files: the document, or why there is none."""
-        return {"file": str(self.path), "error": self.fault} if self.fault else self.told
+        """An entry of the list of several files: the document, or why there is none."""
+        return {"file": str(self.path), "error": self.fault} if self.fault else self.result
 
 
 def validate_verb(options: argparse.Namespace) -> int:
@@ -72,7 +72,7 @@ def validate_verb(options: argparse.Namespace) -> int:
         if one.fault:
             note(f"amp-studio: {one.fault}")
         elif not options.json:
-            print(one.told)
+            print(one.result)
         if show:
             show("checked", n, len(paths))
     for one in unread:
@@ -82,7 +82,7 @@ def validate_verb(options: argparse.Namespace) -> int:
     if options.json and paths and paths != options.paths[:1]:
         print_json({"files": [one.json for one in checked]})
     elif options.json and good:
-        print_json(good[0].told)
+        print_json(good[0].result)
     return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
 
 
@@ -99,11 +99,11 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
         if not _is_folder(path):
             found.append(path)
             continue
-        told = len(unread)
+        before = len(unread)
         names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
         inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
-        if not inside and told == len(unread):
-            unread.append(Checked(path, fault=f"{path}: holds no {ENDING} files"))
+        if not inside and before == len(unread):
+            unread.append(Checked(path, fault=f"{path}: contains no {ENDING} files"))
         found += inside
     return found, unread
 
@@ -117,7 +117,7 @@ def _is_folder(path: Path) -> bool:
 
 
 def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | None) -> Iterator[Checked]:
-    """Yield what there is to say of files, in their order, whichever process is ready first."""
+    """Yield the results of files, in their order, whichever process is ready first."""
     wanted = min(MOST, jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1))
     if wanted == 1:
         yield from map(check, paths)
@@ -197,8 +197,8 @@ def _lines(
             yield from (why_text(validator.file, finding, explain(validator, finding)) for finding in same)
     for left in validator.suppressed:
         yield suppressed_text(validator.file, left)
-    told = ", ".join(counted(count, severity) for severity, count in counts.items())
-    yield f"{path}: {told}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else "")
+    summary = ", ".join(counted(count, severity) for severity, count in counts.items())
+    yield f"{path}: {summary}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else "")
 
 
 def report_verb(options: argparse.Namespace) -> int:
@@ -214,7 +214,7 @@ def report_verb(options: argparse.Namespace) -> int:
         source=options.path,
         own=own,
         secrets=options.secrets,
-        tell=note,
+        notify=note,
     )
     print(options.output)
     return 0

@@ -1,6 +1,6 @@
 """Shell completion: the scripts for bash, zsh and fish, and what they ask the program.
 
-A script hands the line over as it stands; what may come next is found with the parser itself, so a new verb or option
+A script hands the line over as it is; what may come next is found with the parser itself, so a new verb or option
 completes at once. Where nothing is found the shell offers files.
 """
 
@@ -62,7 +62,7 @@ def completion_verb(options: argparse.Namespace) -> int:
 
 
 def answer(words: Sequence[str], breaks: str) -> None:
-    """Print what may come next, a line each; nothing where that is a file.
+    """Print what may come next, a line each; nothing if that is a file.
 
     bash gives the line (``--line TEXT``) and is answered from the last of its word ``breaks`` on, as it puts the answer
     there.

@@ -11,7 +11,7 @@ from amp_studio.validate import calculators
 
 
 def facts(kind: str, named: str, current: str) -> Iterable[str]:
-    """Return what may stand in a place for the family or the file ``named``; nothing where it cannot be opened."""
+    """Return what may come in a place for the family or the file ``named``; nothing where it cannot be opened."""
     try:
         file = new_file(named) if named in family_ids() else open_file(Path(named)).file
     except (ValueError, OSError):

@@ -1,4 +1,4 @@
-"""What every verb says and how: one line for what cannot be used, notes, JSON, progress."""
+"""What every verb prints and how: one line for what cannot be used, notes, JSON, progress."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from amp_studio.schema import Schema, UnknownFamilyError, load_schema
 from amp_studio.schema.quoting import quoted
 
 from .errors import UsageError
-from .screen import tell, tell_over
+from .screen import print_notice, print_over
 
 
 def note(text: str) -> None:
     """Print a line that is no result."""
-    tell(" ".join(text.split()))
+    print_notice(" ".join(text.split()))
 
 
 def ask(question: str) -> str:
     """Return a person's answer; the question goes through the stream that keeps texts from steering the terminal."""
-    tell(question, end="")
+    print_notice(question, end="")
     return input()
 
 
@@ -53,20 +53,20 @@ def progress() -> Callable[[str, int, int], None]:
         if last.get(stage) == percent:
             return
         if sys.stderr.isatty():
-            tell_over(f"{WAITING.get(stage, stage)} {percent:3d} %", last=percent == 100)
+            print_over(f"{WAITING.get(stage, stage)} {percent:3d} %", last=percent == 100)
         elif percent == 100:
-            tell(f"{stage} 100 %")
+            print_notice(f"{stage} 100 %")
         elif stage in WAITING and stage not in last:
-            tell(WAITING[stage])
+            print_notice(WAITING[stage])
         last[stage] = percent
 
     def silence(seconds: int) -> None:
         text = f"no answer for {seconds} s, trying again …" if seconds else "the control answers again"
         if sys.stderr.isatty():
-            tell_over(text, last=not seconds)
+            print_over(text, last=not seconds)
             last.clear()
         elif not seconds or "silent" not in last:
-            tell(text)
+            print_notice(text)
         last["silent"] = seconds
         if not seconds:
             del last["silent"]
@@ -75,7 +75,7 @@ def progress() -> Callable[[str, int, int], None]:
 
 
 WAITING = {"restart": "waiting for the control to restart"}
-"""What the person is told while a stage waits for somebody else."""
+"""What the person reads while a stage waits for somebody else."""
 
 
 def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:

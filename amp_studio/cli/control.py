@@ -41,20 +41,20 @@ def emulate_verb(options: argparse.Namespace) -> int:
 
 
 def download_verb(options: argparse.Namespace) -> int:
-    """Send a file to a control; 3 where that is not proved afterwards, 4 where it is not known what it holds."""
+    """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
     file, path = open_file(options.path).file, options.path
     errors = _note_errors(file, path)
     if errors and not options.accept_errors:
-        raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it all the same)")
+        raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
     with asked_politely() as stop:
         keep = options.keep or path.parent
-        return _told(
+        return _print_outcome(
             download_file(file, options.to, keep, path.stem, progress(), stop, expected=options.expect)
         )
 
 
 def restore_verb(options: argparse.Namespace) -> int:
-    """Put back what a control has held; codes as of a download."""
+    """Put back what a control has contained; codes as of a download."""
     path = options.copy
     copy = open_copy(path)
     if not copy.is_checked:
@@ -64,13 +64,13 @@ def restore_verb(options: argparse.Namespace) -> int:
     elif errors := _note_errors(copy.file, path):
         if not copy.is_kept:
             raise UsageError(
-                f"{path} has {errors}, and no image beside it says that a control held it: nothing was sent "
-                "(download --accept-errors sends it all the same)"
+                f"{path} has {errors}, and no image beside it proves that a control contained it: nothing was sent "
+                "(download --accept-errors sends it anyway)"
             )
-        note(f"{path} goes back with {errors}, as the control held it")
+        note(f"{path} goes back with {errors}, as the control contained it")
     with asked_politely() as stop:
         keep = options.keep or path.parent
-        return _told(
+        return _print_outcome(
             restore_copy(copy, options.to, keep, path.stem, progress(), stop, expected=options.expect)
         )
 
@@ -87,9 +87,9 @@ def _note_errors(file: ParameterFile, path: Path) -> str:
     return counted(len(errors), "error") if errors else ""
 
 
-def _told(outcome: Outcome) -> int:
+def _print_outcome(outcome: Outcome) -> int:
     """Print how an exchange ended and return the exit code; where nobody reads it, that is no full success."""
-    code = 0 if outcome.verified else AT_CONTROL[outcome.held]
+    code = 0 if outcome.verified else AT_CONTROL[outcome.at_control]
     try:  # a terminal takes each line at once, and may be gone
         print(outcome.text)
         if outcome.verified:
@@ -103,12 +103,12 @@ def _told(outcome: Outcome) -> int:
 
 
 def upload_verb(options: argparse.Namespace) -> int:
-    """Fetch what a control holds under a new name: its file, or byte for byte as an image."""
+    """Fetch what a control contains under a new name: its file, or byte for byte as an image."""
     output = options.output
     check_new(output, "an upload")
     image = fetch_image(options.source, progress())
     if not image:
-        raise UsageError("the control holds nothing: there is nothing to upload")
+        raise UsageError("the control is empty: there is nothing to upload")
     if output.suffix == IMAGE:
         save_image(image, output)
         print(f"{output}: {len(image)} bytes, digest in {digest_path(output).name}")
@@ -135,12 +135,12 @@ def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: st
     """Ask what to do with one out-of-range value that came from elsewhere: continue, edit, or quit."""
     if on_fault == "quit" or (on_fault == "ask" and not sys.stdin.isatty()):
         raise UsageError(
-            f"{by} holds an illegal value, nothing was written: {said} (--on-fault keep takes it)"
+            f"{by} contains an illegal value, nothing was written: {said} (--on-fault keep takes it)"
         )
     while on_fault == "ask":
         answer = ask(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
         if answer.startswith("q"):
-            raise UsageError("given up, nothing was written")
+            raise UsageError("cancelled, nothing was written")
         if answer.startswith("c"):
             break
         if answer.startswith("e"):
@@ -153,15 +153,15 @@ def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: st
 
 
 def verify_verb(options: argparse.Namespace) -> int:
-    """Compare a file with what a control holds, its values and every byte; 1 where they differ."""
+    """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
     file = open_file(options.path).file
     image = encode_image(file)
-    held = fetch_image(options.control, progress(), family=file.schema.family.family)
-    found = verify_images(image, held)
+    fetched = fetch_image(options.control, progress(), family=file.schema.family.family)
+    found = verify_images(image, fetched)
     if options.json:
         print_json({
             "differences": [difference_json(file, d, options.secrets) for d in found.values.differences], "same": found.values.same,
-            "same_bytes": found.is_same, "sha256": sha256(held), "unreadable": found.unreadable or None,
+            "same_bytes": found.is_same, "sha256": sha256(fetched), "unreadable": found.unreadable or None,
             "header": [asdict(d) for d in found.head],
             "other_units": [difference_json(file, d, options.secrets) for d in found.other_units]})  # fmt: skip
         return int(not found.is_same)
@@ -172,5 +172,5 @@ def verify_verb(options: argparse.Namespace) -> int:
     for head in found.head:
         print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
     print(found.summary())
-    print(f"sha256 {sha256(held)}")
+    print(f"sha256 {sha256(fetched)}")
     return int(not found.is_same)

@@ -86,17 +86,17 @@ def tables_verb(options: argparse.Namespace) -> int:
 
 
 def calculate_verb(options: argparse.Namespace) -> int:
-    """List the formulas of a family, tell one, or work it out."""
+    """List the formulas of a family, describe one, or work it out."""
     known = calculators(family(options.family).family.family)
     if options.formula is None:
         for calculator in known.values():
-            print(f"{calculator.name}: {calculator.told.splitlines()[0]}")
+            print(f"{calculator.name}: {calculator.description.splitlines()[0]}")
         return 0
     if options.formula not in known:
         raise UsageError(f"{unknown_name('formula', options.formula, known)}; without a name all are listed")
     calculator = known[options.formula]
     if not options.arguments:
-        print(calculator.told)
+        print(calculator.description)
         for argument in calculator.arguments:
             default = f" (else {argument.default})" if argument.default is not None else ""
             print(f"  {argument.name}=…{f' {argument.example}' if argument.example else ''}{default}")

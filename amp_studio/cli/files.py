@@ -60,15 +60,15 @@ def set_verb(options: argparse.Namespace) -> int:
     """Change values, all or none."""
     with Document.open(options.path) as document:
         file = document.file
-        told: list[str] = []
-        values, marks = wanted(file, options.assignments, told.append), dict(file.forced)
+        notes: list[str] = []
+        values, marks = wanted(file, options.assignments, notes.append), dict(file.forced)
         try:
             changes = file.set_many(values, force=f"on {now()} by 'set --force'" if options.force else "")
         except RangeError as error:
             raise UsageError(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
-        for said in told:
+        for said in notes:
             note(said)
         note_all(document.notes)
         if not changes:
@@ -84,11 +84,11 @@ def set_verb(options: argparse.Namespace) -> int:
 
 
 def wanted(
-    file: ParameterFile, texts: Sequence[str], tell: Callable[[str], object] = note
+    file: ParameterFile, texts: Sequence[str], notify: Callable[[str], object] = note
 ) -> dict[Address, Value | None]:
     """Read assignments in order, each in the light of those before it; the file itself is not changed.
 
-    Raises UsageError that names everything that cannot be set. ``tell`` is called with which parameter a number means that is printed for several.
+    Raises UsageError that names everything that cannot be set. ``notify`` is called with which parameter a number means that is printed for several.
     """
     trial = file.copy()
     found: dict[Address, Value | None] = {}
@@ -108,7 +108,7 @@ def wanted(
             slips.append(f"{param}: {error}")
             continue
         if said := found_here.said(trial.schema):
-            tell(said)
+            notify(said)
         trial.set(address, found[address])
     if slips:
         faults = ((a, fault(trial.evaluation, a, v)) for a, v in found.items() if v is not None)
@@ -169,8 +169,8 @@ def get_verb(options: argparse.Namespace) -> int:
         if bit is not None:
             rows.append(_bit_row(file, address, bit))
             if not options.json:
-                held = "—" if rows[-1]["value"] is None else rows[-1]["value"]
-                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {held}")
+                shown = "not set" if rows[-1]["value"] is None else rows[-1]["value"]
+                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {shown}")
             continue
         rows.append(_row(file, address, options.secrets))
         if not options.json:

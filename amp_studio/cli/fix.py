@@ -25,7 +25,7 @@ from .console import note, print_json
 from .errors import UsageError
 
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unknown", "schema.unset")
-"""What findings belong to that no rule of a family or of a builder says."""
+"""What findings belong to that come from no rule of a family or of a builder."""
 
 
 def fix_verb(options: argparse.Namespace) -> int:
@@ -66,15 +66,15 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
         return (
             options.rule in (None, finding.rule)
             and (finding.safe or not options.safe)
-            and (named is None or any(repair.address in named for repair in finding.repairs))
+            and (named is None or any(setting.address in named for setting in finding.fix))
         )
 
     return wanted
 
 
 def _nothing(options: argparse.Namespace, validator: Validator) -> str:
-    """Say that there was nothing to fix, and what could be fixed otherwise."""
-    others = sorted({finding.rule for finding in validator.findings() if finding.repairs})
+    """Print that there was nothing to fix, and what could be fixed otherwise."""
+    others = sorted({finding.rule for finding in validator.findings() if finding.fix})
     said = f"{options.path}: nothing to fix"
     return said + (f" with these options; there are fixes of {', '.join(others)}" if others else "")
 

@@ -25,10 +25,10 @@ def import_verb(options: argparse.Namespace) -> int:
             options.family,
             format_key=options.format,
             keep_unknown=options.keep_unknown,
-            tell=note,
+            notify=note,
         )
     except FamilyNotGivenError as error:
-        raise UsageError(f"{options.text}: {error} (--family tells it)") from None
+        raise UsageError(f"{options.text}: {error} (name it with --family)") from None
     except UnknownFamilyError as error:
         raise UsageError(str(error)) from None
     except ValueError as error:

@@ -22,17 +22,17 @@ def ports_verb(options: argparse.Namespace) -> int:
         print_json({"ports": [asdict(port) for port in found]})
         return 0
     for port in found:
-        told = ", ".join(
+        description = ", ".join(
             part for part in (port.name, port.manufacturer, port.usb_id, port.serial_number) if part
         )
-        print(f"{port.device:20} {told}".rstrip())
+        print(f"{port.device:20} {description}".rstrip())
     if not found:
         print("There are no serial ports.")
     return 0
 
 
 def identify_verb(options: argparse.Namespace) -> int:
-    """Say who answers at an address, and what it holds."""
+    """Print who answers at an address, and what it contains."""
     if options.family:
         family(options.family)
     with closing(open_driver(options.address, options.family or "")) as driver:
@@ -43,7 +43,7 @@ def identify_verb(options: argparse.Namespace) -> int:
         file = decode_image(content)
         axes, values = axes or list(fitted_axes(file)), len(file.values)
     except ImageError as error:
-        unreadable = str(error) if content else "it holds nothing"
+        unreadable = str(error) if content else "it is empty"
     if options.json:
         print_json({
             "address": options.address, "protocol": control.protocol, "abilities": asdict(abilities),
@@ -60,5 +60,5 @@ def identify_verb(options: argparse.Namespace) -> int:
     print(f"{len(content)} bytes, " + (f"not readable: {unreadable}" if unreadable else f"{values} values"))
     print(f"sha256 {digest}")
     if control.restart_needed:
-        print("What it holds is current after a restart.")
+        print("Its parameters become active after a restart.")
     return 0

@@ -1,4 +1,4 @@
-"""What stands below the help of a verb, and the man page: both from the parser and the examples.
+"""What comes below the help of a verb, and the man page: both from the parser and the examples.
 
 Nothing here loads a schema: help must come at once.
 """
@@ -20,8 +20,8 @@ EXIT_CODES = (
     "0  done, nothing wrong",
     "1  done; what was checked has errors, or the two sides differ",
     "2  the input cannot be used; nothing was changed",
-    "3  something was changed before it failed; the message says what holds now",
-    "4  it is not known whether the control changed; the message says how to find out",
+    "3  something was changed before it failed; the message describes the present state",
+    "4  it is not known whether the control changed; the message explains how to find out",
 )
 _FAMILY = ("schema", "show", "tables", "calculate", "new", "import", "emulate")
 _PARAM = ("show", "set", "get", "fix", "simulate")
@@ -55,7 +55,7 @@ def families() -> tuple[str, ...]:
 
 
 def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield what stands below the help of a verb, or of the program (""): a title and its lines."""
+    """Yield what comes below the help of a verb, or of the program (""): a title and its lines."""
     if verb in ("", *_FAMILY):
         yield "families", (", ".join(families()),)
     if verb == "simulate":

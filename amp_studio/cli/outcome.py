@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 Mark = tuple[int, int, int, int] | str | None
-"""What tells one state of a file from another: device, number, size and time; None where there is no file.
+"""What distinguishes one state of a file from another: device, number, size and time; None where there is no file.
 
-A text says why it cannot be looked at.
+A text gives the reason why it cannot be examined.
 """
 
 
@@ -23,18 +23,18 @@ class Target:
     backup_mark: Mark
 
     def sentence(self) -> str:
-        """Return what holds now where the file has been replaced; nothing where it is as it was."""
+        """Return what is true now where the file has been replaced; nothing where it is as it was."""
         now = _mark(self.path)
         if now == self.mark:
             return ""
         if isinstance(now, str):
-            return f"{self.path} cannot be looked at ({now}): it may have been changed"
+            return f"{self.path} cannot be examined ({now}): it may have been changed"
         if now is None:
             return f"{self.path} is no longer there"
         if self.mark is None:
             return f"{self.path} has been written and is complete"
         kept = f"; its previous content is in {self.backup}" if _mark(self.backup) != self.backup_mark else ""
-        return f"{self.path} has been changed and holds the new content{kept}"
+        return f"{self.path} has been changed and contains the new content{kept}"
 
 
 def targets(paths: Sequence[Path]) -> list[Target]:

@@ -40,11 +40,11 @@ _USUAL = {
     "control": "where the control is reached",
     "shell": "bash, zsh or fish",
 }
-"""Name of an argument -> its help where a verb says nothing else of it."""
+"""Name of an argument -> its help where a verb has no other."""
 
 
 class _Parser(argparse.ArgumentParser):
-    """An argument parser that says what is wrong in one line, and whose help ends with examples."""
+    """An argument parser that reports what is wrong in one line, and whose help ends with examples."""
 
     def __init__(self, *, verb: str = "", **how: Any) -> None:
         self.verb = verb
@@ -59,7 +59,7 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(f"{message} (see '{self.prog} --help')")
 
     def format_help(self) -> str:
-        """Return the help of argparse with what stands below it."""
+        """Return the help of argparse with what comes below it."""
         from .manual import sections
 
         below = (
@@ -68,7 +68,7 @@ class _Parser(argparse.ArgumentParser):
         return "\n\n".join([super().format_help().rstrip(), *below]) + "\n"
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Parse; an option that there is not is told before what is missing because of it."""
+        """Parse; an unknown option is reported before what is missing because of it."""
         for text in () if args is None else args:
             if text == "--" or not (self.verb or text.startswith("-")):
                 break  # what follows are no options, or those of the verb
@@ -103,10 +103,10 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"amp-studio {__version__}")
     verbs = top.add_subparsers(metavar="VERB", required=True, parser_class=_Parser)
 
-    def verb(name: str, module: str, told: str, writes: str = "") -> argparse.ArgumentParser:
+    def verb(name: str, module: str, summary: str, writes: str = "") -> argparse.ArgumentParser:
         """Add a verb; ``writes`` names the option whose file it may replace."""
-        said = f"{told[0].upper()}{told[1:]}."
-        sub: argparse.ArgumentParser = verbs.add_parser(name, help=told, description=said, verb=name)
+        said = f"{summary[0].upper()}{summary[1:]}."
+        sub: argparse.ArgumentParser = verbs.add_parser(name, help=summary, description=said, verb=name)
         sub.set_defaults(verb=f"{name}_verb", module=module, writes=writes.split())
         return sub
 
@@ -125,9 +125,9 @@ def parser() -> argparse.ArgumentParser:
     def to_control(sub: argparse.ArgumentParser, kept: str) -> None:
         sub.add_argument("--to", required=True, metavar="ADDRESS")
         sub.add_argument("--expect", metavar="SHA256",
-                         help="only where the control holds the image with this digest, as verify and upload print it")  # fmt: skip
+                         help="only where the control contains the image with this digest, as verify and upload print it")  # fmt: skip
         sub.add_argument(
-            "--keep", type=_path, metavar="DIR", help=f"where to keep what the control held ({kept})"
+            "--keep", type=_path, metavar="DIR", help=f"where to keep what the control contained ({kept})"
         )
 
     sub = verb("families", "facts", "list the control families")
@@ -210,24 +210,24 @@ def parser() -> argparse.ArgumentParser:
     sub = verb("import", "formats", "a new parameter file from a control's own text format", writes="output")
     sub.add_argument("text", type=_path, metavar="FILE")
     sub.add_argument("-o", "--output", type=_path, required=True)
-    sub.add_argument("--family", help="where the text does not tell it")
-    sub.add_argument("--format", help="where the text does not tell it")
+    sub.add_argument("--family", help="where the text does not show it")
+    sub.add_argument("--format", help="where the text does not show it")
     sub.add_argument(
         "--keep-unknown", action="store_true", help="keep what is not understood, to be written back"
     )
     on_fault(sub)
     sub = verb(
-        "export", "formats", "a parameter file in a text format; the ending tells which", writes="output"
+        "export", "formats", "a parameter file in a text format; the ending shows which", writes="output"
     )
     sub.add_argument("path", type=_path)
     sub.add_argument("-o", "--output", type=_path, required=True)
-    sub.add_argument("--format", help="where the ending does not tell it")
+    sub.add_argument("--format", help="where the ending does not show it")
     secrets_option(sub)
     sub = verb("emulate", "control", "an emulated control that takes downloads and gives uploads")
     sub.add_argument("family")
     sub.add_argument("--listen", required=True, metavar="ADDRESS")
     sub.add_argument("--state", type=_path, metavar="DIR", help="where the control keeps its memory")
-    sub.add_argument("--machine", help="machine type of the file it is born with")
+    sub.add_argument("--machine", help="machine type of the parameters it starts with")
     sub.add_argument("--no-estop", action="store_true", help="start out of E-stop")
     sub.add_argument(
         "--manual-restart", action="store_true", help="do not restart by itself after a download"
@@ -240,7 +240,7 @@ def parser() -> argparse.ArgumentParser:
     )
     sub = verb("ports", "identify", "the serial ports of this computer")
     json_option(sub)
-    sub = verb("identify", "identify", "what answers at an address, and what it holds")
+    sub = verb("identify", "identify", "what answers at an address, and what it contains")
     sub.add_argument("address", metavar="ADDRESS")
     sub.add_argument("--family", help="the family it must be of")
     json_option(sub)
@@ -250,10 +250,12 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--accept-errors",
         action="store_true",
-        help="send a file that has errors; they are listed all the same",
+        help="send a file that has errors; they are listed anyway",
     )
     sub = verb(
-        "restore", "control", "put back what a control held before a download or a restore, byte for byte"
+        "restore",
+        "control",
+        "put back what a control contained before a download or a restore, byte for byte",
     )
     sub.add_argument(
         "copy",
@@ -265,7 +267,7 @@ def parser() -> argparse.ArgumentParser:
     sub = verb(
         "upload",
         "control",
-        "fetch under a new name what a control holds, and print its digest",
+        "fetch under a new name what a control contains, and print its digest",
         writes="output",
     )
     sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
@@ -273,7 +275,7 @@ def parser() -> argparse.ArgumentParser:
                      help="a parameter file; or NAME.img for the image byte for byte, whatever it is")  # fmt: skip
     on_fault(sub)
     sub = verb(
-        "verify", "control", "compare values and every byte with what a control holds; print its digest"
+        "verify", "control", "compare values and every byte with what a control contains; print its digest"
     )
     sub.add_argument("path", type=_path)
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
@@ -301,7 +303,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _path(text: str) -> Path:
-    """Return a path; an empty text, as of a variable that is not set, is not the folder one stands in."""
+    """Return a path; an empty text, as of a variable that is not set, is not the current folder."""
     if not text:
         raise argparse.ArgumentTypeError("an empty text is no path")
     return Path(text)

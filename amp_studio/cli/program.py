@@ -1,4 +1,4 @@
-"""Runs a verb and ends with the truth: an exit code and one line that says what went wrong and what holds now.
+"""Runs a verb and ends with the truth: an exit code and one line on what went wrong and what is true now.
 
 argparse is used because it answers misuse with exit code 2 and costs no start-up time; the module of a verb, with the
 rooms it needs, is loaded when the verb is called.
@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, NoReturn
 
-from .screen import end_results, flush_results, open_streams, tell
+from .screen import end_results, flush_results, open_streams, print_notice
 from .stopping import answer_once, no_more, was_asked
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ FAULT, CHANGED, UNKNOWN = 2, 3, 4
 BEGINNING, END = 1500, 1500
 """Signs of a message that are shown at most."""
 AT_CONTROL = {"old": FAULT, "new": CHANGED, "unknown": UNKNOWN}
-"""The exit code of an exchange by what the control holds after it."""
+"""The exit code of an exchange by what the control contains after it."""
 
 _OBJECTS = 300_000
 """New objects before Python looks for unreachable ones: facts and values are many and stay, a fifth of a check's time."""
@@ -108,7 +108,7 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     except BaseException as error:  # a panic of the rule engine is no Exception
         if was_asked():  # what was interrupted may end in any error
             raise KeyboardInterrupt from None
-        return _refuse(_sentence(error), replaced, AT_CONTROL.get(getattr(error, "held", ""), FAULT))
+        return _refuse(_sentence(error), replaced, AT_CONTROL.get(getattr(error, "at_control", ""), FAULT))
     return code
 
 
@@ -133,18 +133,18 @@ def _leave() -> int:
 
 
 def _one_line(text: str) -> str:
-    """Return a message in one line that can be read, whatever somebody wrote that it repeats; its end says what holds."""
+    """Return a message in one line that can be read, whatever somebody wrote that it repeats; its end describes the present state."""
     line = " ".join(text.split())
     return line if len(line) <= BEGINNING + END else f"{line[:BEGINNING]} … {line[-END:]}"
 
 
 def _refuse(text: str, replaced: Sequence[Target], code: int = FAULT, *, quiet: bool = False) -> int:
-    """Say in one line what went wrong and what holds now, and return the exit code; ``quiet`` where nothing has changed.
+    """Print in one line what went wrong and what is true now, and return the exit code; ``quiet`` where nothing has changed.
 
-    ``code`` is that of what holds at a control.
+    ``code`` is that of the state of a control.
     """
     end_results()
     now = "; ".join(filter(None, (target.sentence() for target in replaced)))
     if now or not quiet:
-        tell(f"amp-studio: {_one_line(text)}{f'; {now}' if now else ''}")
+        print_notice(f"amp-studio: {_one_line(text)}{f'; {now}' if now else ''}")
     return max(code, CHANGED) if now else code

@@ -68,7 +68,7 @@ def end_results() -> None:
         abandon(sys.stdout)
 
 
-def tell(text: str, end: str = "\n") -> None:
+def print_notice(text: str, end: str = "\n") -> None:
     """Print a line on standard error; where nobody can read it the work goes on anyway."""
     stream = sys.stderr
     try:
@@ -80,7 +80,7 @@ def tell(text: str, end: str = "\n") -> None:
         abandon(sys.stderr)
 
 
-def tell_over(text: str, *, last: bool) -> None:
+def print_over(text: str, *, last: bool) -> None:
     """Show a line that the next one replaces, where standard error is a terminal."""
     stream = sys.stderr
     try:

@@ -1,6 +1,6 @@
 """Ctrl-C, answered once and by everything that runs.
 
-The first one raises KeyboardInterrupt; what comes while the verb ends and says what holds now is not heard. Python and
+The first one raises KeyboardInterrupt; what comes while the verb ends and describes the present state is ignored. Python and
 the rule engine lose an interrupt that comes in the wrong moment (while an object is put away, inside a function that an
 expression calls): ``was_asked`` remembers it.
 """
@@ -39,7 +39,7 @@ def was_asked() -> bool:
 def asked_politely() -> Iterator[Stop]:
     """Give the event that Ctrl-C or a kill sets inside, for what must end with the truth of another place.
 
-    What comes later is not heard: the verb knows its result and says it.
+    What comes later is ignored: the verb knows its result and prints it.
     """
     from amp_studio.transfer.interrupts import interrupts
     from amp_studio.transfer.progress import Stop

@@ -10,11 +10,11 @@ import platformdirs
 
 def keep_details(error: BaseException) -> str:
     """Keep the traceback of an unforeseen error and return one sentence that names it and the place."""
-    told = f"this should not have happened ({type(error).__name__}: {error})"
+    message = f"this should not have happened ({type(error).__name__}: {error})"
     try:
         place = Path(platformdirs.user_log_dir("amp-studio")) / "trouble.txt"
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text("".join(traceback.format_exception(error)), encoding="utf-8")
     except OSError:
-        return told
-    return f"{told}; the details are in {place}"
+        return message
+    return f"{message}; the details are in {place}"

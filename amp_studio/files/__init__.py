@@ -5,7 +5,7 @@ two programs on one file notice each other, and a file that is not fully
 understood is refused or kept whole.
 """
 
-from .atomic import ChangedOnDisk, SaveError, Tell, check_output, digest_of, write_atomic
+from .atomic import ChangedOnDisk, Notify, SaveError, check_output, digest_of, write_atomic
 from .axes import (
     AxisError,
     axis_instances,
@@ -49,6 +49,7 @@ __all__ = [
     "HistoryEntry",
     "InUse",
     "InvalidNameError",
+    "Notify",
     "Opened",
     "ParameterFile",
     "ParameterFileError",
@@ -56,7 +57,6 @@ __all__ = [
     "ProjectInfo",
     "RangeError",
     "SaveError",
-    "Tell",
     "Unsaved",
     "axis_instances",
     "axis_title",

@@ -20,7 +20,7 @@ from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_
 from .attributes import keep_attributes
 from .paths import backup_path, companions, destination, real_path, same_file
 
-Tell = Callable[[str], None]
+Notify = Callable[[str], None]
 """Takes one sentence about what a save could not keep."""
 
 
@@ -52,7 +52,7 @@ def _content_of(path: Path) -> bytes | None:
 
 def check_output(path: Path, *inputs: Path) -> None:
     """Refuse an output that cannot be written, or with which one of the inputs would be lost; raises SaveError."""
-    with _told(path):
+    with _as_save_error(path):
         real = destination(path)
     for source in inputs:
         said = ""
@@ -68,25 +68,25 @@ def check_output(path: Path, *inputs: Path) -> None:
 
 def write_atomic(
     path: Path, content: bytes | Callable[[bytes | None], bytes], expected: str | None = "", keep_backup: bool = True,
-    *, companion_of: Path | None = None, tell: Tell = lambda _said: None,
+    *, companion_of: Path | None = None, notify: Notify = lambda _said: None,
 ) -> str:  # fmt: skip
     """Replace a file by new content, all or nothing.
 
     ``content`` may be worked out from the previous content, None where there is no file. ``expected`` is the digest the
     file on disk must still have (None: there must be no file; "": do not look). The previous file becomes the backup.
     A companion is readable by those who may read its file, and takes the place of a link instead of following it.
-    ``tell`` is called after the save with each thing of the old file that could not be kept.
+    ``notify`` is called after the save with each thing of the old file that could not be kept.
     Returns the digest of the new content; raises ChangedOnDisk, SaveError, and what ``content`` raises.
     """
     notes: list[str] = []
-    with _told(path):
+    with _as_save_error(path):
         real = real_path(path.parent) / path.name if companion_of else destination(path)
         looks = expected != "" or callable(content)
         previous = _content_of(real) if looks or keep_backup else None
         if expected != "" and _digest(previous) != expected:
             raise ChangedOnDisk(f"{path.name} {_CHANGED if expected else 'exists already'}")
     made = content(previous) if callable(content) else content
-    with _told(path), contextlib.ExitStack() as stack:
+    with _as_save_error(path), contextlib.ExitStack() as stack:
         like = real if os.path.lexists(real) and not companion_of else companion_of
         temporary = stack.enter_context(_staged(real, made, like, notes))
         kept = None
@@ -102,7 +102,7 @@ def write_atomic(
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
         sync_folder(real.parent)
     for said in notes:
-        tell(f"{path.name}: {said}")
+        notify(f"{path.name}: {said}")
     return digest(made)
 
 
@@ -114,7 +114,7 @@ def _digest(content: bytes | None) -> str | None:
 
 
 @contextlib.contextmanager
-def _told(path: Path) -> Iterator[None]:
+def _as_save_error(path: Path) -> Iterator[None]:
     """Turn errors of the system into one clear sentence."""
     try:
         yield
@@ -157,7 +157,7 @@ def _put_back_unless_saved(kept: Path, temporary: Path) -> Iterator[None]:
     except OSError:
         with contextlib.suppress(OSError):
             if not os.path.lexists(temporary):
-                pass  # it has become the file all the same
+                pass  # it has become the file anyway
             elif has_older:
                 os.replace(older, kept)
             else:

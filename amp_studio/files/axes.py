@@ -137,7 +137,7 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
 
 
 def _unfitted(profile: AxisProfile, axis: str) -> dict[Address, Value]:
-    """Return the value that says that an axis is not there."""
+    """Return the value that marks an axis that is not there."""
     if profile.fitted_by:
         return {(profile.fitted_by, axis): Value(0)}
     return {(profile.type, axis): Value(profile.unfitted or "")}

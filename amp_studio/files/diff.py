@@ -66,7 +66,7 @@ class Conflict:
 def merge(
     base: ParameterFile, ours: ParameterFile, theirs: ParameterFile
 ) -> tuple[ParameterFile, list[Conflict]]:
-    """Return ours with the changes that theirs made to base, and the conflicts, at which ours stands.
+    """Return ours with the changes that theirs made to base, and the conflicts, where ours is kept.
 
     Raises ValueError when the three are not of one family.
     """
@@ -98,8 +98,8 @@ def _merge_unknown(base: dict[str, str], merged: dict[str, str], theirs: dict[st
         if wanted in (was, mine):
             continue
         if mine != was:
-            told = [None if text is None else Value(text) for text in (was, mine, wanted)]
-            conflicts.append(Conflict(read_address(key), *told))
+            values = [None if text is None else Value(text) for text in (was, mine, wanted)]
+            conflicts.append(Conflict(read_address(key), *values))
         elif wanted is None:
             del merged[key]
         else:

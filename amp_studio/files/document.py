@@ -143,7 +143,7 @@ class Document:
         return [Change(a, old, new) for a, old, new in pairs if old != new]
 
     def save(self, how: str = "edit") -> None:
-        """Save in place; the previous file becomes the backup; ``notes`` say what could not be kept.
+        """Save in place; the previous file becomes the backup; ``notes`` lists what could not be kept.
 
         Raises ChangedOnDisk, SaveError, InUse.
         """
@@ -176,8 +176,8 @@ class Document:
         if not changes:
             return
         lines = "".join(
-            json.dumps([now(), user(), how, written(c.address), self._told(c.address, c.old),
-                        self._told(c.address, c.new)]) + "\n"
+            json.dumps([now(), user(), how, written(c.address), self._journal_text(c.address, c.old),
+                        self._journal_text(c.address, c.new)]) + "\n"
             for c in changes
         )  # fmt: skip
         try:
@@ -208,8 +208,8 @@ class Document:
             return entry
         return replace(entry, old=MASKED if entry.old else "", new=MASKED if entry.new else "")
 
-    def _told(self, address: Address, value: Value | None) -> str:
-        """Return a value as the history keeps it: the history goes where the file does not, so no secret stands in it."""
+    def _journal_text(self, address: Address, value: Value | None) -> str:
+        """Return a value as the history keeps it: the history goes where the file does not, so it contains no secret."""
         is_secret = self.file.schema.parameters[address[0]].secret
         return MASKED if is_secret and value is not None else self._text(address, value)
 
@@ -292,7 +292,7 @@ class Document:
 
 
 def recover_backup(path: Path, expected: str | None = "") -> str:
-    """Make the backup the file again; what stood there becomes the backup. Raises FileNotFoundError, ParameterFileError, SaveError."""
+    """Make the backup the file again; what was there becomes the backup. Raises FileNotFoundError, ParameterFileError, SaveError."""
     backup = backup_path(path)
     try:
         content = read_file(backup)

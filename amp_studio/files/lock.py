@@ -73,7 +73,7 @@ class EditLock:
             self.note = f"{self.path.name} could not be locked ({said}): see that no other program changes it"
         self.is_taken = True
         if self._handle is not None:
-            self._tell_who()
+            self._write_owner()
 
     def release(self) -> None:
         """Give the file free. It never fails: what the lock was taken for has been done."""
@@ -109,7 +109,7 @@ class EditLock:
             return "it left no details"
         return visible(left[:_LONGEST_NOTE])
 
-    def _tell_who(self) -> None:
+    def _write_owner(self) -> None:
         """Write who has the lock into a file of his own: a link that somebody put there is removed, not followed."""
         who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"
         with contextlib.suppress(OSError):
@@ -130,7 +130,7 @@ def _locked(place: Path) -> int:
             demand_file(os.fstat(handle))
             try:
                 _lock(handle)
-            except PermissionError:  # so Windows, and some servers of files, say that it is taken
+            except PermissionError:  # so Windows, and some servers of files, report that it is taken
                 raise BlockingIOError from None
             if _still_named(handle, place):
                 return handle

@@ -145,9 +145,9 @@ class ParameterFile:
             self.values[change.address] = change.new
         self.forced.pop(change.address, None)
         self.evaluation.changed(change.address)
-        self._tell(change)
+        self._notify(change)
 
-    def _tell(self, change: Change) -> None:
+    def _notify(self, change: Change) -> None:
         for listener in list(self._listeners):
             listener(change)
 
@@ -156,7 +156,7 @@ class ParameterFile:
 
         Ranges are checked after all of them are in, so that a pair that bounds
         each other can move together; an axis that changes its type takes its
-        values along as angles or lengths. With ``force`` (a text that says by whom
+        values along as angles or lengths. With ``force`` (a text that names by whom
         and when) values out of range are taken and marked; without it they
         raise RangeError and nothing is changed.
         """
@@ -179,7 +179,7 @@ class ParameterFile:
             if address in faults:
                 self.forced[address] = force
             if address not in changed and self.forced.get(address) != marks.get(address):
-                self._tell(Change(address, value, value))  # the value is unchanged, its mark is not
+                self._notify(Change(address, value, value))  # the value is unchanged, its mark is not
         return changes
 
     def refit_units(self, axis: str) -> list[Change]:
@@ -231,7 +231,7 @@ def default_value(schema: Schema, evaluation: Evaluation, address: Address) -> V
 
 
 def _refitted(unit: str, turns: bool, metric: str) -> str:
-    """Return the unit that stands for ``unit`` on an axis that turns, or moves straight."""
+    """Return the unit that corresponds to ``unit`` on an axis that turns, or moves straight."""
     if turns:
         return angular(unit) if "deg" in metric else unit
     return "mm" + unit[3:] if unit.startswith("deg") and metric.startswith("mm") else unit

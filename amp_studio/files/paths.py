@@ -95,7 +95,7 @@ def _beside(path: Path, pattern: str) -> Path:
 
 
 def text_of_name(name: str) -> str:
-    """Return a file name as text that every file can hold: bytes of it that are no text become a mark."""
+    """Return a file name as text that every file can contain: bytes of it that are no text become a mark."""
     return os.fsencode(name).decode("utf-8", "replace")
 
 

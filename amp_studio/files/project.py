@@ -212,8 +212,8 @@ def _content(info: ProjectInfo, previous: bytes | None) -> str:
         known = document.data if isinstance(document.data, dict) else {}
         own = {k: known[k] for k in known if k not in wanted}
         kept = {k: known[k] if k in known and not v and not known[k] else v for k, v in wanted.items()}
-        told = {k: v for k, v in kept.items() if v or k in known} | {_VERSION: str(PROJECT_FORMAT)}
-        text = amended(document, known, told | own) if known else None
+        entries = {k: v for k, v in kept.items() if v or k in known} | {_VERSION: str(PROJECT_FORMAT)}
+        text = amended(document, known, entries | own) if known else None
         if text is not None:
             return text
     return new_text({k: v for k, v in wanted.items() if v} | info.extra)

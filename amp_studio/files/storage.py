@@ -39,7 +39,7 @@ from amp_studio.schema.regular_file import read_file
 from amp_studio.schema.values import checked
 from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
 
-from .atomic import SaveError, Tell, digest, write_atomic
+from .atomic import Notify, SaveError, digest, write_atomic
 from .parameter_file import Header, ParameterFile
 from .yaml_text import amended, new_text, without_stray_tabs
 
@@ -175,7 +175,7 @@ class _FileReader:
             if not isinstance(said, str):
                 raise self._fault(f"{short(key)} has no single value", "values", key)
             if address in file.values or key in file.unknown:  # "x" and "x@"
-                raise self._fault(f"{quoted(written(address))} stands twice", "values", key)
+                raise self._fault(f"{quoted(written(address))} occurs twice", "values", key)
             try:
                 value = _value(file, address, said)
             except InvalidValueError as error:
@@ -302,16 +302,18 @@ def _entries(file: ParameterFile) -> dict[str, str]:
 
 
 def save_file(
-    file: ParameterFile, path: Path, expected: str | None = None, tell: Tell = lambda _said: None
+    file: ParameterFile, path: Path, expected: str | None = None, notify: Notify = lambda _said: None
 ) -> str:
     """Save a file, all or nothing; the previous file becomes the backup.
 
     ``expected`` is the digest the file had when it was opened, None for a new
-    one; ``tell`` is called with what could not be kept. The content is read back before it replaces anything.
+    one; ``notify`` is called with what could not be kept. The content is read back before it replaces anything.
     Returns the new digest; raises ChangedOnDisk or SaveError.
     """
     file.header.signature = file.schema.signature
-    return write_atomic(path, lambda previous: readable_content(file, path, previous), expected, tell=tell)
+    return write_atomic(
+        path, lambda previous: readable_content(file, path, previous), expected, notify=notify
+    )
 
 
 def readable_content(file: ParameterFile, path: Path, previous: bytes | None = None) -> bytes:
@@ -362,5 +364,5 @@ def _difference(file: ParameterFile, again: ParameterFile) -> str:
         return "the marks of force would be read back as others"
     plain = replace(file.header, extra={}) == replace(again.header, extra={})
     if not plain or repr(file.header.extra) != repr(again.header.extra):
-        return "what the file says of itself would be read back otherwise"
+        return "the head of the file would be read back otherwise"
     return ""

@@ -1,6 +1,6 @@
 """Writes YAML, and changes entries of a YAML text without touching another byte of it.
 
-What did not change stays as a person wrote it: remarks, order, spelling, line ends. A new entry stands behind the one
+What did not change stays as a person wrote it: remarks, order, spelling, line ends. A new entry comes after the one
 before it in the given order; a remark below an entry that goes belongs to what follows, and stays.
 """
 
@@ -89,8 +89,8 @@ def entry_lines(key: Any, value: Any, indent: str = "") -> Iterator[str]:
             is_scalar = isinstance(item, str) or not isinstance(item, (Mapping, Sequence))
             yield f"{indent}- {scalar_text(item) if is_scalar else _flow_text(item)}"
     else:
-        told = _flow_text(value) if isinstance(value, (Mapping, list, tuple)) else scalar_text(value)
-        yield f"{indent}{name}: {told}"
+        text = _flow_text(value) if isinstance(value, (Mapping, list, tuple)) else scalar_text(value)
+        yield f"{indent}{name}: {text}"
 
 
 def new_text(entries: Mapping[str, Any], end: str = "") -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from amp_studio.files import Header, ParameterFile, Tell, without_secrets, write_atomic
+from amp_studio.files import Header, Notify, ParameterFile, without_secrets, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.registration import load_part, registered_families, registration_of
@@ -21,7 +21,7 @@ _MOST_BYTES = 4 * 2**20
 
 
 def all_formats() -> tuple[TextFormat, ...]:
-    """Return every format, in the order in which a text is looked at when nobody says which family it is for."""
+    """Return every format, in the order in which they are tried when nobody names the family of a text."""
     return (*GENERAL, *(own for family in registered_families() for own in _own_formats(family)))
 
 
@@ -36,12 +36,12 @@ def _own_formats(family: str) -> tuple[TextFormat, ...]:
 
 def import_file(
     path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False,
-    tell: Callable[[str], None] = lambda _said: None,
+    notify: Callable[[str], None] = lambda _said: None,
 ) -> ParameterFile:  # fmt: skip
-    """Return the parameters a text file holds, in a file that holds nothing else; values out of range are in it too.
+    """Return the parameters of a text file, in a file that contains nothing else; values out of range are in it too.
 
-    ``tell`` is called with what a person should know of a text that was taken: words it leaves out.
-    Without a family, the format or the text has to tell it. Raises FormatError with line and column,
+    ``notify`` is called with what a person should know of a text that was taken: words it leaves out.
+    Without a family, the format or the text has to name it. Raises FormatError with line and column,
     UnknownFamilyError, OSError.
     """
     content = read_file(path, _MOST_BYTES)
@@ -54,12 +54,12 @@ def import_file(
     schema = load_schema(family or _only_family(chosen))
     read = chosen.read(text, schema, keep_unknown)
     for said in read.notes:
-        tell(said)
+        notify(said)
     return file_of(schema, read, path.stem)
 
 
 def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
-    """Return the parameter file of what a text says; the rest is not set."""
+    """Return the parameter file of a text; the rest is not set."""
     applications = schema.family.applications
     header = Header(
         name=read.name or name,
@@ -79,12 +79,12 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
 
 
 def export_file(
-    file: ParameterFile, path: Path, format_key: str | None = None, tell: Tell = lambda _said: None,
+    file: ParameterFile, path: Path, format_key: str | None = None, notify: Notify = lambda _said: None,
     *, secrets: bool = False,
 ) -> TextFormat:  # fmt: skip
     """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
 
-    Secret values are left out unless ``secrets`` asks for them; ``tell`` is called with what of the old file could not be
+    Secret values are left out unless ``secrets`` asks for them; ``notify`` is called with what of the old file could not be
     kept. Raises FormatError for a format that is not offered or a value it cannot write, SaveError.
     """
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
@@ -96,7 +96,7 @@ def export_file(
         raise FormatError(
             f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
         ) from None
-    write_atomic(path, content, tell=tell)
+    write_atomic(path, content, notify=notify)
     return chosen
 
 
@@ -139,5 +139,5 @@ def families_of(chosen: TextFormat) -> tuple[str, ...]:
 def _only_family(chosen: TextFormat) -> str:
     families = families_of(chosen)
     if len(families) != 1:
-        raise FamilyNotGivenError(f"a {chosen.title} does not tell which family it is for")
+        raise FamilyNotGivenError(f"a {chosen.title} does not show which family it is for")
     return families[0]

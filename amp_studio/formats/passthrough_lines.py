@@ -1,8 +1,8 @@
-"""What a script says besides settings: kept in the parameter file, and written back in its place.
+"""What a script contains besides settings: kept in the parameter file, and written back in its place.
 
-Each line that is not understood is an unknown entry of the parameter file (``acr line 5: PLC0``). Where they stood is
-kept in the header, as the list of all lines of the script: a setting stands there as a mark, ``{axes.pulses@X}``, so
-that its value is in one place only, and so does a line that is not understood, ``{line 5}``.
+Each line that is not understood is an unknown entry of the parameter file (``acr line 5: PLC0``). Where they were is
+kept in the header, as the list of all lines of the script: a setting is there as a mark, ``{axes.pulses@X}``, so
+that its value is in one place only, and so is a line that is not understood, ``{line 5}``.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def keep(found: TextRead, kind: str, rows: Sequence[Row]) -> None:
     unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
     if unknown:
         found.unknown = unknown
-        found.extra[f"{kind}_script"] = {"lines": [_told(row) for row in rows]}
+        found.extra[f"{kind}_script"] = {"lines": [_row_text(row) for row in rows]}
 
 
 def kept(file: ParameterFile, kind: str) -> list[str] | None:
@@ -42,8 +42,8 @@ def kept(file: ParameterFile, kind: str) -> list[str] | None:
     """
     start = f"{kind} line "
     unknown = {key.removeprefix(start): text for key, text in file.unknown.items() if key.startswith(start)}
-    told = file.header.extra.get(f"{kind}_script")
-    lines = told.get("lines") if isinstance(told, dict) else None
+    entry = file.header.extra.get(f"{kind}_script")
+    lines = entry.get("lines") if isinstance(entry, dict) else None
     rows = []
     for line in lines if isinstance(lines, list) else []:
         found = re.fullmatch(r"\{line (.*)\}", str(line))
@@ -54,12 +54,12 @@ def kept(file: ParameterFile, kind: str) -> list[str] | None:
     if unknown:
         lost = f"{start}{next(iter(unknown))}"
         raise FormatError(
-            f"'{lost}' is kept in the file, and '{kind}_script' in its header does not say where it stood"
+            f"'{lost}' is kept in the file, and '{kind}_script' in its header does not show where it was"
         )
     return rows or None
 
 
-def _told(row: Row) -> str:
+def _row_text(row: Row) -> str:
     return mark(f"line {row.kept_as}") if row.kept_as else row.text
 
 
@@ -72,7 +72,7 @@ def mark(what: str) -> str:
 
 
 def marked(text: str) -> str | None:
-    """Return what a mark stands for; None for text that is none."""
+    """Return what a mark means; None for text that is none."""
     text = text.strip()
     return text[1:-1] if text.startswith("{") and not text.startswith("{{") and text.endswith("}") else None
 
@@ -94,7 +94,7 @@ def neighbours(
 ) -> dict[T | None, list[T]]:
     """Return where what is not there yet belongs: behind the one before it in ``order``, None for the front.
 
-    With the lines of those that are there it is that of all before it which stands last.
+    With the lines of those that are there it is that of all before it which comes last.
     """
     present, last = set(there), None
     found: dict[T | None, list[T]] = {}

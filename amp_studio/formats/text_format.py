@@ -1,6 +1,6 @@
 """What a text format is: a family's own notation for its parameters, read from text and written to it.
 
-A reader gives the values it understood and, if it was told to keep them, the
+A reader gives the values it understood and, if it was asked to keep them, the
 entries it did not; it raises FormatError at the first line that cannot be
 meant, and nothing is imported then.
 """
@@ -24,19 +24,19 @@ class FormatError(ValueError):
 
 
 class FamilyNotGivenError(FormatError):
-    """A text of a format that several families share: which one it is for has to be said."""
+    """A text of a format that several families share: which one it is for has to be named."""
 
 
 @dataclass
 class TextRead:
-    """What a text says."""
+    """What a text contains."""
 
     values: dict[Address, Value] = field(default_factory=dict)
     unknown: dict[str, str] = field(default_factory=dict)
     """Entries that the format has and the schema does not: kept in the parameter file, and written back."""
     name: str = ""
     machine: str = ""
-    """Machine type, where the text tells it."""
+    """Machine type, where the text names it."""
     extra: dict[str, object] = field(default_factory=dict)
     """What the format needs to write the same text again: kept in the header of the parameter file."""
     notes: list[str] = field(default_factory=list)
@@ -53,9 +53,9 @@ class TextFormat:
     ending: str
     """Of the files it writes, with the point."""
     recognises: Callable[[str], bool]
-    """Tells from a text whether it is meant for this format."""
+    """Returns whether a text is meant for this format."""
     read: Callable[[str, Schema, bool], TextRead]
-    """Reads a text for a family; the last argument says whether to keep what is not understood."""
+    """Reads a text for a family; the last argument decides whether to keep what is not understood."""
     write: Callable[[ParameterFile], str]
     """Writes a file; raises FormatError for a value it cannot write."""
     encoding: str = "utf-8"

@@ -1,7 +1,7 @@
 """Values as a table for a spreadsheet: one line a value, RFC 4180, UTF-8 with the mark Excel looks for.
 
 Any table with the columns ``id``, ``value`` and ``unit`` can be read, the CSV of a report too; ``instance`` may be
-missing for values of the control as a whole. Other columns are not looked at.
+missing for values of the control as a whole. Other columns are ignored.
 """
 
 from __future__ import annotations
@@ -78,15 +78,15 @@ def _take(
                 f"{schema.family.name} has no {short(written(address))}", line, heads.index("id") + 1
             )
         if written(address) in found.unknown:
-            raise FormatError(f"{short(written(address))} stands twice", line, heads.index("id") + 1)
+            raise FormatError(f"{short(written(address))} occurs twice", line, heads.index("id") + 1)
         found.unknown[written(address)] = said
         return
     if address in found.values:
-        raise FormatError(f"{written(address)} stands twice", line, heads.index("id") + 1)
+        raise FormatError(f"{written(address)} occurs twice", line, heads.index("id") + 1)
     if not row["value"].strip():
         return
     if is_mask(parameter, row["value"]):
-        found.notes.append(f"{written(address)} is a secret that this table does not tell; it is not set")
+        found.notes.append(f"{written(address)} is a secret that this table does not contain; it is not set")
         return
     try:
         found.values[address] = read_stored(schema, parameter, said)

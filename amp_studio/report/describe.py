@@ -135,7 +135,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         "params": [here.short(a) for a in finding.addresses],
         "compared": [here.short(a) for a in finding.compared],
         "message": finding.message,
-        "fix": [_setting_json(file, setting) for setting in finding.repairs],
+        "fix": [_setting_json(file, setting) for setting in finding.fix],
         "effective": [_setting_json(file, setting) for setting in finding.effective],
         "source": finding.page,
     }  # fmt: skip
@@ -155,7 +155,7 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
     page = f" ({finding.cited})" if finding.page else ""
     severity = severity_name(finding.severity)
     lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
-    for what, settings in (("effective value", finding.effective), ("suggested fix", finding.repairs)):
+    for what, settings in (("effective value", finding.effective), ("suggested fix", finding.fix)):
         if settings:
             values = ", ".join(
                 f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"
@@ -167,7 +167,7 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
 
 def suppressed_text(file: ParameterFile, left: Suppressed) -> str:
     """Return a suppressed finding as two lines for the terminal."""
-    text = finding_text(file, replace(left.finding, repairs=(), effective=()))
+    text = finding_text(file, replace(left.finding, fix=(), effective=()))
     return f"suppressed {text}\n         by {left.suppression.by}: {left.suppression.reason}"
 
 

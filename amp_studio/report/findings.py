@@ -25,7 +25,7 @@ def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]
 
 
 def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
-    """Return findings in their order, those together that say the same of several axes."""
+    """Return findings in their order, those together that report the same of several axes."""
     found: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in findings:
         found.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
@@ -33,7 +33,7 @@ def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
 
 
 def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
-    """Return what several findings say alike, in a line or more for the terminal: ``axes X, Y: …``."""
+    """Return what several findings have in common, in a line or more for the terminal: ``axes X, Y: …``."""
     if len(same) == 1:
         return finding_text(file, same[0])
     note = _note(file, same, set())
@@ -44,8 +44,8 @@ def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
     first = f"{place}{names}{': ' if names else ''}{note.message}"
     cited = f" ({same[0].cited})" if same[0].page else ""
     lines = [f"{severity_name(note.severity):8} {first}{cited}"]
-    if note.repair:
-        lines.append(f"         suggested fix: {note.repair}")
+    if note.fix:
+        lines.append(f"         suggested fix: {note.fix}")
     return "\n".join(lines)
 
 
@@ -62,14 +62,14 @@ def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: s
         finding, why = suppressed.finding, suppressed.suppression
         message = f"{finding.message} Suppressed by {why.by}: {why.reason}"
         alike.setdefault((finding.rule, message), []).append(
-            replace(finding, message=message, repairs=(), effective=())
+            replace(finding, message=message, fix=(), effective=())
         )
     return tuple(replace(_note(file, same, printed), severity="suppressed") for same in alike.values())
 
 
 def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:
     addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
-    repairs = list(dict.fromkeys(r for f in same for r in f.repairs))
+    fix = list(dict.fromkeys(r for f in same for r in f.fix))
     used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective))))
     return Note(
         severity=same[0].severity,
@@ -77,7 +77,7 @@ def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> No
         place=_places(file, addresses),
         about=tuple(_links(file, addresses, printed)),
         message=same[0].message + (f" Effective value in the control: {used}." if used else ""),
-        repair="; ".join(_settings(file, repairs)),
+        fix="; ".join(_settings(file, fix)),
         page=same[0].page or "",
         is_own=same[0].is_own,
     )

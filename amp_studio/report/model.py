@@ -181,7 +181,7 @@ class Note:
     about: tuple[tuple[str, str], ...]
     """(anchor, label) of its values; the anchor is empty for a value that the report does not print."""
     message: str
-    repair: str
+    fix: str
     page: str
     is_own: bool = False
     """Whether it belongs to a builder's rule; ``page`` is then the place in the rules file."""

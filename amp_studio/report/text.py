@@ -81,8 +81,8 @@ def _finding(note: Note) -> Iterator[str]:
     yield from _wrapped((f"{note.place}: " if note.place else "") + note.message + page, "  - ")
     if note.about:
         yield from _wrapped(", ".join(label for _, label in note.about), "    about  ")
-    if note.repair:
-        yield from _wrapped(note.repair, "    fix    ")
+    if note.fix:
+        yield from _wrapped(note.fix, "    fix    ")
 
 
 def _values(title: str, rows: Sequence[ReportRow]) -> Iterator[str]:

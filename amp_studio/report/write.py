@@ -6,7 +6,7 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, Tell, write_atomic
+from amp_studio.files import Notify, ParameterFile, write_atomic
 from amp_studio.validate import NO_RULES, BuilderRules
 
 from .build import build_report
@@ -34,14 +34,14 @@ def write_report(
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
     secrets: bool = False,
-    tell: Tell = lambda _note: None,
+    notify: Notify = lambda _note: None,
 ) -> None:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
 
     ``sort`` is one of the three orders, ``changed_only`` keeps
     what differs from the printed default, ``source`` is the path of the file
     on disk, ``date`` is printed (now when left out), ``own`` are the builder's rules, and ``secrets`` prints
-    passwords in clear text; ``tell`` is called with each attribute of a replaced file that could not be kept. Raises
+    passwords in clear text; ``notify`` is called with each attribute of a replaced file that could not be kept. Raises
     ValueError for an unknown file extension or order, SaveError when it cannot be
     written.
     """
@@ -51,4 +51,4 @@ def write_report(
     report = build_report(
         file, sort=sort, changed_only=changed_only, source=source, date=date, own=own, secrets=secrets
     )
-    write_atomic(path, render(report), keep_backup=False, tell=tell)
+    write_atomic(path, render(report), keep_backup=False, notify=notify)

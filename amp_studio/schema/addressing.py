@@ -123,7 +123,9 @@ def _whole(evaluation: FileState, text: str) -> Meant:
         return Meant(words[0], None, text)
     if words:
         first, last = (evaluation.machine_schema.number(a) for a in (words[0], words[-1]))
-        raise UnknownParameterError(f"{quoted(text)} has {len(words)} words, {first} to {last}: say which")
+        raise UnknownParameterError(
+            f"{quoted(text)} has {len(words)} words, {first} to {last}: name one of them"
+        )
     raise UnknownParameterError(*unknown(schema, text))
 
 
@@ -151,14 +153,14 @@ def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: 
         named = " and ".join(map(whole_of, alike))
         ways = " or ".join(f"{parameter.id}@{i}" for i in alike)
         raise UnknownParameterError(
-            f"{quoted(text)}: the axes {named} are all named {instance.upper()}: say {ways}"
+            f"{quoted(text)}: the axes {named} are all named {instance.upper()}: write {ways}"
         )
     letters = "" if len(instances) < 2 else _letters(evaluation, parameter)
     raise UnknownParameterError(f"{quoted(text)}: {parameter.name} {_offered(instances)}{letters}")
 
 
 def _letters(evaluation: FileState, parameter: Parameter) -> str:
-    """Return the letters of the axes that can stand for the instances of a parameter."""
+    """Return the letters of the axes that can name the instances of a parameter."""
     if not evaluation.machine_schema.kin(evaluation.scope((parameter.id, "")), "axis"):
         return ""
     letters = dict.fromkeys(name for axis, name in _axis_names(evaluation) if _is_fitted(evaluation, axis))
@@ -172,7 +174,7 @@ def axis_meant(evaluation: FileState, instances: tuple[str, ...], text: str) -> 
         return found[0]
     if found:
         raise UnknownParameterError(
-            f"the axes {' and '.join(found)} are all named {text.upper()}: say which by number"
+            f"the axes {' and '.join(found)} are all named {text.upper()}; give it by number"
         )
     raise UnknownParameterError(f"there is no axis {quoted(text)}")
 

@@ -29,7 +29,7 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
     pieces = text.split(",", _MOST) if len(text) <= _LONGEST else []
     word, at, unknown = 0, 0, []
     while at < len(pieces):
-        for end in range(len(pieces), at, -1):  # a label may hold commas itself
+        for end in range(len(pieces), at, -1):  # a label may contain commas itself
             entry = ",".join(pieces[at:end]).strip()
             try:
                 found = _with_entry(parameter, word, entry)
@@ -56,9 +56,9 @@ def no_label(parameter: Parameter, text: str) -> str:
     near = [labels[n] for n in get_close_matches(plain(text[:80]), labels, 3, 0.5)]
     if near:
         return f"{quoted(text)} is no bit of {parameter.name}. Did you mean: {', '.join(near)}"
-    told = list(labels.values())
-    more = f" and {len(told) - _SHOWN} more" if len(told) > _SHOWN else ""
-    return f"{quoted(text)} is no bit of {parameter.name}, whose bits are {', '.join(told[:_SHOWN])}{more}"
+    names = list(labels.values())
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return f"{quoted(text)} is no bit of {parameter.name}, whose bits are {', '.join(names[:_SHOWN])}{more}"
 
 
 def _with_entry(parameter: Parameter, word: int, entry: str) -> int | None:

@@ -35,7 +35,7 @@ Program = Any
 compile_expression = _module.compile
 Context = _module.Context
 
-# A function that makes no sense of its arguments ends the expression, and that is all there is to say; CEL also logs
+# A function that makes no sense of its arguments ends the expression, and no more is known; CEL also logs
 # it, which without a handler would come out on standard error.
 logging.getLogger("cel").addHandler(logging.NullHandler())
 

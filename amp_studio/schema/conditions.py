@@ -20,7 +20,7 @@ Asked = tuple[str, str, str | None]
 """What is asked (a condition, an entry of ``reads``), for which instance, of which scope."""
 
 Reach = Literal["all", "whole", "each"]
-"""For what a condition holds alike: for all instances, for the parts of one, or for each by itself."""
+"""For what a condition has the same answer: for all instances, for the parts of one, or for each by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class StatePlan:
     """How the state of a parameter is found: one plan for all that have the same."""
 
     steps: tuple[tuple[Asked, bool, StateInfo], ...]
-    """A condition, whether it has to hold or not to hold, and what the state is then; the first one decides."""
+    """A condition, whether it has to be true or false, and what the state is then; the first one decides."""
     otherwise: StateInfo
 
 
@@ -143,7 +143,7 @@ class Conditions:
         )
 
     def asked(self, name: str, instance: str, scope: str | None) -> Asked:
-        """Return what to ask for a condition to hold for an instance: the same for all for which it holds alike."""
+        """Return what to ask for a condition to be true for an instance: the same for all with the same answer."""
         reach = self.reaches.get(name)
         if reach == "all":
             return name, "", None

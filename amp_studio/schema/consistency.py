@@ -1,4 +1,4 @@
-"""What the fact files of a family say of each other: names that must exist, and stand once."""
+"""What the fact files of a family name of each other: names that must exist, and only once."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
         for position, parameter in enumerate(group.parameters):
             here: KeyPath = ("parameters", position)
             if parameter.id in seen:
-                yield Inconsistency(group.key, (*here, "id"), f"{parameter.id} stands twice")
+                yield Inconsistency(group.key, (*here, "id"), f"{parameter.id} occurs twice")
             seen.add(parameter.id)
             own = group.own_states(parameter)
             for place, what in (

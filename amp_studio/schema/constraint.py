@@ -22,7 +22,7 @@ from .values import MASKED, digits_of, show_value, write_number
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The bounds that hold for one instance in one unit; None where there is none."""
+    """The bounds that apply to one instance in one unit; None where there is none."""
 
     low: float | None
     high: float | None
@@ -46,7 +46,7 @@ class Limits:
 
 
 def ranges_of(evaluation: Evaluation, address: Address) -> dict[str, Range]:
-    """Return the ranges that hold for one instance: the plain ones, or those of a variant."""
+    """Return the ranges that apply to one instance: the plain ones, or those of a variant."""
     parameter = evaluation.schema.parameters[address[0]]
     for variant in parameter.range_variants:
         if evaluation.holds(variant.when, address[1], evaluation.scope(address)):
@@ -55,7 +55,7 @@ def ranges_of(evaluation: Evaluation, address: Address) -> dict[str, Range]:
 
 
 def limits(evaluation: Evaluation, address: Address, unit: str) -> Limits | None:
-    """Return the bounds of one instance in ``unit``: the range, as far as the control's words can hold it.
+    """Return the bounds of one instance in ``unit``: the range, as far as the control's words can store it.
 
     None when there is neither.
     """
@@ -76,7 +76,7 @@ def limits(evaluation: Evaluation, address: Address, unit: str) -> Limits | None
 
 
 def _storable(parameter: Parameter, unit: str) -> tuple[float, float] | None:
-    """Return the smallest and the largest number that the control's words can hold, in ``unit``."""
+    """Return the smallest and the largest number that the control's words can store, in ``unit``."""
     storage = parameter.storage
     if storage is None or storage.bits is None or parameter.type not in ("integer", "real"):
         return None
@@ -163,7 +163,7 @@ def _beyond(found: float, allowed: Limits) -> tuple[tuple[float | None, Address 
 
 
 def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | None:
-    """Say why a word format is not allowed; its digits before and behind the point each have their own bounds."""
+    """Return why a word format is not allowed; its digits before and behind the point each have their own bounds."""
     low, high = ranges_of(evaluation, address).get("", (None, None))
     for index in (0, 1):
         digits = digits_of(form)[index]
@@ -175,7 +175,7 @@ def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | 
 
 
 def _bits_fault(parameter: Parameter, word: int) -> str | None:
-    """Say why a word of bits is not allowed: too wide for the control, or a code that a field does not have."""
+    """Return why a word of bits is not allowed: too wide for the control, or a code that a field does not have."""
     width = parameter.storage.bits if parameter.storage else None
     if word < 0 or (width is not None and word >> width):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"

@@ -89,7 +89,7 @@ class Evaluation:
             raise UnknownParameterError(f"the family has no condition '{name}'") from None
 
     def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
-        """Return whether a named condition holds for an instance (of a ``scope``); false for a condition over a value that is not set."""
+        """Return whether a named condition is true for an instance (of a ``scope``); false for a condition over a value that is not set."""
         return self._held(self._conditions.asked(name, instance, scope))
 
     def _held(self, asked: Asked) -> bool:

@@ -69,7 +69,7 @@ class Decision:
     def holds(
         self, key: Hashable, names: Sequence[str], values: Sequence[Any], circumstances: Circumstances
     ) -> bool:
-        """Return whether it is true of values; ``key`` stands for them, and is the same for equal ones alone.
+        """Return whether it is true of values; ``key`` identifies them, and is the same for equal ones alone.
 
         It is not where it makes no sense of them: neither CEL nor the functions make any of a value that is not set.
         """
@@ -109,7 +109,7 @@ def program(expression: str) -> Program:
 
 
 def same_values(values: Sequence[Canonical | list[Canonical]]) -> Hashable:
-    """Return what is equal only for values that CEL cannot tell apart: Python takes 1 and True for equal."""
+    """Return what is equal only for values that CEL cannot distinguish: Python takes 1 and True for equal."""
     kinds = tuple(map(type, values))
     if list not in kinds:
         return kinds, tuple(values)

@@ -91,7 +91,7 @@ def load_compiled(family_id: str) -> Compiled:
         try:
             return Compiled.model_validate_json(kept)
         except ValidationError:
-            report_unusable(cached, "it holds no facts")
+            report_unusable(cached, "it contains no facts")
     compiled = compile_family(folder)
     write_cached(cached, compiled.model_dump_json(exclude_defaults=True).encode(), family_id)
     return compiled
@@ -112,14 +112,14 @@ def compile_family(folder: Path) -> Compiled:
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
         raise DatabaseError(path, _parsed(path).line(fault.place), fault.what)
-    # What stands in one place for several parameters has reached them.
+    # What is written once for several parameters has reached them.
     family = family.model_copy(update={"choice_lists": {}, "bit_lists": {}})
     groups = tuple(group.model_copy(update={"states": (), "last_states": ()}) for group in groups)
     return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables, guides=guides)
 
 
 def _of(family: Family, folder: Path) -> list[Path]:
-    """Return the files of a folder in the order of the groups they are called after; others stand behind."""
+    """Return the files of a folder in the order of the groups they are called after; others come after them."""
     order = {key: n for n, key in enumerate(family.groups)}
     return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
 
@@ -136,14 +136,14 @@ class Entry:
 
 
 def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[DatabaseError]]:
-    """Read a file of named lists: every item that stands in one, and what is wrong with the lists."""
+    """Read a file of named lists: every item of one, and what is wrong with the lists."""
     try:
         document = read_yaml_file(path, DatabaseError, most=_MOST_RULES)
     except DatabaseError as fault:
         return [], [fault]
     data = document.data
     if not isinstance(data, dict):
-        return [], [] if data is None else [DatabaseError(path, 1, f"holds no {' and no '.join(kinds)}")]
+        return [], [] if data is None else [DatabaseError(path, 1, f"has no {' and no '.join(kinds)}")]
     entries: list[Entry] = []
     faults: list[DatabaseError] = []
     for key, listed in data.items():
@@ -153,7 +153,11 @@ def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[
             ]
         elif listed is not None or key not in kinds:
             name = short(str(key))
-            said = f"{name}: is no list" if key in kinds else f"{name}: here stand {', '.join(kinds)}"
+            said = (
+                f"{name}: is no list"
+                if key in kinds
+                else f"{name}: this file contains only {', '.join(kinds)}"
+            )
             faults.append(DatabaseError(path, document.line((key,)), said))
     return entries, faults
 
@@ -187,14 +191,14 @@ def _error_of(path: Path, document: YamlDocument, found: list[Slip]) -> Database
     found = sorted(found, key=lambda slip: document.line(slip[0]))
     entry, name = _entry(document.data, found[0][0])
     first = document.line(found[0][0])
-    told = []
+    messages = []
     for place, what in found:
         if _entry(document.data, place)[0] == entry:
             line = document.line(place)
             keys = [short(key) for key in place[len(entry) :] if isinstance(key, str)]
-            told.append(": ".join([*keys, what]) + (f" (line {line})" if line != first else ""))
-    more = f"; and {len(told) - _MOST_SLIPS} more" if len(told) > _MOST_SLIPS else ""
-    return DatabaseError(path, first, f"{name}{'; '.join(told[:_MOST_SLIPS])}{more}")
+            messages.append(": ".join([*keys, what]) + (f" (line {line})" if line != first else ""))
+    more = f"; and {len(messages) - _MOST_SLIPS} more" if len(messages) > _MOST_SLIPS else ""
+    return DatabaseError(path, first, f"{name}{'; '.join(messages[:_MOST_SLIPS])}{more}")
 
 
 def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:

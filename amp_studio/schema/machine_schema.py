@@ -12,7 +12,7 @@ from .address import Address, written
 from .model import Family, Layout, Numbers, Parameter, Scope
 
 _LETTERS = string.ascii_lowercase + "$"
-"""What may stand before a number: Pr61, R3, $130."""
+"""What may come before a number: Pr61, R3, $130."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,7 +109,7 @@ class MachineSchema:
         return self._claims.get(text) or self._claims.get(self._bare_numbers.get(text, ""), [])
 
     def words(self, number: str) -> list[Address]:
-        """Return the words of a number of which each has one of its own: those of ``P21`` are ``P21N0``, ``P21N1``, …."""
+        """Return the words of a number of which each has a separate one: those of ``P21`` are ``P21N0``, ``P21N1``, …."""
         return self._words.get(number.strip().casefold(), [])
 
     @cached_property

@@ -47,7 +47,7 @@ def slips(error: ValidationError, data: object, model: type[BaseModel]) -> list[
 
 
 def _keys_at(kind: Any, place: KeyPath) -> Iterable[str]:
-    """Return the keys of the record that stands at a place of what a type describes."""
+    """Return the keys of the record at a place of what a type describes."""
     origin, inner = get_origin(kind), get_args(kind)
     if origin is Annotated:
         return _keys_at(inner[0], place)

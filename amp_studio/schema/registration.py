@@ -24,7 +24,7 @@ class Registration:
     """What one family brings in code. Parts are named ``module:NAME``; each may be missing.
 
     ``formulas``  a mapping of names to functions: the published formulas, for rules and calculators
-    ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which a text is looked at
+    ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which they are tried on a text
     ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``

@@ -1,7 +1,7 @@
 """The one gate through which a named path is read: a file of bounded size, or an error with what it is instead.
 
 A named pipe would be waited for, /dev/zero would fill the memory, and opening a serial port moves its lines. So the kind
-is looked at before anything is opened, and again on the open handle: the name may mean something else by then.
+is checked before anything is opened, and again on the open handle: the name may mean something else by then.
 """
 
 from __future__ import annotations

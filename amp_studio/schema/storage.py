@@ -28,7 +28,7 @@ class StorageError(InvalidValueError):
 
 
 def exact(number: float) -> Fraction:
-    """Return the number that a person reads, not the double that stands for it: 65.536 is 65536 thousandths."""
+    """Return the number that a person reads, not the double that approximates it: 65.536 is 65536 thousandths."""
     return Fraction(Decimal(repr(number)))
 
 
@@ -146,7 +146,7 @@ def choice_of(parameter: Parameter, number: int) -> Value:
 
 
 def stored_range(parameter: Parameter) -> tuple[int, int]:
-    """Return the smallest and the largest number that the bits, or else the registers, of a parameter can hold."""
+    """Return the smallest and the largest number that the bits, or else the registers, of a parameter can store."""
     storage = _storage(parameter)
     numbers = 1 << (storage.bits or WORD * storage.words)
     return (-numbers // 2, numbers // 2 - 1) if is_signed(parameter) else (0, numbers - 1)
@@ -158,7 +158,7 @@ def is_signed(parameter: Parameter) -> bool:
 
 
 def fitting(parameter: Parameter, number: int) -> int:
-    """Return a number that the bits of a parameter can hold; raises StorageError for any other."""
+    """Return a number that the bits of a parameter can store; raises StorageError for any other."""
     low, high = stored_range(parameter)
     if not low <= number <= high:
         bits = (high - low).bit_length()
@@ -181,7 +181,7 @@ def is_low_first(parameter: Parameter) -> bool:
 
 
 def register_number(parameter: Parameter, value: Value, unit: str) -> int:
-    """Return the whole number that registers hold for a value; ``unit`` is that of a storage which names none.
+    """Return the whole number that registers store for a value; ``unit`` is that of a storage which names none.
 
     Raises StorageError. The value that comes back differs by at most half a count, and is stored as the same number.
     """

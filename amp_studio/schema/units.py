@@ -63,7 +63,7 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "Vs/count": ("derivative gain", Fraction(1)),
     "Vs2/count": ("acceleration gain", Fraction(1)),
     "V/rpm": ("voltage per speed", Fraction(1)),
-    # What the control counts a dimension in; another parameter says how long one is (NUM P4).
+    # What the control counts a dimension in; another parameter sets how long one is (NUM P4).
     "iu": ("internal units", Fraction(1)),
     "um/sample": ("travel per sample", Fraction(1)),
     "BLU": ("basic length unit", Fraction(1)),

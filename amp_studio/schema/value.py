@@ -13,7 +13,7 @@ class Value:
     """One value in the unit it was entered in.
 
     ``value`` is a float or int, the key of a choice, a bool for a yes/no
-    parameter, or a text. A choice for which the control holds a code that the
+    parameter, or a text. A choice for which the control stores a code that the
     database does not know is kept as ``raw:<code>``.
     """
 

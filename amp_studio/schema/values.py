@@ -19,7 +19,7 @@ MASKED = "•••• (secret)"
 
 
 def is_mask(parameter: Parameter, text: str) -> bool:
-    """Return whether a text is what stands in place of a secret, so that an export that comes back changes nothing."""
+    """Return whether a text is what is shown in place of a secret, so that an export that comes back changes nothing."""
     return parameter.secret and text.strip().startswith("••••")
 
 
@@ -28,7 +28,7 @@ def not_readable(parameter: Parameter, error: ValueError) -> str:
     if not parameter.secret:
         return str(error)
     kind = {"integer": "a whole number", "real": "a number"}.get(parameter.type, "a text")
-    return f"{parameter.name} takes {kind}; what stands there is secret and not shown"
+    return f"{parameter.name} takes {kind}; the value given is secret and not shown"
 
 
 _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?[0-9]+)?)\s*(.*)$")
@@ -67,7 +67,7 @@ def _digits(text: str) -> tuple[str, str]:
     digits, exponent, rest = found.groups()
     if _GROUPED.fullmatch(digits):
         digits = re.sub("[ '_]", "", digits)
-    elif " " in digits:  # "3000 1/min": what stands after the blank is no part of the number
+    elif " " in digits:  # "3000 1/min": what comes after the blank is no part of the number
         digits, _, tail = digits.partition(" ")
         exponent, rest = "", tail + text[found.end(1) :]
     return _decimal(digits, exponent), rest
@@ -111,7 +111,7 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
     Raises InvalidValueError with a message that contains what is allowed.
     """
     if is_mask(parameter, text):
-        raise InvalidValueError(f"{parameter.name}: '{MASKED}' stands in place of a secret and is no value")
+        raise InvalidValueError(f"{parameter.name}: '{MASKED}' is shown in place of a secret and is no value")
     try:
         return _checked(parameter, _read(parameter, text.strip(), unit))
     except InvalidValueError as error:
@@ -119,7 +119,7 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
 
 
 def checked(parameter: Parameter, value: Value) -> Value:
-    """Return a value that a file can hold: written, and read back as the same; raises InvalidValueError for any other.
+    """Return a value that a file can contain: written, and read back as the same; raises InvalidValueError for any other.
 
     Every value passes here that is made of something from outside: a text, a number of a control, a journal.
     """
@@ -163,7 +163,7 @@ def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
         )
     if odd := _UNWRITABLE.search(found):
         raise InvalidValueError(
-            f"{parameter.name} holds the sign U+{ord(odd[0]):04X}, which no file can hold"
+            f"{parameter.name} contains the character U+{ord(odd[0]):04X}, which no file can contain"
         )
     return _read_raw(parameter, found) if parameter.choices and found.startswith("raw:") else value
 
@@ -205,7 +205,7 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
             )
         unit = named
     if parameter.type in ("integer", "bits") and (exact := Decimal(_digits(text)[0])) != number:
-        # Beyond what a double holds: 2 ** 53 + 1, or a half that would be rounded away.
+        # Beyond what a double stores: 2 ** 53 + 1, or a half that would be rounded away.
         size = "too large for" if exact == exact.to_integral_value() else "no whole number, which is taken by"
         raise InvalidValueError(f"{quoted(text)} is {size} {parameter.name}")
     return Value(number, unit)
@@ -322,12 +322,12 @@ def _number_text(parameter: Parameter, value: Value) -> str:
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
-    """Write a value for a person: as ``write_value`` with the unit's proper signs; a dash when it is not set.
+    """Write a value for a person: as ``write_value`` with the unit's proper signs; ``not set`` without one.
 
     A secret is masked unless ``secrets`` asks for it in clear.
     """
     if value is None:
-        return "—"
+        return "not set"
     if parameter.secret and not secrets:
         return MASKED
     if isinstance(value.value, (str, bool)):

@@ -58,7 +58,7 @@ class YamlDocument:
     spans: dict[KeyPath, Span] | None = None
 
     def line(self, path: KeyPath) -> int:
-        """Return the line of an entry, or of what it would stand in; needs the spans."""
+        """Return the line of an entry, or of what it would be in; needs the spans."""
         spans = self.spans or {}
         while path and path not in spans:
             path = path[:-1]
@@ -85,8 +85,8 @@ def read_yaml(
 ) -> YamlDocument:
     """Read the one document of a text; an empty one is None.
 
-    ``scalar`` says what a plain scalar means, ``typed_scalar`` where nothing is said. With ``spans`` every entry has its
-    place. ``references`` are for facts of our own, which say a list once. Raises YamlError.
+    ``scalar`` returns what a plain scalar means, ``typed_scalar`` does where none is given. With ``spans`` every entry has its
+    place. ``references`` are for facts of our own, which give a list once. Raises YamlError.
     """
     text = text.removeprefix("\ufeff")
     if len(text) > LARGEST:
@@ -135,15 +135,15 @@ class _YamlParser:
             elif kind == "DocumentEndEvent":
                 document.is_closed = bool(event.explicit)
                 self._check_end(event)
-                return  # what the parser would do with the rest is not asked: it has been looked at
+                return  # what the parser would do with the rest is not asked: it has been checked
 
     def _check_end(self, event: Any) -> None:
-        """See that nothing but remarks stands behind the document; the parser would read on there."""
+        """See that nothing but remarks comes after the document; the parser would read on there."""
         text, at = self.document.text, event.end_mark.index
         if rest := _BLANK.match(text, at):
             at = rest.end()
         if at < len(text):
-            raise YamlError("is not readable: something stands behind its end", _line_at(text, at))
+            raise YamlError("is not readable: something comes after its end", _line_at(text, at))
 
     def _node(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
         """Return a value, and where its text ends."""
@@ -186,7 +186,7 @@ class _YamlParser:
             if not isinstance(key, (str, int)):
                 raise self._error("is not readable: a key is no text", event)
             if key in found:
-                raise self._error(f"{quoted(str(key))} stands twice", event)
+                raise self._error(f"{quoted(str(key))} occurs twice", event)
             at = (*path, key)
             value = next(events)
             found[key], end = self._node(value, events, at)
@@ -222,7 +222,7 @@ _LONGEST_NUMBER = 40
 
 
 def text_scalar(text: str) -> str | None:
-    """Return the text itself, None for null: what kind a value is, something else says."""
+    """Return the text itself, None for null: what kind a value is, is decided elsewhere."""
     return None if text in _NULLS else text
 
 

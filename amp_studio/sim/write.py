@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import Tell, write_atomic
+from amp_studio.files import Notify, write_atomic
 
 from .errors import SimulationError
 from .rounding import shown
@@ -75,8 +75,8 @@ def trace_text(trace: Trace) -> str:
     return "\n".join(lines)
 
 
-def write_trace(trace: Trace, path: Path, tell: Tell = lambda _note: None) -> None:
-    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``tell`` is called with each lost file attribute.
+def write_trace(trace: Trace, path: Path, notify: Notify = lambda _note: None) -> None:
+    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``notify`` is called with each lost file attribute.
 
     Raises SimulationError for another ending, SaveError where it cannot.
     """
@@ -91,7 +91,7 @@ def write_trace(trace: Trace, path: Path, tell: Tell = lambda _note: None) -> No
         raise SimulationError(
             f"{path.name}: unknown format of a trace. Use the file extension {', '.join(ENDINGS)}"
         )
-    write_atomic(path, content, keep_backup=False, tell=tell)
+    write_atomic(path, content, keep_backup=False, notify=notify)
 
 
 def trace_summary(trace: Trace) -> dict[str, Any]:

@@ -1,7 +1,7 @@
-"""What every way of speaking to a control can be asked for: who is there, what does it hold, take this instead.
+"""What every way of speaking to a control can be asked for: who is there, what does it contain, take this instead.
 
-A driver moves whole contents as bytes; ``image`` says what they mean. It opens its own link, bounds its peer and its
-waiting, and ends every exchange with a TransferError that says what the control holds, or with success.
+A driver moves whole contents as bytes; ``image`` knows what they mean. It opens its own link, bounds its peer and its
+waiting, and ends every exchange with a TransferError that names what the control contains, or with success.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class Abilities:
     """What a way of speaking to a control can do.
 
     ``can_send``   it takes a download, all or nothing
-    ``remembers``  it knows by itself what the control has held before, and takes that back whatever it is
+    ``remembers``  it knows by itself what the control has contained before, and takes that back whatever it is
     """
 
     can_send: bool = True
@@ -31,11 +31,11 @@ class Abilities:
 class ControlIdentity:
     """What answers.
 
-    ``signature``       of the schema it numbers its parameters by, in hexadecimal; "" where it does not say
-    ``axes``            their names, where it says so before it is read
-    ``size``, ``sha256``  of what it holds: bytes and digest; None where that is known only once it is fetched
+    ``signature``       of the schema it numbers its parameters by, in hexadecimal; "" where it does not name one
+    ``axes``            their names, where it names them before it is read
+    ``size``, ``sha256``  of what it contains: bytes and digest; None if that is known only once it is fetched
     ``in_estop``        None where there is no such state, or it cannot be asked
-    ``restart_needed``  what it holds is not current before a restart
+    ``restart_needed``  its parameters become active after a restart
     """
 
     family: str
@@ -61,7 +61,7 @@ class Receipt:
 class ControlDriver(Protocol):
     """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one thread.
 
-    ``progress`` is told of steps and silences; ``cancel`` may be set from another thread and breaks off what waits.
+    ``progress`` is called for steps and silences; ``cancel`` may be set from another thread and breaks off what waits.
     """
 
     @property
@@ -74,7 +74,7 @@ class ControlDriver(Protocol):
     def fetch(
         self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
     ) -> bytes:
-        """Return what the control holds, whole and undamaged."""
+        """Return what the control contains, whole and undamaged."""
 
     def send(
         self,
@@ -85,7 +85,7 @@ class ControlDriver(Protocol):
         progress: Progress = quiet,
         cancel: threading.Event | None = None,
     ) -> Receipt:
-        """Have the control replace the content whose SHA-256 is ``expected``; ``held`` of an error says what it holds."""
+        """Have the control replace the content whose SHA-256 is ``expected``; ``at_control`` of an error is what it contains."""
 
     def wait_restarted(
         self,

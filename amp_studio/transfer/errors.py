@@ -1,4 +1,4 @@
-"""What can end an exchange early: every error says in a sentence what happened and what the control holds."""
+"""What can end an exchange early: every error reports in a sentence what happened and what the control contains."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from typing import Literal
 
 from amp_studio.schema.visible import visible
 
-# "old": what it held before this exchange; "new": the image that was sent; "": nothing was to be sent.
-Held = Literal["", "old", "new", "unknown"]
+# "old": what it contained before this exchange; "new": the image that was sent; "": nothing was to be sent.
+AtControl = Literal["", "old", "new", "unknown"]
 
-HELD_TEXT: dict[Held, str] = {
+AT_CONTROL_TEXT: dict[AtControl, str] = {
     "": "",
     "old": "nothing was replaced in the control",
-    "new": "the control holds the new image, which was not read back",
-    "unknown": "whether the control holds the old or the new image is not known: verify before you go on "
+    "new": "the control contains the new image, which was not read back",
+    "unknown": "whether the control contains the old or the new image is not known: verify before you go on "
     "(amp-studio verify FILE --with ADDRESS)",
 }
 
@@ -21,21 +21,25 @@ HELD_TEXT: dict[Held, str] = {
 class TransferError(OSError):
     """An exchange that did not reach its end.
 
-    ``what`` happened; ``held`` is what the control holds now; ``kept`` the place where the image it held
+    ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it contained
     before was kept, if it was.
     """
 
-    def __init__(self, what: str, held: Held = "old", kept: str | None = None) -> None:
+    def __init__(self, what: str, at_control: AtControl = "old", kept: str | None = None) -> None:
         # Much of it are words of the other end: what steers a terminal is shown, not obeyed.
         what = visible(what)
         super().__init__(what)
         self.what = what
-        self.held: Held = held
+        self.at_control: AtControl = at_control
         self.kept = kept
 
     def __str__(self) -> str:
-        where = f" (what it held before is kept in {self.kept})" if self.kept and self.held != "old" else ""
-        return f"{self.what}; {HELD_TEXT[self.held]}{where}" if self.held else self.what
+        where = (
+            f" (what it contained before is kept in {self.kept})"
+            if self.kept and self.at_control != "old"
+            else ""
+        )
+        return f"{self.what}; {AT_CONTROL_TEXT[self.at_control]}{where}" if self.at_control else self.what
 
 
 class NoConnectionError(TransferError):
@@ -75,7 +79,7 @@ class ImageChangedError(TransferError):
 
 
 class ImageRejectedError(TransferError):
-    """The control has looked at the image and does not take it."""
+    """The control has examined the image and does not take it."""
 
 
 class ImageDamagedError(TransferError):
@@ -87,7 +91,7 @@ class ControlFullError(TransferError):
 
 
 class KeepFailedError(TransferError):
-    """What the control holds could not be kept, so it was not replaced."""
+    """What the control contains could not be kept, so it was not replaced."""
 
 
 class CancelledError(TransferError):

@@ -42,9 +42,7 @@ _LONGEST = 200
 _SHOWN = 60
 """Signs of a damaged line that a message shows."""
 
-_CONTROL_SIGN = re.compile(
-    r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"
-)  # none but TAB and the line feed stand in an image
+_CONTROL_SIGN = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")  # none but TAB and the line feed are in an image
 _PLAIN_SIGN = re.compile(r"[\x00-\x1f\x7f-\x9f\\]")
 _ESCAPE = re.compile(r"\\(?:x([0-9a-f]{2})|(.))", re.DOTALL)
 _ADDRESS = re.compile(r"[a-z][a-z0-9_]*\.[a-z][a-z0-9_.]*(?:@[A-Za-z0-9.]+)?")
@@ -76,7 +74,7 @@ def encode_image(file: ParameterFile) -> bytes:
     try:
         return ("\n".join(lines) + "\n").encode("utf-8")
     except UnicodeEncodeError:
-        raise ImageError("a text of the file holds half a character, which no image can carry") from None
+        raise ImageError("a text of the file contains half a character, which no image can carry") from None
 
 
 def head_of(file: ParameterFile) -> list[str]:
@@ -88,7 +86,7 @@ def head_of(file: ParameterFile) -> list[str]:
 
 
 def decode_image(image: bytes) -> ParameterFile:
-    """Return the file an image holds, whose image is exactly this one; raises ImageError."""
+    """Return the file of an image, whose image is exactly this one; raises ImageError."""
     head, records = _split(image)
     schema = _schema(head)
     file = ParameterFile(schema, Header(application=_unescaped(head["application"]),
@@ -99,9 +97,9 @@ def decode_image(image: bytes) -> ParameterFile:
         address = read_address(entry)
         parameter = schema.parameters.get(address[0])
         if parameter is None:
-            raise ImageError(f"the control image holds '{_short(entry)}', which the schema does not have")
+            raise ImageError(f"the control image contains '{_short(entry)}', which the schema does not have")
         if address in file.values:
-            raise ImageError(f"the control image holds {_short(entry)} twice")
+            raise ImageError(f"the control image contains {_short(entry)} twice")
         file.values[address] = _value(schema, parameter, entry, field)
     file.evaluation.forget()
     _check_form(file, image)
@@ -121,7 +119,7 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
         raise ImageError("the control image has been cut off")
     if found := _CONTROL_SIGN.search(text):
         raise ImageError(
-            f"line {text.count(chr(10), 0, found.start()) + 1} of the control image holds a control sign"
+            f"line {text.count(chr(10), 0, found.start()) + 1} of the control image contains a control sign"
         )
     head = {}
     for number, (key, line) in enumerate(zip(_HEAD, lines[1:6], strict=True), 2):
@@ -138,14 +136,14 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
         records.append((parts[1], parts[2]))
     if lines[-2] != f"end {len(records)}":
         raise ImageError(
-            f"the control image holds {len(records)} records and ends with '{_short(lines[-2])}'"
+            f"the control image contains {len(records)} records and ends with '{_short(lines[-2])}'"
         )
     return head, records
 
 
 def _schema(head: dict[str, str]) -> Schema:
     family = head["family"]
-    if family not in family_ids():  # what a control says is never looked up as a path
+    if family not in family_ids():  # what a control sends is never looked up as a path
         raise ImageError(f"the control image is for the family '{_short(family)}', which is not known here")
     schema = load_schema(family)
     if head["signature"] != schema.signature:
@@ -161,15 +159,15 @@ def _check_form(file: ParameterFile, image: bytes) -> None:
     known = set(file.addresses())
     for address in file.values:
         if address not in known:
-            raise ImageError(f"the control image holds {_short(written(address))}, "
+            raise ImageError(f"the control image contains {_short(written(address))}, "
                              f"which does not exist on the machine type {file.machine}")  # fmt: skip
     right = encode_image(file)
     if right == image:
         return
     pairs = zip(image.decode("utf-8").split("\n"), right.decode("utf-8").split("\n"), strict=True)
-    number, (held, wanted) = next((n, pair) for n, pair in enumerate(pairs, 1) if pair[0] != pair[1])
-    held, wanted = _masked(file.schema, held), _masked(file.schema, wanted)
-    raise ImageError(f"line {number} of the control image is '{held}', which would be written '{wanted}'")
+    number, (line, wanted) = next((n, pair) for n, pair in enumerate(pairs, 1) if pair[0] != pair[1])
+    line, wanted = _masked(file.schema, line), _masked(file.schema, wanted)
+    raise ImageError(f"line {number} of the control image is '{line}', which would be written '{wanted}'")
 
 
 def _masked(schema: Schema, line: str) -> str:
@@ -211,7 +209,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
     is_text = parameter.type in ("text", "format")
     if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
         said = MASKED if parameter.secret else f"'{_short(field)}'"
-        raise ImageError(f"the control image holds {_short(entry)} with {said}, which is no value of it")
+        raise ImageError(f"the control image contains {_short(entry)} with {said}, which is no value of it")
     try:
         if is_text:
             return read_stored(schema, parameter, _unescaped(field[5:]))
@@ -220,7 +218,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
         return _choice(parameter, field)
     except InvalidValueError as error:
         raise ImageError(
-            f"the control image holds {_short(entry)} with a value it cannot have: {not_readable(parameter, error)}"
+            f"the control image contains {_short(entry)} with a value it cannot have: {not_readable(parameter, error)}"
         ) from None
 
 
@@ -250,7 +248,7 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
         raise PatchError(str(error)) from None
     file.evaluation.forget()
     changed = encode_image(file)
-    decode_image(changed)  # the control's memory holds nothing that cannot be read again
+    decode_image(changed)  # the control's memory contains nothing that cannot be read again
     return changed
 
 

@@ -13,7 +13,7 @@ from types import FrameType
 def interrupts(call: Callable[[], object], after: signal.Handlers | None = None) -> Iterator[None]:
     """Have SIGINT and SIGTERM call ``call``, which must return at once, instead of ending what runs inside.
 
-    Only the main thread hears signals; elsewhere this does nothing. Who was told to ignore a signal (as
+    Only the main thread hears signals; elsewhere this does nothing. A program started to ignore a signal (as
     ``nohup`` does) goes on ignoring it. At the end the signals do again what they did before, or ``after``.
     """
 

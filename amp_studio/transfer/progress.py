@@ -1,4 +1,4 @@
-"""What somebody who waits is told, and how he breaks off."""
+"""What somebody who waits gets to read, and how he breaks off."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Callable
 
 # (stage, done, total); the stages of a download are keep, download, commit, restart and verify. Between them
 # comes SILENT with the seconds for which nothing that was waited for has come and those after which the control
-# is given up; done is 0 when it has come.
+# is cancelled; done is 0 when it has come.
 Progress = Callable[[str, int, int], None]
 
 SILENT = "silent"
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Tell nobody."""
+    """Show it to nobody."""
 
 
 class Stop(threading.Event):

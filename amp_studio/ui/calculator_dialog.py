@@ -54,7 +54,7 @@ class CalculatorDialog(QDialog):
             self._form.removeRow(field)
         self.fields.clear()
         calculator = self._known[self.formula.currentText()]
-        self.description.setText(calculator.told)
+        self.description.setText(calculator.description)
         for n, argument in enumerate(calculator.arguments):
             field = self.fields[argument.name] = QLineEdit()
             field.setPlaceholderText(argument.default or argument.example)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
-from amp_studio.files.held import held_text
+from amp_studio.files.storage_text import storage_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
 from amp_studio.report.wording import local_time, severity_name, state_name
 from amp_studio.schema import (
@@ -104,8 +104,8 @@ class DetailPanel(QWidget):
             lines.append(
                 f"<br><b>{self._shown(address, used)}</b> <small>effective value in the control</small>"
             )
-        if storage_text := held_text(file, address):
-            lines.append(f"<br>{html.escape(storage_text)} <small>as stored in the control</small>")
+        if stored := storage_text(file, address):
+            lines.append(f"<br>{html.escape(stored)} <small>as stored in the control</small>")
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
         lines.append("</p>")
         state = file.evaluation.state(address)
@@ -195,7 +195,7 @@ class DetailPanel(QWidget):
         entries = self._workspace.document.history(address)
         lines = [
             f"<p><small>{local_time(entry.when)} {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
-            f"<br>{html.escape(entry.old or '—')} → {html.escape(entry.new or '—')}</p>"
+            f"<br>{html.escape(entry.old or 'not set')} → {html.escape(entry.new or 'not set')}</p>"
             for entry in entries
         ]
         return "".join(lines) or f"<p>No saved changes of {html.escape(written(address))} yet.</p>"

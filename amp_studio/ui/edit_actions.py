@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMessageBox, QStyle
 from amp_studio.files import RangeError, axis_type, describe, fitted_axes, real_path
 from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, InvalidValueError, Value
-from amp_studio.validate import RULES_FILE, Finding, calculators, repair_all_safe, suppress
+from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, calculators, suppress
 
 from .questions import ask, show_message
 from .workspace import Workspace
@@ -184,7 +184,7 @@ class EditActions:
 
     def _fix(self) -> None:
         finding = self.window.findings.current() if self.window.findings else None
-        if finding is None or not finding.repairs:
+        if finding is None or not finding.fix:
             raise ValueError(
                 "The selected finding has no suggested fix. Show it to see the parameters to check."
             )
@@ -217,7 +217,7 @@ class EditActions:
                 dialog.params(),
                 reason=dialog.reason.text(),
                 by=dialog.name.text(),
-                tell=notes.append,
+                notify=notes.append,
             )
             workspace.read_own_rules()
             self.window.show_status("; ".join([f"Suppression saved in {path}", *notes]))
@@ -228,12 +228,12 @@ class EditActions:
             raise ValueError(
                 "This finding has changed or no longer exists. Select it again in the list of findings."
             )
-        self._workspace().edit("Fix", {r.address: r.value for r in finding.repairs})
+        self._workspace().edit("Fix", {r.address: r.value for r in finding.fix})
 
     def fix_safe(self) -> None:
         """Apply every suggested fix that cannot change motion, as one step."""
         workspace = self._workspace()
-        if not workspace.do("Apply all safe fixes", lambda: repair_all_safe(workspace.validator)):
+        if not workspace.do("Apply all safe fixes", lambda: apply_all_safe(workspace.validator)):
             self.window.show_status(
                 "There is no safe fix: no finding has a suggested fix that cannot change motion."
             )

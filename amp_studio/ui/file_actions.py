@@ -310,7 +310,7 @@ class FileActions:
                 source=workspace.path,
                 own=workspace.validator.own,
                 secrets=secrets,
-                tell=notes.append,
+                notify=notes.append,
             )
 
         ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()

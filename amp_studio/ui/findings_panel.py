@@ -85,7 +85,7 @@ class FindingsTable(QAbstractTableModel):
         if column == 3:
             return ", ".join(
                 f"{file.machine_schema.short(r.address)} = {show_value(file.schema.parameters[r.address[0]], r.value)}"
-                for r in finding.repairs
+                for r in finding.fix
             )
         return {0: severity_name(finding.severity), 2: finding.message}.get(column, finding.page or "")
 
@@ -217,7 +217,7 @@ class FindingsPanel(QWidget):
     def fix(self) -> None:
         """Ask to apply the suggested fix of the selected finding."""
         finding = self.current()
-        if finding and finding.repairs:
+        if finding and finding.fix:
             self.fix_requested.emit(finding)
 
     def _ask(self, signal: SignalInstance) -> None:
@@ -235,4 +235,4 @@ class FindingsPanel(QWidget):
         self.show_button.setEnabled(bool(finding and finding.addresses))
         self.why_button.setEnabled(finding is not None)
         self.suppress_button.setEnabled(finding is not None and not finding.rule.startswith("rules."))
-        self.fix_button.setEnabled(bool(finding and finding.repairs and self._workspace.may_edit))
+        self.fix_button.setEnabled(bool(finding and finding.fix and self._workspace.may_edit))

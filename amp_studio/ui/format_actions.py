@@ -99,7 +99,7 @@ class FormatActions:
         from amp_studio.formats import import_file
 
         self._notes.clear()
-        read = lambda: import_file(path, family, keep_unknown=keep, tell=self._notes.append)  # noqa: E731  # one line to hand over
+        read = lambda: import_file(path, family, keep_unknown=keep, notify=self._notes.append)  # noqa: E731  # one line to hand over
         return in_background(self.window, "Importing", read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:

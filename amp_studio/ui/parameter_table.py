@@ -183,6 +183,8 @@ class ParameterTable(QAbstractTableModel):
         return self._shown(address, self.workspace.file.get(address))
 
     def _shown(self, address: Address, value: Value | None) -> str:
+        if value is None:
+            return "—"  # in a table a dash reads quicker than words
         parameter = self.workspace.file.schema.parameters[address[0]]
         return show_value(parameter, self._in_units(address, value), secrets=self.workspace.secrets)
 

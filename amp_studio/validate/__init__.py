@@ -13,8 +13,8 @@ from .calculators import Argument, Calculator, calculate, calculators, shown_res
 from .explanation import Explanation, Seen, explain
 from .expressions import RuleError
 from .finding import SEVERITIES, Finding, Setting
+from .fixes import Fixed, apply_all_safe, apply_fixes
 from .formulas import formulas
-from .repairs import Fixed, apply_fixes, repair_all_safe
 from .validator import Validator
 
 __all__ = [
@@ -32,13 +32,13 @@ __all__ = [
     "Setting",
     "Suppressed",
     "Validator",
+    "apply_all_safe",
     "apply_fixes",
     "calculate",
     "calculators",
     "explain",
     "formulas",
     "read_builder_rules",
-    "repair_all_safe",
     "rules_beside",
     "shown_result",
     "suppress",

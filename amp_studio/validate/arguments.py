@@ -24,7 +24,7 @@ def not_negative(what: str, value: float) -> float:
 
 
 def whole(what: str, value: float, least: int = 1, most: int | None = None) -> int:
-    """A whole number of at least ``least``; doubles that hold one are welcome, CEL knows no others.
+    """A whole number of at least ``least``; doubles that are one are welcome, CEL knows no others.
 
     ``most`` bounds what would be reckoned with without end (a power of two with a billion digits).
     """

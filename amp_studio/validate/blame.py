@@ -21,12 +21,12 @@ def about(
 
     Where no value answers to a condition of ``blames``, all that it names are wrong.
     """
-    told = check.expressions.told
+    entries = check.expressions.finding
     given = dict(zip(check.names, values, strict=True))
-    causes = dict.fromkeys(_met(check, told.blames, context, given))
+    causes = dict.fromkeys(_met(check, entries.blames, context, given))
     if not causes:
-        causes = dict.fromkeys(a for name, _ in told.blames for a, _ in _values(check, name, given))
-    compared = dict.fromkeys(_met(check, told.compares, context, given))
+        causes = dict.fromkeys(a for name, _ in entries.blames for a, _ in _values(check, name, given))
+    compared = dict.fromkeys(_met(check, entries.compares, context, given))
     return tuple(causes), tuple(a for a in compared if a not in causes)
 
 
@@ -43,7 +43,7 @@ def _met(check: RuleCheck, named: _Named, context: Context, given: dict[str, Any
 
 
 def _values(check: RuleCheck, name: str, given: dict[str, Any]) -> Iterator[tuple[Address, Any]]:
-    """Yield what a name stands for with its value; of a list all that are there, the others with null."""
+    """Yield what a name means with its value; of a list all that are there, the others with null."""
     for listed_name, listed in check.lists:
         if listed_name == name:
             yield from zip(listed.addresses, given[name], strict=True)

@@ -1,6 +1,6 @@
 """A machine builder's own rules: ``rules.yaml`` beside his files.
 
-It holds ``rules`` in the form of the database's own, and ``suppressions``: findings that somebody has looked at and
+It contains ``rules`` in the form of the database's own, and ``suppressions``: findings that somebody has checked and
 leaves as they are, with his name and the reason. What cannot be used in it is a finding itself, with file and line,
 and keeps nothing else from being checked.
 """
@@ -17,7 +17,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from amp_studio.files import is_there, real_path, write_atomic
-from amp_studio.files.atomic import SaveError, Tell, digest_of
+from amp_studio.files.atomic import Notify, SaveError, digest_of
 from amp_studio.files.yaml_text import with_item
 from amp_studio.schema import (
     Address,
@@ -50,25 +50,25 @@ _SUPPRESSIONS = "suppressions"
 OWN_FAULT = "rules.unusable"
 """The rule that findings about the rules themselves belong to."""
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown")
-"""Findings of every family that are of no rule of its own."""
+"""Findings of every family that are of no separate rule."""
 MOST_RULES = 2000
 MOST_SUPPRESSIONS = 10_000
 MOST_FAULTS = 200
-"""Of a file: what it has beyond them is told in one finding."""
+"""Of a file: the rest is reported in one finding."""
 MOST_STEPS_OF_A_FILE = 4 * MOST_STEPS
 """Of all its rules together."""
 
 
 @dataclass(frozen=True)
 class BuilderRules:
-    """What a file of a builder's rules says to files of one family."""
+    """What a file of a builder's rules means for files of one family."""
 
     rules: tuple[Rule, ...] = ()
     suppressions: tuple[Suppression, ...] = ()
     faults: tuple[Finding, ...] = ()
     """What is wrong with the rules themselves."""
     places: Mapping[str, str] = field(default_factory=dict)
-    """Id of a rule -> file and line where it stands."""
+    """Id of a rule -> file and line of it."""
     costs: Mapping[str, int] = field(default_factory=dict)
     """Id of a rule -> the steps it takes at most, each time."""
 
@@ -83,7 +83,7 @@ def rules_beside(path: Path, schema: Schema) -> BuilderRules:
 
 
 def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
-    """Return what a file says to files of a family; faults of the file are findings."""
+    """Return what a file means for files of a family; faults of the file are findings."""
     try:
         return _read(path, digest_of(path), schema)
     except OSError as error:
@@ -213,7 +213,7 @@ class _RuleFileReader:
 
 
 def _further(found: list[Slip], before: list[Slip]) -> list[Slip]:
-    """Return what is wrong besides what is known to be: a key that cannot be used is not looked at again."""
+    """Return what is wrong besides what is known to be: a key that cannot be used is not checked again."""
     wrong = {place[0] for place, _ in before if place}
     return [(place, what) for place, what in found if (place[:1] or ("",))[0] not in wrong]
 
@@ -257,20 +257,20 @@ def _is_elsewhere(text: str, schema: Schema) -> bool:
 
 
 def _finding(path: Path, fault: DatabaseError) -> Finding:
-    told = _told(path, fault)
-    return Finding(OWN_FAULT, "error", (), told if told.endswith("?") else f"{told}.")
+    text = _fault_text(path, fault)
+    return Finding(OWN_FAULT, "error", (), text if text.endswith("?") else f"{text}.")
 
 
-def _told(path: Path, fault: DatabaseError) -> str:
+def _fault_text(path: Path, fault: DatabaseError) -> str:
     return f"{path.name}{f', line {fault.line}' if fault.line else ''}: {fault.what.rstrip('.')}"
 
 
 def suppress(
-    path: Path, rule: str, params: Iterable[str], *, reason: str, by: str, tell: Tell = lambda _said: None
+    path: Path, rule: str, params: Iterable[str], *, reason: str, by: str, notify: Notify = lambda _said: None
 ) -> None:
     """Add a suppression to a file of rules, which is made where there is none; no other byte of it changes.
 
-    ``tell`` is called with what the save could not keep. Raises ValueError where reason or name is missing or the file
+    ``notify`` is called with what the save could not keep. Raises ValueError where reason or name is missing or the file
     cannot be read, SaveError where it cannot be written.
     """
     try:
@@ -278,7 +278,7 @@ def suppress(
     except ValidationError:
         raise ValueError("A suppression needs a reason and a name.") from None
     item = entry.model_dump(mode="json", exclude_defaults=True)
-    write_atomic(path, lambda previous: _with_suppression(path, previous or b"", item), tell=tell)
+    write_atomic(path, lambda previous: _with_suppression(path, previous or b"", item), notify=notify)
 
 
 def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> bytes:
@@ -287,7 +287,7 @@ def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> byte
         document = read_yaml(previous.decode("utf-8"), spans=True)
         data = {} if document.data is None else document.data
         if not isinstance(data, dict) or not isinstance(data.get(_SUPPRESSIONS) or [], list):
-            raise ValueError(f"{path.name} holds no list of suppressions.")
+            raise ValueError(f"{path.name} has no list of suppressions.")
         wanted = data | {_SUPPRESSIONS: [*(data.get(_SUPPRESSIONS) or []), item]}
         text = with_item(document, _SUPPRESSIONS, item)
     except (UnicodeDecodeError, YamlError) as error:
@@ -303,7 +303,7 @@ def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> byte
 
 @dataclass(frozen=True, slots=True)
 class Suppressed:
-    """A finding that is left as it is, and who said so."""
+    """A finding that is left as it is, and who decided that."""
 
     finding: Finding
     suppression: Suppression

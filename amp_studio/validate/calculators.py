@@ -42,10 +42,10 @@ class Argument:
 
 @dataclass(frozen=True)
 class Calculator:
-    """One formula: its name, what it says of itself, and its arguments."""
+    """One formula: its name, its description, and its arguments."""
 
     name: str
-    told: str
+    description: str
     arguments: tuple[Argument, ...]
 
 
@@ -104,10 +104,10 @@ def _read(argument: Argument, text: str) -> Any:
         several = getattr(argument.kind, "__args__", ())
         plain = text if several and str in several else f"[{text}]"
         found = TypeAdapter(argument.kind).validate_python(json.loads(plain) if plain[:1] == "[" else text)
-        return list(found) if isinstance(found, Iterator) else found  # pydantic looks at its items only now
+        return list(found) if isinstance(found, Iterator) else found  # pydantic checks its items only now
     except (InvalidValueError, ValidationError, KeyError, ValueError, RecursionError):
-        told = f" ({argument.example})" if argument.example else ""
-        raise ValueError(f"{quoted(text)} is no {argument.name}{told}") from None
+        example = f" ({argument.example})" if argument.example else ""
+        raise ValueError(f"{quoted(text)} is no {argument.name}{example}") from None
 
 
 def shown_result(result: Any) -> str:

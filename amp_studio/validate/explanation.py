@@ -24,7 +24,7 @@ class Seen:
     """A parameter that a finding hangs on."""
 
     name: str
-    """What the rule calls it; empty where no rule speaks of it."""
+    """What the rule calls it; empty where no rule names it."""
     address: Address
     value: str
     state: str
@@ -48,7 +48,7 @@ class Explanation:
     errata: tuple[str, ...]
     """Of the parameters it hangs on, where the manual contradicts itself."""
     source: str = ""
-    """Where it is written: a page of the manual, or what a builder says of his own rule."""
+    """Where it is written: a page of the manual, or the source that a builder gives for his own rule."""
 
 
 def explain(validator: Validator, finding: Finding) -> Explanation:
@@ -131,8 +131,8 @@ def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:
     file = validator.file
     texts = {single.name: _value(validator, single.address) for single in check.singles}
     for name, listed in check.lists:
-        told = [_value(validator, a) for a in listed.addresses if not _is_hidden(validator, a)]
-        texts[name] = f"[{', '.join(told[:_LONG_LIST])}{', …' if len(told) > _LONG_LIST else ''}]"
+        shown = [_value(validator, a) for a in listed.addresses if not _is_hidden(validator, a)]
+        texts[name] = f"[{', '.join(shown[:_LONG_LIST])}{', …' if len(shown) > _LONG_LIST else ''}]"
     texts |= {"machine": file.machine, "application": file.header.application, "instance": check.instance}
     return _NAME.sub(lambda m: texts.get(m[0], m[0]), _plain(rule.check))
 

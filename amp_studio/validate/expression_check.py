@@ -2,7 +2,7 @@
 
 The language has no loops but those over lists, so the largest size of every value and the most steps it takes follow
 from the text and from how many instances the parameters have. The engine itself has no bounds: an expression that
-doubles a list thirty times would take all memory. The same walk tells what can never be meant: a choice compared with a
+doubles a list thirty times would take all memory. The same walk finds what can never be meant: a choice compared with a
 text that is none of its keys, a number with a text, a whole number added to a decimal one.
 """
 
@@ -258,7 +258,7 @@ class ExpressionCheck:
         one, other = node.parts
         if node.kind == "in":
             if right.kind not in ("list", "table", "any"):
-                self._slip(f"'in' wants a list, and {shown(other.text)} is {_CALLED[right.kind]}")
+                self._slip(f"'in' needs a list, and {shown(other.text)} is {_CALLED[right.kind]}")
                 return
             if right.kind == "table":
                 self._compare_choice(one, left, right.literals)

@@ -1,6 +1,6 @@
 """The expressions of a builder's rule as trees, read before the engine sees them.
 
-The engine takes any text: thousands of brackets end the interpreter, and what it says of a slip is no sentence for a
+The engine takes any text: thousands of brackets end the interpreter, and its message about a slip is no sentence for a
 person. So an expression is read here first, by a grammar that is a part of the engine's, with bounds on length and
 depth. What this does not read, the engine never gets.
 """
@@ -69,7 +69,7 @@ class Node:
     value: float | int | str | bool | None = None
     """What a value is; the name of a name, a function and of what goes over a list."""
     bound: str = ""
-    """The name that stands for each item while a list is gone over."""
+    """The name of each item while a list is gone over."""
     depth: int = 1
 
 

@@ -12,7 +12,7 @@ from amp_studio.schema import Parameter
 from .formulas import NUMBER_ANNOTATIONS
 
 LONGEST_TEXT = 4000
-"""Characters of a text that a builder's rule sees; it does not run where a longer one stands."""
+"""Characters of a text that a builder's rule sees; it does not run where there is a longer one."""
 _TEXT_SIZE, _LIST_SIZE = 6, 4
 """What a copy of an empty one costs; that of a number costs 1, some 50 ns."""
 LARGEST = 10**15
@@ -28,7 +28,7 @@ class Choices:
     keys: Mapping[str, str]
     """Key -> label."""
     open: bool = False
-    """``raw:`` and a code may stand too."""
+    """``raw:`` and a code may be given too."""
 
     def holds(self, text: str) -> bool:
         return text in self.keys or (self.open and text.startswith("raw:"))
@@ -42,7 +42,7 @@ class Worth:
     length: int = 0
     """Of a text or a list, at most."""
     item: Worth | None = None
-    """What a list holds."""
+    """What a list contains."""
     choices: Choices | None = None
     """Where it comes from a parameter that is a choice."""
     literals: tuple[str, ...] = ()

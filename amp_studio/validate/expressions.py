@@ -1,7 +1,7 @@
 """The expressions of a rule, compiled, with every name in them accounted for.
 
 A rule that misspells a name would never be broken and never be missed, so
-whatever a rule says that cannot be meant is a fault before it runs.
+whatever a rule contains that cannot be meant is a fault before it runs.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class RuleError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
-    """What a broken rule says and offers, worked out of the values it reads."""
+class FindingExpressions:
+    """The message and the fixes of a broken rule, worked out of the values it reads."""
 
     values: tuple[tuple[str, Program], ...]
     fixes: tuple[tuple[str, Program], ...]
@@ -67,37 +67,40 @@ class Told:
 class Expressions:
     """The expressions of a rule that may call ``functions``.
 
-    Compiled when they are first asked for, since most rules of a file hold: ``broken`` when the rule is first decided,
-    ``told`` when it is first broken. Either raises RuleError for a rule that cannot be used; ``check_rule`` does at once.
+    Compiled when they are first asked for, since most rules of a file are satisfied: ``broken`` when the rule is first decided,
+    ``finding`` when it is first broken. Either raises RuleError for a rule that cannot be used; ``check_rule`` does at once.
     """
 
     def __init__(
-        self, rule: Rule, functions: Mapping[str, Callable[..., Any]], told: Told | None = None
+        self,
+        rule: Rule,
+        functions: Mapping[str, Callable[..., Any]],
+        finding: FindingExpressions | None = None,
     ) -> None:
-        self._rule, self._functions, self._told = rule, functions, told
+        self._rule, self._functions, self._finding = rule, functions, finding
 
     @cached_property
     def broken(self) -> Decision:
-        """True where the rule applies and does not hold."""
+        """True where the rule applies and is not satisfied."""
         rule = self._rule
-        # A line of its own for each bracket: an expression may end in a comment.
+        # A separate line for each bracket: an expression may end in a comment.
         compiled = _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)")
         lists = _OVER_A_LIST.findall(rule.when) + _OVER_A_LIST.findall(rule.check)
         known = {*rule.reads, *ALWAYS_THERE, *TYPES, *lists}
         if not (
             known.issuperset(compiled.variables()) and functions_called(compiled) <= set(self._functions)
         ):
-            check_rule(rule, self._functions)  # says in which of the two expressions
+            check_rule(rule, self._functions)  # names in which of the two expressions
         return Decision(compiled, self._functions)
 
     @cached_property
-    def told(self) -> Told:
-        """What is said and offered where it is broken."""
-        return self._told or check_rule(self._rule, self._functions)
+    def finding(self) -> FindingExpressions:
+        """Its message and fixes where it is broken."""
+        return self._finding or check_rule(self._rule, self._functions)
 
 
-def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Told:
-    """Compile a rule that may call ``functions`` and return what it tells; raises RuleError."""
+def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> FindingExpressions:
+    """Compile a rule that may call ``functions`` and return its message and fixes; raises RuleError."""
     called: set[str] = set()
     spoken_of: set[str] = set()
     asked_of: set[str] = set()
@@ -107,7 +110,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Told:
         variables = found - TYPES
         known = {*rule.reads, *ALWAYS_THERE, *(AT_HAND if place.startswith(("blames", "compares")) else ())}
         for name in sorted(variables - known):
-            raise RuleError(rule.id, f"{place} speaks of {quoted(name)}, which it does not read")
+            raise RuleError(rule.id, f"{place} names {quoted(name)}, which it does not read")
         if place.startswith(("check", "value ")):
             spoken_of |= found
         if place == "when":
@@ -131,7 +134,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Told:
             name: "true" for name in others if name in asked_of
         },  # what decides whether the rule applies: last
     }
-    return Told(
+    return FindingExpressions(
         tuple((name, program(text)) for name, text in rule.values.items()),
         tuple((fix.set, program(fix.value)) for fix in rule.fix),
         tuple((used.set, program(used.value)) for used in rule.effective),

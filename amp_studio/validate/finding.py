@@ -1,4 +1,4 @@
-"""What validation says: one finding a sentence, with the parameters it is about and a suggested fix."""
+"""What validation finds: one finding a sentence, with the parameters it is about and a suggested fix."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Finding:
     causes: tuple[Address, ...]
     """What is wrong, worst first."""
     message: str
-    repairs: tuple[Setting, ...] = ()
+    fix: tuple[Setting, ...] = ()
     page: str | None = None
     safe: bool = False
     """Its suggested fix cannot change motion."""
@@ -52,5 +52,5 @@ class Finding:
 
     @property
     def cited(self) -> str:
-        """Where it stands, as a sentence says it: ``page 7-20``, or a builder's own words; empty where it says nothing."""
+        """Its source in words: ``page 7-20``, or a builder's own words; empty where he gave none."""
         return f"page {self.page}" if self.page and not self.is_own else self.page or ""

@@ -12,7 +12,7 @@ from amp_studio.schema.cel_engine import WORD_FUNCTIONS
 from amp_studio.schema.registration import load_part, registration_of
 
 NUMBER_ANNOTATIONS = frozenset(("float", "int", "float | None", inspect.Parameter.empty))
-"""How functions for rules say that an argument is a number; built-in ones say nothing."""
+"""How functions for rules declare that an argument is a number; built-in ones declare nothing."""
 
 
 def _mod(a: float, b: float) -> float:

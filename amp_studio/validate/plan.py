@@ -62,7 +62,7 @@ class RuleCheck:
     names: tuple[str, ...]
     """Of the single values, then of the lists."""
     plain: tuple[Address, ...]
-    """What it reads, where that is single values active and nothing else; empty for other rules."""
+    """What it reads, if that is single values active and nothing else; empty for other rules."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:
@@ -73,7 +73,7 @@ class RuleCheck:
         )
 
     def address_of(self, name: str) -> Address:
-        """Return what a name of a single value stands for."""
+        """Return what a name of a single value means."""
         return next(s.address for s in self.singles if s.name == name)
 
 
@@ -148,8 +148,8 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
         if rule.id in seen:
             raise RuleError(rule.id, "there are two rules of this name")
         seen.add(rule.id)
-        told = None if n < late else check_rule(rule, functions)
-        expressions = Expressions(rule, functions, told)
+        finding = None if n < late else check_rule(rule, functions)
+        expressions = Expressions(rule, functions, finding)
         for instance, references in _resolved(evaluation, rule):
             singles = tuple(
                 Single(name, reference.addresses[0], name in rule.optional, name in rule.any_state)
@@ -201,7 +201,7 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
     """Return the scope a rule runs over and its instances there.
 
     It runs for each instance of what it reads of "its own" (``id``, ``id@<``,
-    ``id@>``). Where that is of several scopes, it is the first for which all the
+    ``id@>``). If that is of several scopes, it is the first for which all the
     rest can be read: a rule over axes takes of a parameter of processes the
     entry of a control with a single process. Raises RuleError if there is none.
     """

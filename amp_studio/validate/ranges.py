@@ -115,7 +115,7 @@ class ValueChecks:
         """Return the nearest allowed value; None where a bound that another parameter sets may be what is wrong.
 
         0 is never the nearest to another number: a speed or a limit of 0 means something else. Of a positive and a negative limit that are reversed, neither belongs at the edge of the other: that leaves an
-        axis without travel. Nor does a bound that leaves a single value say which value is meant.
+        axis without travel. Nor does a bound that leaves a single value show which value is meant.
         """
         allowed = limits(self._file.evaluation, address, value.unit)
         if allowed is not None and not isinstance(value.value, str):
@@ -134,7 +134,7 @@ class ValueChecks:
         return self._angular is not None and self._file.evaluation.holds(self._angular, address[1], "axis")
 
     def _within(self, facts: _Facts, address: Address, value: Value) -> bool:
-        """Tell quickly whether a value lies in a range that depends on nothing; False says that it has to be asked."""
+        """Return quickly whether a value lies in a range that depends on nothing; False means that it has to be asked."""
         found = value.value
         if facts.parameter.access == "read":
             return False
@@ -154,7 +154,7 @@ class ValueChecks:
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value
         allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
-        repairs = (Setting(address, mended),) if mended is not None and allowed else ()
+        fix = (Setting(address, mended),) if mended is not None and allowed else ()
         forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
         kind = "schema.choice" if parameter.choices else "schema.range"
         return Finding(
@@ -162,7 +162,7 @@ class ValueChecks:
             "error",
             (address,),
             said + "." + forced,
-            repairs,
+            fix,
             parameter.page,
             compared=bounding(self._file.evaluation, address, value),
         )
@@ -198,7 +198,7 @@ def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:
 
 
 def _wrong_kind(facts: _Facts, value: Value) -> str | None:
-    """Say so when a value is of a kind that its parameter never takes: no choice, no number, no whole number."""
+    """Return a finding when a value is of a kind that its parameter never takes: no choice, no number, no whole number."""
     found, parameter = value.value, facts.parameter
     if facts.keys:
         if isinstance(found, bool if parameter.type == "boolean" else str):

@@ -18,7 +18,7 @@ MOST = {
 }  # fmt: skip
 """Characters of a text, items of a list."""
 _NEUTRAL = {"id": "a.a", "title": "", "severity": "error", "check": "true", "message": ""}
-"""What stands for a key that cannot be used, while the others are looked at."""
+"""What is in the place of a key that cannot be used, while the others are checked."""
 
 
 def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:

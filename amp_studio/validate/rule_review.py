@@ -44,7 +44,7 @@ _LISTS = ("*", "<", ">", ".")
 
 @dataclass
 class Review:
-    """What is wrong with a rule, and what it costs; ``is_ours`` where it speaks of parameters of this family."""
+    """What is wrong with a rule, and what it costs; ``is_ours`` where it names parameters of this family."""
 
     slips: list[tuple[KeyPath, str]] = field(default_factory=list)
     cost: int = 0
@@ -55,7 +55,7 @@ class Review:
 
 
 def review(rule: Rule, schema: Schema, *, any_family: bool) -> Review:
-    """Return what there is to say of a rule; with ``any_family`` it may be about parameters of another one."""
+    """Return the remarks on a rule; with ``any_family`` it may be about parameters of another one."""
     found = Review()
     unknown = {n: i for n, (i, _) in _read(rule).items() if i not in schema.parameters}
     if unknown:
@@ -158,11 +158,11 @@ def _message_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
     try:
         fields = [field for field in Formatter().parse(rule.message) if field[1] is not None]
     except ValueError as error:
-        yield ("message",), f"a brace is not closed or stands alone ({error}); write {{{{ and }}}} for braces"
+        yield ("message",), f"a brace is not closed or is alone ({error}); write {{{{ and }}}} for braces"
         return
     for _, name, form, how in fields:
         if form or how:
-            yield ("message",), f"{{{name}}} is shown as it is: leave out what stands behind the name"
+            yield ("message",), f"{{{name}}} is shown as it is: leave out what comes after the name"
         elif name not in known:
             wanted = f"{{{name}}}" if name and len(name) < 60 else "{}"
             near = did_you_mean(str(name), known)
@@ -249,7 +249,7 @@ def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
 
 
 def _names(rule: Rule, schema: Schema) -> dict[str, Worth]:
-    """Return what every name of a rule stands for."""
+    """Return what every name of a rule means."""
     family = schema.family
     names = dict.fromkeys(TYPES, ANY)
     names |= {

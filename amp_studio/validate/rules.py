@@ -1,4 +1,4 @@
-"""One rule for one instance: whether it is broken, and what is said of it then."""
+"""One rule for one instance: whether it is broken, and the finding it gives then."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class RuleChecks:
         self._lists: dict[Listed, list[Canonical]] = {}
         self._lists_before: dict[Listed, list[Canonical]] = {}
         self._list_keys: dict[Listed, Hashable] = {}
-        """What stands for the lists in a key."""
+        """What is in the place of the lists in a key."""
 
     def look_again(self) -> None:
         """Forget the values, which may have changed; called before the checks of a round."""
@@ -102,7 +102,7 @@ class RuleChecks:
 
     def _context(self, check: RuleCheck, values: list[Any]) -> Context:
         """Return what every expression of a check sees."""
-        functions = {name: self._functions[name] for name in check.expressions.told.functions}
+        functions = {name: self._functions[name] for name in check.expressions.finding.functions}
         return context_of(functions, ALWAYS_THERE, check.names, values, self._circumstances(check))
 
     def _circumstances(self, check: RuleCheck) -> Circumstances:
@@ -160,7 +160,7 @@ class RuleChecks:
         self._lists[listed] = found
         return found
 
-    # -- what is said ----------------------------------------------------------
+    # -- the finding -----------------------------------------------------------
 
     def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
         rule, evaluation = check.rule, self._file.evaluation
@@ -177,7 +177,7 @@ class RuleChecks:
         turns = any(evaluation.turns(address) for address in own)
         entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
         is_secret = self._reads_secret(check)
-        for name, expression in check.expressions.told.values:
+        for name, expression in check.expressions.finding.values:
             unit = rule.units.get(name, "")
             unit = angular(unit) if turns else unit
             # What is worked out of a secret can give it away.
@@ -186,17 +186,17 @@ class RuleChecks:
             tuple(a for a in addresses if evaluation.state(a).state != "hidden") or addresses
             for addresses in about(check, given.context, present)
         )
-        repairs = self._repairs(check, given)
-        safe = bool(repairs) and all(fix.safe for fix in rule.fix)
+        fix = self._fix(check, given)
+        safe = bool(fix) and all(entry.safe for entry in rule.fix)
         return Finding(
             rule.id,
             rule.severity,
             causes,
             rule.message.format_map(texts),
-            repairs,
+            fix,
             rule.page,
             safe,
-            tuple(self._set(check, given, check.expressions.told.effective)),
+            tuple(self._set(check, given, check.expressions.finding.effective)),
             compared,
             check.instance,
             isinstance(rule, BuilderRule),
@@ -226,15 +226,15 @@ class RuleChecks:
         number, sign = write_number(float(f"{found:.7g}")), shown(unit)
         return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
 
-    def _repairs(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
+    def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
         """Return what the rule would change; nothing if it would not help. Whether it does harm is for a trial."""
-        repairs = tuple(self._set(check, given, check.expressions.told.fixes))
-        return repairs if repairs and self._mends(check, given, repairs) else ()
+        fix = tuple(self._set(check, given, check.expressions.finding.fixes))
+        return fix if fix and self._mends(check, given, fix) else ()
 
     def _set(
         self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Program], ...]
     ) -> Iterator[Setting]:
-        """Yield what the rule sets, where that is another value than the present one; no secret goes elsewhere."""
+        """Yield what the rule sets, if that is another value than the present one; no secret goes elsewhere."""
         is_secret = bool(assignments) and self._reads_secret(check)
         for name, expression in assignments:
             address = check.address_of(name)
@@ -244,9 +244,9 @@ class RuleChecks:
             if value is not None and value != self._file.values.get(address):
                 yield Setting(address, value)
 
-    def _mends(self, check: RuleCheck, given: _Given, repairs: tuple[Setting, ...]) -> bool:
-        """Return whether the rule holds with its own suggested fixes, which were rounded as the parameter wants it."""
-        mended = {repair.address: canonical_value(repair.value) for repair in repairs}
+    def _mends(self, check: RuleCheck, given: _Given, fix: tuple[Setting, ...]) -> bool:
+        """Return whether the rule is satisfied with its own suggested fixes, which were rounded as the parameter needs it."""
+        mended = {setting.address: canonical_value(setting.value) for setting in fix}
         before = dict(zip(check.names, given.values, strict=True))
         after: dict[str, Any] = {s.name: mended[s.address] for s in check.singles if s.address in mended}
         for name, listed in check.lists:
@@ -261,7 +261,7 @@ class RuleChecks:
             given.context.update({name: before[name] for name in after})
 
     def _worked_out(self, address: Address, expression: Program, context: Context) -> Value | None:
-        """Return a value as the parameter holds it, in the unit of the present one; None where there is none."""
+        """Return a value as the parameter stores it, in the unit of the present one; None where there is none."""
         parameter = self._file.schema.parameters[address[0]]
         try:
             found = expression.execute(context)
@@ -280,7 +280,7 @@ class RuleChecks:
 
 
 def _too_long(values: Iterable[Any]) -> bool:
-    """Return whether a text is longer than a builder's rule was found to bear; its own check says that it is too long."""
+    """Return whether a text is longer than a builder's rule was found to bear; its own check reports that it is too long."""
     return any(
         len(value) > LONGEST_TEXT if type(value) is str else type(value) is list and _too_long(value)
         for value in values

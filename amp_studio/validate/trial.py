@@ -33,13 +33,13 @@ class _Tried:
 
     is_good: bool
     asked: frozenset[Place] | None
-    """None where that is every check."""
+    """None if that is every check."""
 
 
 class Trials:
     """Fixes of the findings of one file, tried on a copy of it.
 
-    A copy, because the file itself tells everyone who listens of its changes, and may just be saved by another thread.
+    A copy, because the file itself notifies everyone who listens of its changes, and may just be saved by another thread.
     """
 
     def __init__(self, file: ParameterFile, plan: Plan, own: BuilderRules) -> None:
@@ -66,13 +66,13 @@ class Trials:
     def offered(
         self, place: Place, finding: Finding, filed: Mapping[Place, tuple[object, Finding]]
     ) -> Finding:
-        """Return a finding of those that are ``filed`` with its fix, or without where that is not good."""
-        if not finding.repairs:
+        """Return a finding of those that are ``filed`` with its fix, or without if that is not good."""
+        if not finding.fix:
             return finding
         tried = self._tried.get(place)
         if tried is None:
             tried = self._tried[place] = self._try(place, finding, filed)
-        return finding if tried.is_good else replace(finding, repairs=(), safe=False)
+        return finding if tried.is_good else replace(finding, fix=(), safe=False)
 
     def too_many(self, filed: Mapping[Place, tuple[object, Finding]]) -> frozenset[Place]:
         """Return the findings that have a fix too many: trying it would ask a builder's rules for too long.
@@ -82,10 +82,10 @@ class Trials:
         if not self._own.rules:
             return frozenset()
         steps, beyond = 0, set()
-        wanting = [place for place, (_, finding) in filed.items() if finding.repairs]
+        wanting = [place for place, (_, finding) in filed.items() if finding.fix]
         for place in sorted(wanting, key=lambda place: (isinstance(place, int), place)):
             if steps <= MOST_STEPS:
-                steps += sum(map(self._steps, self._asked(r.address for r in filed[place][1].repairs)))
+                steps += sum(map(self._steps, self._asked(r.address for r in filed[place][1].fix)))
             if steps > MOST_STEPS:
                 beyond.add(place)
         return frozenset(beyond)
@@ -102,9 +102,9 @@ class Trials:
             self._checks = Checks(file)
         forced = dict(file.forced)
         try:
-            changes = file.set_many({repair.address: repair.value for repair in finding.repairs})
+            changes = file.set_many({setting.address: setting.value for setting in finding.fix})
         except RangeError:
-            return _Tried(False, self._asked([repair.address for repair in finding.repairs]))
+            return _Tried(False, self._asked([setting.address for setting in finding.fix]))
         try:
             return self._judge(place, finding, filed, changes)
         finally:
@@ -122,7 +122,7 @@ class Trials:
     ) -> _Tried:
         if not self._checks.fit:
             return _Tried(self._is_good_on_another_machine(finding, filed), None)
-        asked = self._asked([*(c.address for c in changes), *(repair.address for repair in finding.repairs)])
+        asked = self._asked([*(c.address for c in changes), *(setting.address for setting in finding.fix)])
         self._checks.look_again()
         if self._found(place):
             return _Tried(False, asked)

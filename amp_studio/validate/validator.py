@@ -23,7 +23,7 @@ class Validator:
     """Checks ranges, choices, states and rules of one file.
 
     ``run`` checks everything, ``update`` only what read the changed addresses;
-    both leave the same findings. Any value whatever may stand in the file.
+    both leave the same findings. Any value whatever may be in the file.
     ``own`` are a machine builder's rules.
     """
 
@@ -36,7 +36,7 @@ class Validator:
         """Machine type, model and unit system of the present findings."""
         self._unset: set[Address] = set()
         self._unset_advice: list[tuple[_Order, Finding]] | None = None
-        """What is said of them, until they change."""
+        """What is reported about them, until they change."""
         self._filed: dict[Place, tuple[_Order, Finding]] = {}
         self._checks_of: dict[Hashable, RuleCheck] | None = None
         """Key of a finding -> the check it is of, until the findings change."""
@@ -143,7 +143,7 @@ class Validator:
         too_many = self._trials.too_many(self._filed)
         for place, (order, finding) in self._filed.items():
             if place in too_many:
-                yield order, replace(finding, repairs=(), safe=False)
+                yield order, replace(finding, fix=(), safe=False)
             else:
                 yield order, self._trials.offered(place, finding, self._filed)
 
@@ -175,5 +175,7 @@ class Validator:
             return
         names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in unset[:4])
         more = f" and {len(unset) - 4} more" if len(unset) > 4 else ""
-        said = f"{len(unset)} parameters in force have no value here, so the control keeps its own: {names}{more}."
+        said = (
+            f"{len(unset)} active parameters have no value here, so the control keeps its own: {names}{more}."
+        )
         yield Finding("schema.unset", "advice", unset, said)

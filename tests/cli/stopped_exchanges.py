@@ -64,7 +64,7 @@ def download_while_stopped(path: Path, folder: Path, *, seed: int, rounds: int) 
         fits = {
             0: "complete" in out or "holds exactly" in out,
             2: not changed and "complete" not in out,
-            3: changed and "the control holds the new image" in err,
+            3: changed and "the control contains the new image" in err,
             4: "not known" in err and "amp-studio verify" in err,
             -number_of: not changed and not out,  # before the program has begun
         }.get(code, False)

@@ -40,7 +40,7 @@ def test_a_finding_has_the_promised_shape_and_ends_with_1(amp, mill: Path) -> No
     assert sum(counted.values()) == len(found["findings"])
     for finding in found["findings"]:
         assert {"rule", "severity", "params", "message", "fix", "source"} <= finding.keys()
-        assert all({"param", "value"} <= repair.keys() for repair in finding["fix"])
+        assert all({"param", "value"} <= setting.keys() for setting in finding["fix"])
         assert "{" not in finding["message"]
     (ours,) = [f for f in found["findings"] if f["params"] == ["1300"]]
     assert (
@@ -129,7 +129,7 @@ def test_a_file_that_cannot_be_read_does_not_hide_the_others(
 
 def test_a_folder_without_files_and_no_processes_are_refused(amp, tmp_path: Path, mill: Path) -> None:
     (tmp_path / "empty").mkdir()
-    assert amp("validate", tmp_path / "empty").err.endswith("empty: holds no .amp files\n")
+    assert amp("validate", tmp_path / "empty").err.endswith("empty: contains no .amp files\n")
     assert "0 is no number of processes" in amp("validate", mill, "--jobs", 0).err
 
 

@@ -53,7 +53,7 @@ def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_pr
     code, said = start("set", mill, "1300=1.5", stdout=full)
     assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
     assert said == (
-        f"amp-studio: the results cannot be written: No space left on device; {mill} has been changed and holds the "
+        f"amp-studio: the results cannot be written: No space left on device; {mill} has been changed and contains the "
         f"new content; its previous content is in {mill}.bak\n"
     )
 
@@ -135,7 +135,7 @@ def test_an_interrupt_while_a_refusal_is_worded_says_what_holds(amp, mill: Path,
     said = amp("set", mill, "1300=1")
     assert (said.code, said.err) == (
         3,
-        f"amp-studio: stopped; {mill} has been changed and holds the new content\n",
+        f"amp-studio: stopped; {mill} has been changed and contains the new content\n",
     )
 
 

@@ -192,7 +192,7 @@ LINES = [
     ("amp-studio set MILL_1394.amp 350=La", ["Lathe"]),
     ("amp-studio show 9pc home.cal", ["home.calibration"]),
 ]
-"""A line as it is typed, and what bash puts in the place of what stands behind its last word break."""
+"""A line as it is typed, and what bash puts in the place of what comes after its last word break."""
 
 
 def asked_of_bash(line: str, folder: Path) -> list[str]:

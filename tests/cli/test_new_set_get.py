@@ -127,7 +127,7 @@ def test_a_person_sees_what_was_changed_and_what_is_inactive(amp, mill: Path) ->
     assert re.fullmatch(r"1300 Home Calibration +2 mm \*", lines[0])
     assert re.fullmatch(r"2300 Home Calibration +0 mm", lines[1])
     assert re.fullmatch(r"1320 Positive Software Overtravel +0 mm  \(inactive: ignored\)", lines[2])
-    assert re.fullmatch(r"1009 Programmable Zone Group Axis +—", lines[3])
+    assert re.fullmatch(r"1009 Programmable Zone Group Axis +not set", lines[3])
 
 
 # -- set --------------------------------------------------------------------------------------------------------

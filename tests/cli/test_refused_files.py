@@ -68,7 +68,7 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("kind", "said"),
     [
-        ("duplicate", "bad.amp, line 5: 'axis.type@1' stands twice"),
+        ("duplicate", "bad.amp, line 5: 'axis.type@1' occurs twice"),
         ("newer", "bad.amp, line 1: was written by a newer AMP Studio (file format 9, known: 1)"),
         ("no end mark", "ends without its end mark '...': it has been cut off"),
         ("no number", "bad.amp, line 4: home.calibration@1: 'five mm' is not a number"),

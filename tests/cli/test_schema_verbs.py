@@ -319,7 +319,7 @@ def test_a_speed_of_syntec_says_its_unit_where_a_person_looks(amp, tmp_path, par
     path = tmp_path / "mill.amp"
     amp("new", "syntec", path)
     first = unit.partition(" or ")[0]
-    assert amp("get", path, param).out.endswith(f"— (in {first})\n")
+    assert amp("get", path, param).out.endswith(f"not set (in {first})\n")
     number = param if param.startswith("Pr") else f"Pr{param}"
     (found,) = [
         d for d in amp("schema", "syntec", "--json").json["parameters"] if number in d["numbers"].values()

@@ -193,7 +193,7 @@ def test_the_printed_password_is_warned_of_and_not_written(amp, tmp_path: Path) 
 
 @pytest.fixture
 def control(tmp_path: Path) -> Iterator[str]:
-    """Return the address of an emulated control in a process of its own."""
+    """Return the address of an emulated control in a separate process."""
     command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", "tcp://127.0.0.1:0",
                "--state", str(tmp_path / "control")]  # fmt: skip
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:

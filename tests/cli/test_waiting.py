@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from amp_studio.cli.console import progress
-from amp_studio.cli.screen import Screen, tell
+from amp_studio.cli.screen import Screen, print_notice
 
 
 class Terminal(io.BytesIO):
@@ -46,7 +46,7 @@ def test_a_silence_is_one_line_that_counts_and_goes(monkeypatch: pytest.MonkeyPa
 def test_an_error_stands_on_a_line_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = at_terminal(monkeypatch)
     progress()("silent", 19, 20)
-    tell("amp-studio: the control has not answered for 20 s")
+    print_notice("amp-studio: the control has not answered for 20 s")
     assert terminal.shown == ["amp-studio: the control has not answered for 20 s", ""]
 
 

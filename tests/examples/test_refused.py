@@ -13,14 +13,14 @@ FOLDER = Path(__file__).parent / "refused"
 
 REFUSED = {
     "a-picture": ", line 1: is not UTF-8 text",
-    "address-twice": ", line 9: 'servo.sercos_cycle' stands twice",
+    "address-twice": ", line 9: 'servo.sercos_cycle' occurs twice",
     "another-kind-of-file": ": is not an AMP Studio parameter file",
     "bad-indent": ", line 7: is not readable: did not find expected key",
     "cut-off-after-a-line": ", line 8: ends without its end mark '...': it has been cut off",
     "cut-off-in-a-key": ", line 8: ends without its end mark '...': it has been cut off",
     "cut-off-in-a-value": ", line 8: ends without its end mark '...': it has been cut off",
     "cut-off-to-nothing": ": is not an AMP Studio parameter file",
-    "key-twice": ", line 9: 'home.calibration@1' stands twice",
+    "key-twice": ", line 9: 'home.calibration@1' occurs twice",
     "newer-version": ", line 1: was written by a newer AMP Studio (file format 2, known: 1)",
     "no-family": ": names no control family",
     "no-finite-number": ", line 8: home.calibration@1: '1e999' is too large",

@@ -79,7 +79,7 @@ def _kept_name(address: str) -> int | None:
 
 
 def _untrue(code: int, said: str, old: bytes, held: bytes, work: Path, how: str) -> list[str]:
-    """Return what does not fit: the exit code and what the control holds, which is whole; what it held is kept."""
+    """Return what does not fit: the exit code and what the control contains, which is whole; what it contained is kept."""
     found = []
     if not held.endswith(b"\n") or b"\nend " not in held:
         found.append("the control holds half an image")

@@ -89,7 +89,7 @@ def _swap(text: str, chance: random.Random, texts: Sequence[str]) -> str:
 
 
 def _replace(text: str, chance: random.Random, _texts: Sequence[str]) -> str:
-    """Put something else in the place of what stands behind a colon, a tab, a comma."""
+    """Put something else in the place of what comes after a colon, a tab, a comma."""
     places = [n for n, sign in enumerate(text) if sign in ":\t,= #"] or [0]
     at = chance.choice(places) + 1
     end = min(n for n in (text.find("\n", at), len(text)) if n >= 0)

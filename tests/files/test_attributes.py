@@ -56,7 +56,7 @@ def test_an_owner_that_cannot_be_kept_is_told_and_his_group_gets_no_more_than_ot
     monkeypatch.setattr(os, "fchown", not_permitted)
     monkeypatch.setattr(os, "fstat", of_another)
     notes: list[str] = []
-    write_atomic(small, b"new", tell=notes.append)
+    write_atomic(small, b"new", notify=notes.append)
     assert notes == [f"small.amp: owner and group are now {owner}:{other}; {owner}:{group} could not be kept"]
     assert stat.S_IMODE(small.stat().st_mode) == 0o644
 
@@ -87,7 +87,7 @@ def test_attributes_that_a_person_gave_a_file_are_kept(small: Path, monkeypatch)
 
     monkeypatch.setattr(os, "setxattr", refused)
     notes: list[str] = []
-    write_atomic(small, b"new", tell=notes.append)
+    write_atomic(small, b"new", notify=notes.append)
     assert notes == ["small.amp: user.approved could not be kept"]
 
 

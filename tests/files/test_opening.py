@@ -111,9 +111,9 @@ def test_a_saved_file_cut_off_at_a_line_end_says_so(on_disk: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "line", "said"),
     [
-        ("axis.name@1: X", "axis.type@1: rotary", 8, "'axis.type@1' stands twice"),
-        ("axis.name@1: X", "control.type@: Lathe", 8, "'control.type' stands twice"),
-        ("axis.name@1: X", "1300: 5\n  '1300': 6", 9, "'1300' stands twice"),
+        ("axis.name@1: X", "axis.type@1: rotary", 8, "'axis.type@1' occurs twice"),
+        ("axis.name@1: X", "control.type@: Lathe", 8, "'control.type' occurs twice"),
+        ("axis.name@1: X", "1300: 5\n  '1300': 6", 9, "'1300' occurs twice"),
         ("amp_studio: 1", "amp_studio: 2", 1, "was written by a newer AMP Studio (file format 2, known: 1)"),
         ("amp_studio: 1", "amp_studio: one", 1, "'one' is no version of the file format"),
         ("amp_studio: 1", "amp_studio: true", 1, "'true' is no version of the file format"),
@@ -138,7 +138,7 @@ def test_a_saved_file_cut_off_at_a_line_end_says_so(on_disk: Path) -> None:
         ("family: 9pc", "family: 9pc\nmachine: grinder", 3, "machine is 'grinder'; known here: lathe, mill"),
         ("family: 9pc", "family: 9pc\nforced: [home.calibration@1]", 3, "'forced' is not a list of parameters"),
         ("  control.type: Mill", "\tcontrol.type: Mill", 4, "is not readable: found character that cannot start any token"),
-        ("...", "...\n---\nfamily: 9pc\n...", 10, "is not readable: something stands behind its end"),
+        ("...", "...\n---\nfamily: 9pc\n...", 10, "is not readable: something comes after its end"),
         ("...", "", 10, "ends without its end mark '...': it has been cut off"),
         ("control.type: Mill", "control.type: Grinder", 4, "control.type: 'Grinder' is not a choice of Control Type"),
     ],

@@ -133,7 +133,7 @@ def test_comments_and_unknown_keys_of_a_project_survive(project: Project) -> Non
         ("amp_studio_project: 1\nname: x\nfamily: fanuc\n", 3, "Unknown family 'fanuc'. Known: "),
         ("amp_studio_project: 1\nname: [x\n", 3, "is not readable: did not find expected"),
         ("amp_studio_project: 1\nname: &x 2001-99-99\n", 2, "is not readable: it uses a YAML reference"),
-        ("amp_studio_project: 1\nname: x\nname: y\n", 3, "'name' stands twice"),
+        ("amp_studio_project: 1\nname: x\nname: y\n", 3, "'name' occurs twice"),
     ],
 )
 def test_a_project_file_that_is_not_understood_is_refused(

@@ -120,7 +120,7 @@ def test_the_verbs_write_read_and_refuse(tmp_path: Path, capsys: pytest.CaptureF
     assert run(["export", str(MILL), "-o", str(tmp_path / "mill.doc")]) == 2
     assert ".patch (patch)" in capsys.readouterr().err
     assert run(["import", str(sheet), "-o", str(tmp_path / "x.amp")]) == 2
-    assert "does not tell which family" in capsys.readouterr().err
+    assert "does not show which family" in capsys.readouterr().err
 
 
 def test_an_import_with_a_value_out_of_range_writes_nothing_unless_told(
@@ -129,7 +129,7 @@ def test_an_import_with_a_value_out_of_range_writes_nothing_unless_told(
     (tmp_path / "far.csv").write_text("id,instance,value,unit\nhome.calibration,1,9999999,mm\n", "utf-8")
     arguments = ["import", str(tmp_path / "far.csv"), "-o", str(tmp_path / "far.amp"), "--family", "9pc"]
     assert run(arguments) == 2
-    assert "an import holds an illegal value, nothing was written" in capsys.readouterr().err
+    assert "an import contains an illegal value, nothing was written" in capsys.readouterr().err
     assert not (tmp_path / "far.amp").exists()
     assert run([*arguments, "--on-fault", "keep"]) == 0
     assert open_file(tmp_path / "far.amp").file.forced[CALIBRATION].endswith("by an import")

@@ -105,7 +105,7 @@ def test_of_several_that_exist_the_first_is_taken() -> None:
 def test_a_number_of_several_words_means_all_of_them(num: ParameterFile) -> None:
     found = [m.address for m in all_meant(num.evaluation, "P21")]
     assert found == [("servo.loop_gain", str(n)) for n in range(32)]
-    with pytest.raises(UnknownParameterError, match="'P21' has 32 words, P21N0 to P21N31: say which"):
+    with pytest.raises(UnknownParameterError, match="'P21' has 32 words, P21N0 to P21N31: name one of them"):
         num.find("P21")
 
 
@@ -140,7 +140,7 @@ def test_two_axes_of_one_letter_are_both_told(mill: ParameterFile) -> None:
     with pytest.raises(UnknownParameterError) as refused:
         file.find("home.calibration@X")
     assert str(refused.value) == (
-        "'home.calibration@X': the axes 1 and 3 are all named X: say home.calibration@1 or home.calibration@3"
+        "'home.calibration@X': the axes 1 and 3 are all named X: write home.calibration@1 or home.calibration@3"
     )
     with pytest.raises(UnknownParameterError, match="the axes 1 and 3 are all named X"):
         axis_meant(file.evaluation, ("1", "2", "3"), "X")

@@ -58,7 +58,7 @@ def test_good_facts_load(facts, head) -> None:
         ("  quantity: velocity", "  quantity: velocity\n  unnit: mm", "unnit", "a.speed: unnit: there is no such key, did you mean 'unit'?"),
         ("  name: Speed\n", "", "- id: a.speed", "a.speed: name: is missing"),
         ("type: real", "type: reel", "type: reel", "a.speed: type: 'reel' is not 'integer', 'real', "),
-        ("id: a.kind", "id: a.speed", "- id: a.speed", "a.speed stands twice"),
+        ("id: a.kind", "id: a.speed", "- id: a.speed", "a.speed occurs twice"),
         ("id: a.kind", "id: Kind", "- id: Kind", "Kind: id: 'Kind' is no id: small letters"),
         ("value: one", "value: three", "- id: a.kind", "a.kind: default 'three' is none of its choices"),
         ("label: Two", "label: ONE", "- id: a.kind", "a.kind: two choices share a label"),
@@ -73,7 +73,7 @@ def test_good_facts_load(facts, head) -> None:
         ('page: "1"\n- id: a.kind', 'page: page one\n- id: a.kind', "page: page one", "a.speed: page: 'page one' is no page: written like 7-20"),
         ("name: Kind", "numbers: {format: 'P{x}'}\n  name: Kind", "numbers", "the format 'P{x}' may hold"),
         ("name: Kind", "numbers: {step: 3}\n  name: Kind", "numbers", "numbers need 'start', 'listed', 'starts' or a format without"),
-        ("name: Kind", "name: Kind\n  name: Sort", "name: Sort", "'name' stands twice"),
+        ("name: Kind", "name: Kind\n  name: Sort", "name: Sort", "'name' occurs twice"),
         ("name: Kind", "name: [Kind", "scope: axis", "expected"),
     ],
 )  # fmt: skip

@@ -27,7 +27,7 @@ def test_a_secret_is_masked_whatever_its_type(kind: str) -> None:
     value = Value("open sesame" if kind == "text" else 77)
     assert show_value(parameter(type=kind), value) == MASKED
     assert show_value(parameter(type=kind), value, secrets=True) == str(value.value)
-    assert show_value(parameter(type=kind), None) == "—"
+    assert show_value(parameter(type=kind), None) == "not set"
 
 
 @pytest.mark.parametrize("kind", ["text", "integer", "real"])
@@ -41,7 +41,7 @@ def test_the_mask_is_no_value(kind: str, text: str) -> None:
 def test_what_cannot_be_read_is_not_repeated(text: str) -> None:
     with pytest.raises(InvalidValueError) as refused:
         read_value(parameter(type="integer"), text, "")
-    assert str(refused.value) == "Code takes a whole number; what stands there is secret and not shown"
+    assert str(refused.value) == "Code takes a whole number; the value given is secret and not shown"
     assert refused.value.__suppress_context__
 
 

@@ -113,7 +113,7 @@ def rig(new_control: Callable[..., Control]) -> Callable[..., Rig]:
 
 @dataclass
 class Emulated:
-    """An emulated control in a process of its own; ``address`` is where it listens."""
+    """An emulated control in a separate process; ``address`` is where it listens."""
 
     process: subprocess.Popen[str]
     address: str

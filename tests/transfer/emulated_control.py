@@ -1,4 +1,4 @@
-"""An emulated control in a process of its own: ``emulated_control.py ADDRESS FOLDER [OPTIONS]``.
+"""An emulated control in a separate process: ``emulated_control.py ADDRESS FOLDER [OPTIONS]``.
 
 OPTIONS is a JSON object: ``initial`` (text), ``signature``, ``estop``, ``autostart``, ``faults`` and
 ``restart_seconds``.

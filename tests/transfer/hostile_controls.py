@@ -200,23 +200,25 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
         return "kept.amp"
 
     try:
-        held: str = download(HouseDriver(session), NEW, keep, signature=SIGNATURE, progress=progress).held
+        at_control: str = download(
+            HouseDriver(session), NEW, keep, signature=SIGNATURE, progress=progress
+        ).at_control
         text = ""
     except CancelledError:
-        held, text = "old", "nobody has cancelled"
+        at_control, text = "old", "nobody has cancelled"
         faults.append(text)
     except TransferError as error:
-        held, text = error.held, str(error)
+        at_control, text = error.at_control, str(error)
     except Exception as error:  # whatever else comes out is what is looked for
-        held, text = "old", ""
+        at_control, text = "old", ""
         faults.append(f"{type(error).__name__}: {error}")
     finally:
         session.close()
         hostile.control.close()
     truth = {OLD: "old", NEW: "new"}[hostile.control.image]
-    if LIES.isdisjoint(hostile.tricks) and held not in {truth, "unknown"}:
-        faults.append(f"said {held}, and it is {truth}: {text}")
-    if held == "unknown" and not hostile.heard_commit:
+    if LIES.isdisjoint(hostile.tricks) and at_control not in {truth, "unknown"}:
+        faults.append(f"said {at_control}, and it is {truth}: {text}")
+    if at_control == "unknown" and not hostile.heard_commit:
         faults.append("said it is not known, and no commit was asked for")
     if not text.replace("\n", "").isprintable() or len(text) > 1_500:
         faults.append(f"steering signs or too much text: {text[:200]!r}")

@@ -180,9 +180,9 @@ def test_any_text_of_a_file_comes_back_from_its_image(text: str) -> None:
     image = encode_image(file)
 
     assert not any(sign in image.decode().replace("\n", "") for sign in "\r\x1b\x85\x00")
-    held = decode_image(image)
-    assert held.values == file.values
-    assert held.header.revision == text
+    at_control = decode_image(image)
+    assert at_control.values == file.values
+    assert at_control.header.revision == text
 
 
 def test_half_a_character_is_no_text_of_an_image() -> None:

@@ -37,11 +37,11 @@ def test_an_image_reads_back_as_the_same_values() -> None:
     """Every value comes back exactly, in the unit it was entered in."""
     file = a_file()
 
-    held = decode_image(encode_image(file))
+    at_control = decode_image(encode_image(file))
 
-    assert held.values == file.values
-    assert held.values[("home.speed_off_switch", "1")] == Value(10.0, "in/min")
-    assert encode_image(held) == encode_image(file)
+    assert at_control.values == file.values
+    assert at_control.values[("home.speed_off_switch", "1")] == Value(10.0, "in/min")
+    assert encode_image(at_control) == encode_image(file)
 
 
 def test_the_page_shows_the_form() -> None:
@@ -91,10 +91,10 @@ def test_a_value_keyed_in_at_the_control_is_in_its_own_unit() -> None:
     """Patch AMP speaks mm/s where the editor speaks mm/min, and stored codes of choices (page 37-3)."""
     image = encode_image(a_file())
 
-    held = decode_image(patch_image(patch_image(image, "1350", "4.23333"), "1002", "1"))
+    at_control = decode_image(patch_image(patch_image(image, "1350", "4.23333"), "1002", "1"))
 
-    assert held.values[("home.speed_off_switch", "1")] == Value(4.23333, "mm/s")
-    assert held.values[("home.direction_off_switch", "1")] == Value("positive")
+    assert at_control.values[("home.speed_off_switch", "1")] == Value(4.23333, "mm/s")
+    assert at_control.values[("home.direction_off_switch", "1")] == Value("positive")
 
 
 def test_a_number_the_control_does_not_offer_is_refused() -> None:
@@ -106,10 +106,10 @@ def test_a_number_the_control_does_not_offer_is_refused() -> None:
 
 def test_a_code_that_no_choice_has_is_kept() -> None:
     """The control checks nothing, so an upload may hold any code."""
-    held = decode_image(patch_image(encode_image(a_file()), "1510", "77"))
+    at_control = decode_image(patch_image(encode_image(a_file()), "1510", "77"))
 
-    assert held.values[("servo.position_loop_type", "1")] == Value("raw:77")
-    assert decode_image(encode_image(held)).values == held.values
+    assert at_control.values[("servo.position_loop_type", "1")] == Value("raw:77")
+    assert decode_image(encode_image(at_control)).values == at_control.values
 
 
 @pytest.mark.parametrize(

@@ -233,7 +233,7 @@ def editor(window: MainWindow) -> QWidget:
 
 
 class Control:
-    """An emulated control in a process of its own."""
+    """An emulated control in a separate process."""
 
     def __init__(self, state: Path, *options: str) -> None:
         command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--machine", "mill", "--state", str(state),

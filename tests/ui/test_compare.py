@@ -43,7 +43,7 @@ def dialog(window: MainWindow, other: Path, person: Person) -> CompareDialog:
 def test_differences_by_kind_with_their_counts(dialog: CompareDialog, window: MainWindow) -> None:
     rows = {item.text(0).partition(" ")[0]: [item.text(n) for n in range(1, 5)] for item in dialog.list.items}
     assert rows["1750"] == ["Axis 1", "different", "11 mm", "3 mm"]
-    assert rows["1300"] == ["Axis 1", "only in this file", "0 mm", "—"]
+    assert rows["1300"] == ["Axis 1", "only in this file", "0 mm", "not set"]
     assert [row for row in rows.values() if row[1] == "not in this file"]
     same = len(window.workspace.file.values) - len(rows) + 1
     assert (

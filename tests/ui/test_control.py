@@ -1,4 +1,4 @@
-"""Download, verify and upload against an emulated control in a process of its own."""
+"""Download, verify and upload against an emulated control in a separate process."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def download(window: MainWindow, person: Person, control: Control) -> str:
 def test_download_verify_upload(
     window: MainWindow, start_control: Start, person: Person, accept, tmp_path: Path
 ) -> None:
-    """What a control gives back is what it was given, and what it held before is kept beside the file."""
+    """What a control gives back is what it was given, and what it contained before is kept beside the file."""
     control = start_control()
     previews = []
     accept(DownloadPreview, lambda dialog: previews.append(len(dialog.list.items)))
@@ -89,7 +89,9 @@ def test_a_change_at_the_control_after_the_preview_is_not_overwritten(
 
     said = download(window, person, control)
 
-    assert said.startswith("the control holds something else than what was approved to be replaced (sha256 ")
+    assert said.startswith(
+        "the control contains something else than what was approved to be replaced (sha256 "
+    )
     assert said.endswith("; nothing was replaced in the control")
     assert parameters.fetch_file(control.address).values == other.values
 

@@ -52,7 +52,7 @@ def test_a_broken_rule_is_marked(window: MainWindow) -> None:
 
 
 def test_three_values_where_they_differ(window: MainWindow) -> None:
-    """What is edited is not what is on disk, and not what the control holds."""
+    """What is edited is not what is on disk, and not what the control contains."""
     window.go_to(EXCESS)
     assert "on disk" not in page(window, "Help")
     window.workspace.remember_control({EXCESS: Value(5.0, "mm")}, "10:30")

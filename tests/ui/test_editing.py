@@ -233,20 +233,20 @@ def test_copy_and_paste_a_value(window: MainWindow, file: ParameterFile) -> None
     assert file.get(("servo.gain_break_point", "2")) == Value(3.5, "mm")
 
 
-def test_one_key_repairs_the_selected_finding_and_undo_takes_it_back(
+def test_one_key_fixes_the_selected_finding_and_undo_takes_it_back(
     open_window, path, bare: bytes, person
 ) -> None:  # fmt: skip
     path.write_bytes(bare)
     window = open_window(path)
     workspace = window.workspace
-    finding = next(f for f in workspace.findings if f.repairs)
+    finding = next(f for f in workspace.findings if f.fix)
     row = workspace.findings.index(finding)
     window.findings.view.selectRow(row)
     before = dict(workspace.file.values)
 
     window.edits._fix()
 
-    assert all(workspace.file.get(r.address) == r.value for r in finding.repairs)
+    assert all(workspace.file.get(r.address) == r.value for r in finding.fix)
     assert finding not in workspace.findings
     workspace.undo_stack.undo()
     assert workspace.file.values == before

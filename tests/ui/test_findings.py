@@ -57,26 +57,26 @@ def test_enter_shows_the_parameter_of_a_finding(wrong: MainWindow) -> None:
     assert wrong.table_view.hasFocus()
 
 
-def test_the_fix_button_repairs_and_only_where_there_is_a_repair(path, bare: bytes, open_window) -> None:
+def test_the_fix_button_fixes_and_only_where_there_is_a_fix(path, bare: bytes, open_window) -> None:
     path.write_bytes(bare)
     wrong = open_window(path)
     findings = wrong.workspace.findings
-    able = next(n for n, f in enumerate(findings) if f.repairs)
-    unable = next(n for n, f in enumerate(findings) if not f.repairs)
+    able = next(n for n, f in enumerate(findings) if f.fix)
+    unable = next(n for n, f in enumerate(findings) if not f.fix)
     wrong.findings.view.selectRow(unable)
     assert not wrong.findings.fix_button.isEnabled()
 
     wrong.findings.view.selectRow(able)
     assert wrong.findings.fix_button.isEnabled()
-    repair = findings[able].repairs[0]
+    setting = findings[able].fix[0]
     wrong.findings.fix_button.click()
-    assert wrong.workspace.file.get(repair.address) == repair.value
+    assert wrong.workspace.file.get(setting.address) == setting.value
 
 
-def test_a_finding_without_a_repair_says_so(path, bare: bytes, open_window, person) -> None:
+def test_a_finding_without_a_fix_says_so(path, bare: bytes, open_window, person) -> None:
     path.write_bytes(bare)
     wrong = open_window(path)
-    unable = next(n for n, f in enumerate(wrong.workspace.findings) if not f.repairs)
+    unable = next(n for n, f in enumerate(wrong.workspace.findings) if not f.fix)
     wrong.findings.view.selectRow(unable)
     wrong.guarded(wrong.edits._fix)
     assert "has no suggested fix" in person.reads()
@@ -147,7 +147,7 @@ def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, 
     assert "measured on the machine" in path.with_name("rules.yaml").read_text()
 
 
-def test_safe_repairs_are_one_step_that_can_be_undone(window: MainWindow) -> None:
+def test_safe_fixes_are_one_step_that_can_be_undone(window: MainWindow) -> None:
     patched = ("oci.connections", "")
     rule = next(r for r in window.workspace.file.schema.rules if r.id == "9pc.oci.one-connection")
     assert rule.fix[0].safe

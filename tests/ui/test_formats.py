@@ -81,4 +81,4 @@ def test_what_a_text_leaves_out_is_said(window: MainWindow, person: Person, tmp_
     person.chooses(tmp_path / "num.txt", tmp_path / "num.amp")
     action(window, "Import").trigger()
     assert window.workspace.path == tmp_path / "num.amp"
-    assert "; the table does not hold these words: P5N1" in window.statusBar().currentMessage()
+    assert "; the table does not contain these words: P5N1" in window.statusBar().currentMessage()

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QSpinBox
 
-from amp_studio.files.held import held_text
+from amp_studio.files.storage_text import storage_text
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 
@@ -121,16 +121,16 @@ def test_engineering_units_are_edited_and_the_registers_seen(module: MainWindow)
     module.go_to(velocity)
     assert "10485760: R19 = 160 (0x00A0), R20 = 0 (0x0000)" in module.detail.pages["Help"].toPlainText()
     assert module.edits.commit(velocity, "1 counts/s")
-    assert held_text(module.workspace.file, velocity) == "66: R19 = 0 (0x0000), R20 = 66 (0x0042)"
+    assert storage_text(module.workspace.file, velocity) == "66: R19 = 0 (0x0000), R20 = 66 (0x0042)"
 
 
 def test_the_second_axis_has_its_own_registers(module: MainWindow) -> None:
-    assert ": R2067 = " in held_text(module.workspace.file, ("command.velocity", "Y"))
+    assert ": R2067 = " in storage_text(module.workspace.file, ("command.velocity", "Y"))
 
 
 def test_a_value_that_the_control_holds_as_it_is_shown_says_nothing_more(num: MainWindow) -> None:
-    assert held_text(num.workspace.file, DISPLAYED) == ""
-    assert held_text(num.workspace.file, ("measure.multi", "7")) == ""
+    assert storage_text(num.workspace.file, DISPLAYED) == ""
+    assert storage_text(num.workspace.file, ("measure.multi", "7")) == ""
 
 
 def test_units_cannot_be_switched_where_there_is_one_system(module: MainWindow, num: MainWindow) -> None:

@@ -79,11 +79,11 @@ def _another(file: ParameterFile, address: Address, random: Random) -> Value | N
 def broken_promises(file: ParameterFile, own: BuilderRules = NO_RULES) -> tuple[int, list[str]]:
     """Apply each offered fix alone, to a copy that is checked anew; returns how many, and what they do not keep."""
     before, said = Validator(file, own).run(), list[str]()
-    offered = [finding for finding in before if finding.repairs]
+    offered = [finding for finding in before if finding.fix]
     for finding in offered:
         twin = file.copy()
         twin.set_many(
-            {repair.address: repair.value for repair in finding.repairs}
+            {setting.address: setting.value for setting in finding.fix}
         )  # raises if one is not allowed
         said += unkept(finding, before, Validator(twin, own).run())
     return len(offered), said
@@ -91,7 +91,7 @@ def broken_promises(file: ParameterFile, own: BuilderRules = NO_RULES) -> tuple[
 
 def unkept(finding: Finding, before: Iterable[Finding], after: Iterable[Finding]) -> Iterator[str]:
     """Say what the fix of a finding does not keep, by the findings before and after it was made."""
-    who = f"{finding.rule} {finding.repairs}"
+    who = f"{finding.rule} {finding.fix}"
     there, left = filed(before), filed(after)
     if finding.key in left:
         yield f"{who}: its finding is still there"
@@ -109,7 +109,7 @@ def not_ended(file: ParameterFile, own: BuilderRules = NO_RULES) -> Iterator[str
     after = Validator(twin, own).run()
     if list(map(repr, after)) != list(map(repr, validator.findings())):
         yield "edit by edit the findings are not those of a full run"
-    if any(finding.repairs for finding in after):
+    if any(finding.fix for finding in after):
         yield f"fixes are left after {len(fixed)} changes"
     new = {key for key, f in filed(after).items() if f.severity == "error"} - filed(before).keys()
     if new:

@@ -189,7 +189,7 @@ class Case:
 
     def offers(self, found: Iterable[Finding]) -> bool:
         """Tell whether findings, of the machine as it stands now, offer what the case says it ``mends``."""
-        return self._are(self.mends or {}, (repair for finding in found for repair in finding.repairs))
+        return self._are(self.mends or {}, (setting for finding in found for setting in finding.fix))
 
     def knows_used(self, found: Iterable[Finding]) -> bool:
         """Tell whether findings, of the machine as it stands now, tell what the case says the control ``uses``."""

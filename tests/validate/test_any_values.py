@@ -18,7 +18,7 @@ from amp_studio.files import Change, ParameterFile, axis_instances, open_file, r
 from amp_studio.report import finding_json, finding_text, why_text
 from amp_studio.schema import Address, Limits, Parameter, Schema, Value, load_schema, read_address, same_value
 from amp_studio.schema.units import UNITS
-from amp_studio.validate import Validator, explain, ranges, repair_all_safe
+from amp_studio.validate import Validator, apply_all_safe, explain, ranges
 
 EVERY_EDIT = os.environ.get("AMP_STUDIO_FULL") == "1"
 EXAMPLES = {
@@ -206,7 +206,7 @@ def test_no_value_whatever_makes_it_raise(name: str, a_machine) -> None:
 
 @given(seed=st.integers(0, 2**32), name=st.sampled_from(MACHINES))
 @settings(max_examples=400 if EVERY_EDIT else 15, suppress_health_check=[HealthCheck.too_slow])
-def test_a_file_of_chance_is_told_explained_and_repaired(seed: int, name: str, a_machine) -> None:
+def test_a_file_of_chance_is_told_explained_and_fixed(seed: int, name: str, a_machine) -> None:
     """As after an upload from a control in which anything was keyed: nearly every value at once."""
     file, random = a_machine(name), Random(seed)
     for address in list(file.values):
@@ -219,12 +219,12 @@ def test_a_file_of_chance_is_told_explained_and_repaired(seed: int, name: str, a
         assert finding.message in finding_text(file, finding)
         assert finding_json(file, finding)["message"] == finding.message
         assert why_text(file, finding, explain(validator, finding))
-    repair_all_safe(validator)
+    apply_all_safe(validator)
     assert list(map(repr, validator.findings())) == list(map(repr, Validator(file).run()))
 
 
 @pytest.mark.parametrize("name", MACHINES)
-def test_a_repair_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
+def test_a_fix_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
     file = a_machine(name)
     validator = Validator(file)
     validator.run()
@@ -241,9 +241,9 @@ def test_a_repair_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
                 for f in validator.update([address])
                 if f.rule.startswith("schema.") and f.causes == (address,)
             ]
-            for repair in (repair for finding in said for repair in finding.repairs):
-                assert not same_value(repair.value, value)
-                file.set(repair.address, repair.value)
+            for setting in (setting for finding in said for setting in finding.fix):
+                assert not same_value(setting.value, value)
+                file.set(setting.address, setting.value)
                 left = validator.update([address])
                 assert not [
                     f for f in left if f.rule in ("schema.range", "schema.choice") and f.causes == (address,)

@@ -68,7 +68,7 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
     own = of(validator.run(), "builder.rapid")
     assert len(own) == 7
     assert own[0].message == "Rapid 12000 mm/min is more than the screws of this machine bear."
-    assert own[0].repairs == (Setting(RAPID, Value(10000.0, "mm/min")),)
+    assert own[0].fix == (Setting(RAPID, Value(10000.0, "mm/min")),)
     mill.set(RAPID, Value(10000.0, "mm/min"))
     assert len(of(validator.update([RAPID]), "builder.rapid")) == 6
     assert of(Validator(mill).run(), "builder.rapid") == [], "another validator does not know it"
@@ -84,7 +84,7 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
         ("title: Rapid of this machine", "title: 1", "line 4: builder.rapid: title: must be a text: put '1' in quotes."),
         ("id: builder.rapid", "id: Builder rapid", "line 3: Builder rapid: id: 'Builder rapid' is no id: small letters"),
         ("rules:", "rules: [", "line 3: "),
-        ("rules:", "rule:", "line 2: rule: here stand rules, suppressions."),
+        ("rules:", "rule:", "line 2: rule: this file contains only rules, suppressions."),
         ("feedrate.rapid}", "feedrate.rapids}", "line 6: builder.rapid: reads rapid: 'feedrate.rapids' is no parameter of 9pc, did you mean 'feedrate.rapid'?"),
         ("severity:", "family: 9pc\n    severity:", ""),
         ("severity:", "family: 9PC\n    severity:", "line 5: builder.rapid: family: '9PC' is no family"),
@@ -98,7 +98,7 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
         ("check: rapid <=", "check: max(rapid) <=", "line 7: builder.rapid: check: max takes 2 values, not 1."),
         (" <= 10000.0", "", "line 7: builder.rapid: check: it does not give true or false."),
         ("Rapid {rapid} is", "Rapid {rapit} is", "line 8: builder.rapid: message: {rapit} is neither read nor among its values, did you mean 'rapid'?"),
-        ("Rapid {rapid} is", "Rapid {rapid:>1000000000} is", "line 8: builder.rapid: message: {rapid} is shown as it is: leave out what stands behind the name."),
+        ("Rapid {rapid} is", "Rapid {rapid:>1000000000} is", "line 8: builder.rapid: message: {rapid} is shown as it is: leave out what comes after the name."),
         ("{set: rapid,", "{set: rapt,", "line 10: builder.rapid: fix 1 set: 'rapt' is not read, did you mean 'rapid'?"),
         ('value: "10000.0"', "value: 10000.0", "line 10: builder.rapid: fix 1 value: must be a text: put '10000.0' in quotes."),
         ('value: "10000.0"', "value: \"'fast'\"", "line 10: builder.rapid: fix 1 value: it does not give a number for Rapid Feedrate for Positioning."),
@@ -339,7 +339,7 @@ def test_the_page_about_rules_of_your_own_shows_a_file_that_works(
     lathe.set(RAPID, Value(20000.0, "mm/min"))
     (finding,) = of(Validator(lathe, own).run(), "works.lathe-rapid")
     assert finding.message == "Rapid of axis 1 is 20000 mm/min; our lathes are built for 15000 mm/min."
-    assert finding.repairs == (Setting(RAPID, Value(15000.0, "mm/min")),)
+    assert finding.fix == (Setting(RAPID, Value(15000.0, "mm/min")),)
     assert of(Validator(machine("mill"), own).run(), "works.lathe-rapid") == []
 
 

@@ -60,7 +60,7 @@ def test_what_cannot_be_meant_is_told_in_one_sentence(name: str, texts: dict[str
 def test_every_formula_tells_itself_and_its_arguments() -> None:
     known = calculators("9pc")
     assert known.keys() == formulas("9pc").keys()
-    assert [name for name, calculator in known.items() if not calculator.told.strip()] == []
+    assert [name for name, calculator in known.items() if not calculator.description.strip()] == []
 
 
 def test_the_verb_lists_tells_and_works_out(capsys: pytest.CaptureFixture[str]) -> None:

@@ -74,7 +74,7 @@ def test_a_range_is_explained_by_what_bounds_it(mill) -> None:
 
 def test_values_that_are_not_set_are_listed(mill) -> None:
     mill.set(RAPID, None)
-    assert ("—", RAPID) in [(s.value, s.address) for s in why(mill, "schema.unset").seen]
+    assert ("not set", RAPID) in [(s.value, s.address) for s in why(mill, "schema.unset").seen]
 
 
 @pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill"])

@@ -44,7 +44,7 @@ def checked(text: str) -> ExpressionCheck:
         ("n < 'x'", "'n' is a number and cannot be compared with 'x', a text"),
         ("on == 'yes'", "'on' is true or false and never equals 'yes', a text: compare it with true or false"),
         ("n in ['x']", "'n' is a number and never equals what is in '['x']', a text"),
-        ("n in t", "'in' wants a list, and 't' is a text"),
+        ("n in t", "'in' needs a list, and 't' is a text"),
         ("n && on", "'n' is a number, where true or false is wanted"),
         ("!t", "'t' is a text, where true or false is wanted"),
         ("many.all(m, m)", "'m' is a number, where true or false is wanted"),

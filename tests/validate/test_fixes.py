@@ -6,7 +6,7 @@ import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule, Suppression, Value
-from amp_studio.validate import BuilderRules, Finding, Validator, apply_fixes, repair_all_safe
+from amp_studio.validate import BuilderRules, Finding, Validator, apply_all_safe, apply_fixes
 
 RAPID, CUTTING = ("feedrate.rapid", "1"), ("feedrate.max_cutting", "1")
 EXCESS, SUPPRESSION = ("servo.excess_error", "1"), ("servo.feedrate_suppression", "1")
@@ -33,7 +33,7 @@ def offered(file: ParameterFile, *own: Rule, suppressed: str = "") -> dict[str, 
     """Return the values that the builder's rules which are broken offer."""
     suppressions = (Suppression(rule=suppressed, reason="as built", by="J. Doe"),) if suppressed else ()
     findings = Validator(file, BuilderRules(own, suppressions)).run()
-    return {f.rule: [r.value for r in f.repairs] for f in findings if f.rule.startswith("own.")}
+    return {f.rule: [r.value for r in f.fix] for f in findings if f.rule.startswith("own.")}
 
 
 def mm(number: float) -> Value:
@@ -126,7 +126,7 @@ def test_an_edit_elsewhere_takes_an_offer_away_and_gives_it_back(mill) -> None:
         mill.set(changed, value)
         findings = validator.update([changed])
         assert findings == Validator(mill, validator.own).run()
-        return bool(next(f for f in findings if f.rule == "own.one").repairs)
+        return bool(next(f for f in findings if f.rule == "own.one").fix)
 
     validator.run()
     assert not offer(EXCESS, Value(14.0, "mm")), "cutting would be above rapid"
@@ -140,7 +140,7 @@ def test_a_trial_leaves_the_file_and_whoever_listens_alone(mill) -> None:
     mill.listen(told.append)
     values, forced = dict(mill.values), dict(mill.forced)
     findings = Validator(mill).run()
-    assert any(finding.repairs for finding in findings)
+    assert any(finding.fix for finding in findings)
     assert (told, mill.values, mill.forced) == ([], values, forced)
 
 
@@ -162,20 +162,20 @@ def test_of_a_pair_neither_is_put_onto_the_edge_of_the_other(mill, wrong, why) -
         mill.set(address, value)
     found = [f for f in Validator(mill).run() if f.rule == "schema.range"]
     assert found
-    assert [f.repairs for f in found if f.repairs] == [], why
+    assert [f.fix for f in found if f.fix] == [], why
 
 
 def test_a_bound_that_binds_one_way_is_where_a_value_belongs(mill) -> None:
     mill.set(CUTTING, mm(13000.0))
     (found,) = [f for f in Validator(mill).run() if f.rule == "schema.range"]
-    assert [r.value for r in found.repairs] == [mm(12000.0)]
+    assert [r.value for r in found.fix] == [mm(12000.0)]
 
 
 def test_a_bound_that_leaves_one_value_is_what_is_wrong_itself(mill) -> None:
     """Rapid is 0, and cutting is not to be 0 for that."""
     mill.set(RAPID, mm(0.0))
     (found,) = [f for f in Validator(mill).run() if f.rule == "schema.range" and CUTTING in f.addresses]
-    assert found.repairs == ()
+    assert found.fix == ()
 
 
 def test_a_bound_in_another_unit_is_rounded_inwards(mill) -> None:
@@ -183,7 +183,7 @@ def test_a_bound_in_another_unit_is_rounded_inwards(mill) -> None:
     mill.set(RAPID, mm(100.0))
     mill.set(CUTTING, Value(5.0, "in/min"))
     (found,) = [f for f in Validator(mill).run() if f.rule == "schema.range" and CUTTING in f.addresses]
-    assert [r.value for r in found.repairs] == [Value(3.937, "in/min")]
+    assert [r.value for r in found.fix] == [Value(3.937, "in/min")]
 
 
 @pytest.mark.parametrize(("suppression", "mended"), [(11.5, 10.5), (12.0, 10.5)])
@@ -194,7 +194,7 @@ def test_suppression_is_not_put_below_the_following_error_at_rapid(mill, suppres
     mill.set(SUPPRESSION, Value(suppression, "mm"))
     validator = Validator(mill)
     (found,) = [f for f in validator.run() if f.rule == "9pc.servo.suppression-within-excess"]
-    assert {r.address: r.value for r in found.repairs} == {
+    assert {r.address: r.value for r in found.fix} == {
         SUPPRESSION: Value(mended, "mm"),
         EXCESS: Value(11.66667, "mm"),
     }
@@ -235,18 +235,18 @@ def test_of_two_values_for_one_parameter_the_more_severe_finding_has_its_own(mil
     )
     validator = Validator(mill, BuilderRules(own))
     validator.run()
-    assert list(repair_all_safe(validator)) == [RAPID]
+    assert list(apply_all_safe(validator)) == [RAPID]
     assert mill.get(RAPID) == mm(6500.0)
 
 
-def test_safe_repairs_are_made_together_until_nothing_is_left(mill) -> None:
-    """A repair may bring another finding, if that is less severe."""
+def test_safe_fixes_are_made_together_until_nothing_is_left(mill) -> None:
+    """A fix may bring another finding, if that is less severe."""
     one = rule("own.one", "error", "rapid != 12000.0", ("rapid", "8000.0"), safe=True)
     two = rule("own.two", "warning", "rapid != 8000.0", ("rapid", "7000.0"), safe=True)
     three = rule("own.three", "advice", "cutting != 6000.0", ("cutting", "5000.0"))
     validator = Validator(mill, BuilderRules((one, two, three)))
     validator.run()
-    assert list(repair_all_safe(validator)) == [RAPID]
+    assert list(apply_all_safe(validator)) == [RAPID]
     assert mill.get(RAPID) == mm(7000.0)
     assert mill.get(CUTTING) == mm(6000.0), "that would change motion"
     assert validator.findings() == Validator(mill, validator.own).run()

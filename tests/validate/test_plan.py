@@ -171,7 +171,7 @@ def test_a_range_is_checked_again_for_its_bound_and_its_state(small) -> None:
     assert readers == {("axis.length", "2"), ("axis.kind", "2"), ("axis.room", "2")}
 
 
-def test_a_repair_is_looked_at_again_when_its_bound_moves(small) -> None:
+def test_a_fix_is_looked_at_again_when_its_bound_moves(small) -> None:
     own = rule({"length": "axis.length"}, "length >= 5.0", fix=[{"set": "length", "value": "5.0"}])
     file = ParameterFile(small)
     validator = Validator(file, BuilderRules((own,)))
@@ -181,10 +181,10 @@ def test_a_repair_is_looked_at_again_when_its_bound_moves(small) -> None:
     (finding,) = (
         f for f in validator.update([("axis.length", "1"), ("axis.room", "1")]) if f.rule == "own.rule"
     )
-    assert finding.repairs == (), "5 mm is more than its room"
+    assert finding.fix == (), "5 mm is more than its room"
     file.set(("axis.room", "1"), Value(6.0, "mm"))
     (finding,) = (f for f in validator.update([("axis.room", "1")]) if f.rule == "own.rule")
-    assert [repair.value for repair in finding.repairs] == [Value(5.0, "mm")]
+    assert [setting.value for setting in finding.fix] == [Value(5.0, "mm")]
 
 
 def test_the_plan_of_a_family_is_made_once(small) -> None:
@@ -205,16 +205,16 @@ LENGTH = {"length": "axis.length"}
         (rule({"x": "axis.missing"}), "reads 'axis.missing', which the family does not have"),
         (rule({"x": "axis.length@9"}), "reads 'axis.length@9', but Length has no instance '9'"),
         (rule(LENGTH, "length > "), "check: Failed to parse expression"),
-        (rule(LENGTH, "lenght > 1.0"), "check speaks of 'lenght', which it does not read"),
-        (rule(LENGTH, when="kind == 'moving'"), "when speaks of 'kind', which it does not read"),
+        (rule(LENGTH, "lenght > 1.0"), "check names 'lenght', which it does not read"),
+        (rule(LENGTH, when="kind == 'moving'"), "when names 'kind', which it does not read"),
         (rule(LENGTH, "maximum(length, 1.0) > 1.0"), "check calls 'maximum', which is no function"),
         (
             rule(LENGTH, values={"twice": "size * 2.0"}),
-            "value twice speaks of 'size', which it does not read",
+            "value twice names 'size', which it does not read",
         ),
         (
             rule(LENGTH, fix=[{"set": "length", "value": "other"}]),
-            "fix of length speaks of 'other', which it does not read",
+            "fix of length names 'other', which it does not read",
         ),
         (
             rule(LENGTH, fix=[{"set": "room", "value": "1.0"}]),
@@ -271,13 +271,13 @@ def test_what_a_rule_may_say(small) -> None:
 
     broken = own.model_copy(update={"check": own.check.replace("3.0", "2.0")})
     (finding,) = (f for f in Validator(file, BuilderRules((broken,))).run() if f.rule == "own.rule")
-    assert finding.message == "1 axes; axis 2 of the mill is 5 mm, all —, 5 mm, —."
+    assert finding.message == "1 axes; axis 2 of the mill is 5 mm, all not set, 5 mm, not set."
 
 
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        (rule(LENGTH, "lenght > 1.0"), "check speaks of 'lenght', which it does not read"),
+        (rule(LENGTH, "lenght > 1.0"), "check names 'lenght', which it does not read"),
         (rule(LENGTH, "greatest(length) > 1.0"), "check calls 'greatest', which is no function"),
         (rule(LENGTH, "length >> 1.0"), "check: "),
         (rule(LENGTH, "length > 9.0", message="{lenght} is short."), "the message shows '{lenght}'"),

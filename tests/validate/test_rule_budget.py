@@ -106,7 +106,7 @@ def test_of_very_many_fixes_the_first_are_tried_and_the_others_when_these_are_ma
     path.write_text("rules:\n" + "".join(rule(n) for n in range(10)), encoding="utf-8")
     validator = Validator(mill, read_builder_rules(path, mill.schema))
     found = [f for f in validator.run() if f.rule.startswith("works.")]
-    offered = [f.rule for f in found if f.repairs]
+    offered = [f.rule for f in found if f.fix]
     assert (len(found), 0 < len(offered) < 10, set(offered)) == (70, True, {"works.rule0"})
     mill.set(("feedrate.rapid", "1"), Value(9000.0, "mm/min"))
     assert validator.update([("feedrate.rapid", "1")]) == Validator(mill, validator.own).run()

@@ -1,4 +1,4 @@
-"""Every rule of every family is broken by the change its table names, holds beside it, and its repair mends it.
+"""Every rule of every family is broken by the change its table names, holds beside it, and its fix mends it.
 
 The tables are in ``rule_cases/``; the machines they change are in ``sound_machines/``.
 """
@@ -44,7 +44,7 @@ def checks_of(rule: str) -> Iterator[tuple[Callable[[Case], None], Case]]:
     yield from ((a_broken_rule_is_found, case) for case in breaking)
     yield from ((a_rule_that_just_holds_says_nothing, case) for case in holding)
     if RULES[rule].fix:
-        yield from ((its_repairs_mend_it_and_cause_no_error, case) for case in breaking)
+        yield from ((its_fixes_mend_it_and_cause_no_error, case) for case in breaking)
     if RULES[rule].effective:
         yield from ((what_the_control_uses_instead_is_told, case) for case in breaking)
     if compares_numbers(rule):
@@ -56,7 +56,7 @@ def test_no_check_of_a_case_is_lost() -> None:
     tried = Counter(check for rule in RULES for check, _ in checks_of(rule))
     assert tried[a_broken_rule_is_found] >= 2418
     assert tried[a_rule_that_just_holds_says_nothing] >= 2518
-    assert tried[its_repairs_mend_it_and_cause_no_error] >= 706
+    assert tried[its_fixes_mend_it_and_cause_no_error] >= 706
     assert tried[what_the_control_uses_instead_is_told] >= 191
     assert tried[a_comparison_turns_exactly_at_its_bound] >= 217
 
@@ -99,7 +99,7 @@ def a_rule_that_just_holds_says_nothing(case: Case) -> None:
         assert case.stand.of(case.rule) == []
 
 
-# --------------------------------------------------------------------------------------------- repairs
+# --------------------------------------------------------------------------------------------- fixes
 
 
 def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, object]]:
@@ -107,15 +107,15 @@ def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, object]]:
     return {finding.key for finding in findings if finding.severity == "error"}
 
 
-def its_repairs_mend_it_and_cause_no_error(case: Case) -> None:
+def its_fixes_mend_it_and_cause_no_error(case: Case) -> None:
     here = case.stand
     with here.changed(case.given), here.changed(case.breaks or {}):
         broken = here.findings
-        mendable = [finding for finding in here.of(case.rule) if finding.repairs]
-        assert bool(mendable) is not bool(case.unmended), "a case whose findings offer no repair says why"
-        assert case.mends is None or case.offers(mendable), [finding.repairs for finding in mendable]
+        mendable = [finding for finding in here.of(case.rule) if finding.fix]
+        assert bool(mendable) is not bool(case.unmended), "a case whose findings offer no fix says why"
+        assert case.mends is None or case.offers(mendable), [finding.fix for finding in mendable]
         with here.recorded():
-            here.set({repair.address: repair.value for finding in mendable for repair in finding.repairs})
+            here.set({setting.address: setting.value for finding in mendable for setting in finding.fix})
             assert {f.key for f in mendable} & {f.key for f in here.of(case.rule)} == set()
             assert errors_of(here.findings) - errors_of(broken) == set()
 
@@ -135,7 +135,7 @@ def what_the_control_uses_instead_is_told(case: Case) -> None:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_every_rule_with_a_repair_offers_it(family: str) -> None:
+def test_every_rule_with_a_fix_offers_it(family: str) -> None:
     mended = {case.rule for case in cases(family) if case.breaks is not None and not case.unmended}
     assert {rule.id for rule in load_schema(family).rules if rule.fix} <= mended
 

@@ -46,4 +46,4 @@ def test_the_dda_limit_is_told_with_its_time() -> None:
         (finding,) = mill().of("syntec.dda.rapid")
     assert "of 1966 µs" in finding.message
     assert "The limit is 62472 mm/min." in finding.message
-    assert [repair.value for repair in finding.repairs] == [Value(62472, "mm/min")]
+    assert [setting.value for setting in finding.fix] == [Value(62472, "mm/min")]

@@ -47,7 +47,7 @@ def test_a_password_out_of_range_is_found_and_not_written(mill) -> None:
 
 def test_no_password_that_nobody_chose_is_offered(mill) -> None:
     (finding,) = (f for f in Validator(mill).run() if f.rule == "schema.range")
-    assert finding.repairs == ()
+    assert finding.fix == ()
 
 
 def test_a_value_of_another_kind_is_not_written(mill) -> None:
@@ -73,7 +73,7 @@ def test_a_rule_that_reads_a_password_does_not_tell_it(mill, words: dict[str, ob
 def test_a_rule_may_still_set_a_password(mill) -> None:
     own = rule(check="code == 66.0", fix=[{"set": "code", "value": "66.0"}])
     (finding,) = (f for f in Validator(mill, own).run() if f.rule == "own.rule")
-    assert [(r.address, r.value) for r in finding.repairs] == [(PASSWORD, Value(66))]
+    assert [(r.address, r.value) for r in finding.fix] == [(PASSWORD, Value(66))]
     assert finding_json(mill, finding)["fix"] == [{"param": "101", "value": None, "secret": True}]
 
 

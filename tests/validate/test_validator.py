@@ -41,21 +41,21 @@ def the(file: ParameterFile, rule: str) -> Finding:
 # ------------------------------------------------------------------------------------- ranges and choices
 
 
-def test_a_value_out_of_range_is_an_error_with_its_range_page_and_repair(mill) -> None:
+def test_a_value_out_of_range_is_an_error_with_its_range_page_and_fix(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(10161.0, "mm/min"))
     assert the(mill, "schema.range") == Finding(
         rule="schema.range",
         severity="error",
         causes=(("home.g28_speed", "1"),),
         message="G28 Home Speed 10161 mm/min is outside 0 to 10160 mm/min.",
-        repairs=(Setting(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
+        fix=(Setting(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
         page="5-16",
     )
 
 
 def test_a_negative_speed_is_not_mended_by_an_axis_that_stands_still(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(-5000.0, "mm/min"))
-    assert the(mill, "schema.range").repairs == ()
+    assert the(mill, "schema.range").fix == ()
 
 
 def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
@@ -64,7 +64,7 @@ def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(400.0001, "in/min"))
     finding = the(mill, "schema.range")
     assert finding.message == "G28 Home Speed 400.0001 in/min is outside 0 to 400 in/min."
-    assert finding.repairs == (Setting(("home.g28_speed", "1"), Value(400.0, "in/min")),)
+    assert finding.fix == (Setting(("home.g28_speed", "1"), Value(400.0, "in/min")),)
 
 
 def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
@@ -74,7 +74,7 @@ def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
         "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
         "(set by 1203 Rapid Feedrate for Positioning, 12000 mm/min)."
     )
-    assert finding.repairs == (Setting(CUTTING, Value(12000.0, "mm/min")),)
+    assert finding.fix == (Setting(CUTTING, Value(12000.0, "mm/min")),)
 
 
 def test_a_bound_that_moves_is_noticed(mill) -> None:
@@ -84,21 +84,21 @@ def test_a_bound_that_moves_is_noticed(mill) -> None:
     assert [f.addresses for f in validator.update([RAPID]) if f.rule == "schema.range"] == [(CUTTING, RAPID)]
 
 
-def test_a_code_without_a_choice_is_an_error_repaired_by_the_default(mill) -> None:
+def test_a_code_without_a_choice_is_an_error_fixed_by_the_default(mill) -> None:
     mill.set(("servo.sercos_baud", ""), Value("raw:999"))
     assert the(mill, "schema.choice") == Finding(
         rule="schema.choice",
         severity="error",
         causes=(("servo.sercos_baud", ""),),
         message="999 is no code of Baud Rate for SERCOS.",
-        repairs=(Setting(("servo.sercos_baud", ""), Value("mhz2")),),
+        fix=(Setting(("servo.sercos_baud", ""), Value("mhz2")),),
         page="7-3",
     )
 
 
-def test_a_code_without_a_choice_and_without_a_default_has_no_repair(mill) -> None:
+def test_a_code_without_a_choice_and_without_a_default_has_no_fix(mill) -> None:
     mill.set(("axis.integrand_name", "1"), Value("raw:999"))
-    assert the(mill, "schema.choice").repairs == ()
+    assert the(mill, "schema.choice").fix == ()
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_a_value_of_the_wrong_kind_is_an_error(mill, address: Address, value: Va
     mill.set(address, value)
     (finding,) = (f for f in Validator(mill).run() if f.rule.startswith("schema.") and f.severity == "error")
     assert finding.message == said
-    assert [repair.value for repair in finding.repairs] == [mill.default(address)]
+    assert [setting.value for setting in finding.fix] == [mill.default(address)]
 
 
 @pytest.mark.parametrize(
@@ -146,7 +146,7 @@ def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
     mill.set(address, value)
     finding = the(mill, "schema.range")
     assert finding.message == said
-    assert finding.repairs == (Setting(address, mended),), "the control knows the figure only"
+    assert finding.fix == (Setting(address, mended),), "the control knows the figure only"
 
 
 def test_an_axis_that_turns_wants_degrees(mill) -> None:
@@ -158,10 +158,10 @@ def test_an_axis_that_turns_wants_degrees(mill) -> None:
     assert {address[1] for address in wrong} == {"1"}
 
 
-def test_a_repair_that_would_be_wrong_too_is_not_offered(mill) -> None:
+def test_a_fix_that_would_be_wrong_too_is_not_offered(mill) -> None:
     positive, negative = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
     mill.set(negative, Value(2540001.0, "mm"))
-    offered = {f.addresses[0]: [r.value for r in f.repairs] for f in found(mill, "schema.range")}
+    offered = {f.addresses[0]: [r.value for r in f.fix] for f in found(mill, "schema.range")}
     assert offered == {positive: [], negative: []}
 
 
@@ -205,10 +205,10 @@ def test_values_that_are_not_set_are_one_piece_of_advice(mill) -> None:
     for address in taken:
         mill.set(address, None)
     (advice,) = (f for f in validator.update(taken) if f.rule == "schema.unset")
-    assert (advice.severity, advice.repairs, advice.page) == ("advice", (), None)
+    assert (advice.severity, advice.fix, advice.page) == ("advice", (), None)
     assert advice.addresses == tuple(reversed(taken))
     assert advice.message == (
-        "3 parameters in force have no value here, so the control keeps its own: 1310 Axis Position After Homing, "
+        "3 active parameters have no value here, so the control keeps its own: 1310 Axis Position After Homing, "
         "2310 Axis Position After Homing, 3310 Axis Position After Homing."
     )
     mill.set(("servo.feed_forward", "1"), None)
@@ -239,7 +239,7 @@ def test_entries_of_an_unknown_parameter_are_named(mill) -> None:
 # --------------------------------------------------------------------------------------- cross-parameter
 
 
-def test_a_finding_of_a_rule_has_its_values_page_and_repair(mill) -> None:
+def test_a_finding_of_a_rule_has_its_values_page_and_fix(mill) -> None:
     mill.set(EXCESS, Value(11.0, "mm"))
     mill.set(("servo.feedrate_suppression", "1"), Value(11.0, "mm"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
@@ -249,7 +249,7 @@ def test_a_finding_of_a_rule_has_its_values_page_and_repair(mill) -> None:
     )
     assert (finding.page, finding.severity, finding.safe) == ("7-20", "error", False)
     suppression_stays_off = Setting(("servo.feedrate_suppression", "1"), Value(13.2, "mm"))
-    assert finding.repairs == (Setting(EXCESS, Value(13.2, "mm")), suppression_stays_off)
+    assert finding.fix == (Setting(EXCESS, Value(13.2, "mm")), suppression_stays_off)
 
 
 def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:
@@ -257,9 +257,7 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     mill.set(EXCESS, Value(0.4, "in"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
     assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in finding.message
-    assert finding.repairs == (Setting(EXCESS, Value(0.51969, "in")),), (
-        "five decimals, as the parameter has them"
-    )
+    assert finding.fix == (Setting(EXCESS, Value(0.51969, "in")),), "five decimals, as the parameter has them"
 
 
 def test_a_figure_is_told_in_the_inches_of_the_values_it_comes_from(mill) -> None:
@@ -285,7 +283,7 @@ def test_another_unit_system_is_noticed(mill) -> None:
     assert any("trails its command by 0.4724409 in" in finding.message for finding in findings)
 
 
-def test_a_repair_that_cannot_change_motion_is_safe(mill) -> None:
+def test_a_fix_that_cannot_change_motion_is_safe(mill) -> None:
     mill.set(("servo.sercos_transmit", "1"), Value("low"))
     assert the(mill, "9pc.servo.transmit-level-high").safe
 
@@ -306,7 +304,7 @@ def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) ->
     validator = Validator(mill, BuilderRules((own,)))
     (finding,) = (f for f in validator.run() if f.rule == "own.clamp" and f.addresses == (RAPID,))
     assert finding.effective == (Setting(RAPID, Value(100.0, "in/min")),)
-    assert finding.repairs == ()
+    assert finding.fix == ()
     assert "effective value: 1203 Rapid Feedrate for Positioning = 100 in/min" in finding_text(mill, finding)
     assert finding_json(mill, finding)["effective"] == [{"param": "1203", "value": "100 in/min"}]
 
@@ -329,10 +327,10 @@ def test_a_list_that_a_rule_works_out_is_told_with_commas(mill) -> None:
     assert finding.message == "fast, none."
 
 
-def test_a_repair_that_would_not_help_is_not_offered(mill) -> None:
+def test_a_fix_that_would_not_help_is_not_offered(mill) -> None:
     """Nine tenths of no suppression point are not below it."""
     mill.set(("servo.feedrate_suppression", "1"), Value(0.0, "mm"))
-    assert the(mill, "9pc.servo.gain-break-below-suppression").repairs == ()
+    assert the(mill, "9pc.servo.gain-break-below-suppression").fix == ()
 
 
 def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:

@@ -32,7 +32,7 @@ class Table(Model):
         return self
 
     def column(self, name: str) -> tuple[str | float, ...] | None:
-        """Return the cells below a name; a head may hold several of them (``B410G, B410J``)."""
+        """Return the cells below a name; a head may contain several of them (``B410G, B410J``)."""
         for n, head in enumerate(self.head):
             if name in head.split(", "):
                 return tuple(row[n] for row in self.rows)

@@ -35,7 +35,7 @@ class ScopeInfo(Model):
 
 
 class Machine(Model):
-    """A machine type the family can be told to be."""
+    """A machine type that can be chosen for a file of the family."""
 
     key: Key
     name: str
@@ -47,9 +47,9 @@ class AxisProfile(Model):
     name: ParameterId
     type: ParameterId
     unfitted: Key | None = None
-    """Type of an axis that is not there; None where no type says so, and ``fitted_by`` does."""
+    """Type of an axis that is not there; None where no type means that, and ``fitted_by`` does."""
     fitted_by: ParameterId | None = None
-    """A number that is 0 for an axis that is not there (its port), where that is no matter of the type."""
+    """A number that is 0 for an axis that is not there (its port), if that is no matter of the type."""
     usual_type: Key
     """Type of an axis that is only named."""
     types: dict[str, Key] = {}
@@ -77,7 +77,7 @@ class OwnUnit(Model):
     """A unit that only one family has."""
 
     measures: str
-    """Its dimension; a name that no other unit has makes a dimension of its own."""
+    """Its dimension; a name that no other unit has makes a separate dimension."""
     factor: str = "1"
     """To the unit of the dimension that has 1, exactly: a number in quotes or a fraction (``10/254``)."""
 
@@ -120,7 +120,7 @@ class Family(Model):
     effect: Effect
     groups: tuple[str, ...]
     choice_lists: dict[Key, tuple[Choice, ...]] = {}
-    """Choices that several parameters have, by the name that stands there under ``choices``."""
+    """Choices that several parameters have, by the name that is there under ``choices``."""
     bit_lists: dict[Key, tuple[Bit, ...]] = {}
-    """Bits that several words have, by the name that stands there under ``bits``."""
+    """Bits that several words have, by the name that is there under ``bits``."""
     conditions: dict[str, Condition] = {}

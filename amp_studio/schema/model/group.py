@@ -23,10 +23,10 @@ class Group(Model):
     key: Key
     name: str
     section: str = ""
-    """The part of a long group that stands in this file (``Position Loop Parameters``)."""
+    """The part of a long group that is in this file (``Position Loop Parameters``)."""
     chapter: str
     states: tuple[GroupState, ...] = ()
-    """Each parameter gets them in front of its own. Compiled, the parameters have them and there are none here."""
+    """Each parameter gets them in front of those it has itself. Compiled, the parameters have them and there are none here."""
     last_states: tuple[GroupState, ...] = ()
     """Each parameter gets them behind its own."""
     parameters: tuple[Parameter, ...]
@@ -43,7 +43,7 @@ class Group(Model):
         )
 
     def own_states(self, parameter: Parameter) -> range:
-        """Return which of the states of a parameter of this group stand at the parameter itself."""
+        """Return which of the states of a parameter of this group are at the parameter itself."""
         behind = len(parameter.states) - len(_states_for(parameter, self.last_states))
         return range(len(_states_for(parameter, self.states)), behind)
 

@@ -45,7 +45,7 @@ Ranges = Annotated[dict[Unit, Range], Field(json_schema_extra={"propertyNames": 
 
 
 class RangeVariant(Model):
-    """Ranges that hold instead of the plain ones while a condition is true."""
+    """Ranges that apply instead of the plain ones while a condition is true."""
 
     when: str
     ranges: Ranges
@@ -72,7 +72,7 @@ def _bit_list(given: object, info: ValidationInfo) -> object:
 
 
 def _named_list(given: object, kind: str, lists: dict[str, Any]) -> object:
-    """Return the list of the family that a name stands for; the family is the context of the validation."""
+    """Return the list of the family that a name means; the family is the context of the validation."""
     if not isinstance(given, str):
         return given
     if given not in lists:
@@ -121,7 +121,7 @@ class Storage(Model):
     """The command that sets it: ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value,
     ``{other.id}`` that of another.
 
-    A command of several values stands the same at each of them: ``NOTCH {i}({notch.frequency}, {notch.width})``.
+    A command of several values is the same at each of them: ``NOTCH {i}({notch.frequency}, {notch.width})``.
     """
 
 
@@ -139,7 +139,7 @@ class Numbers(Model):
     """``{n}`` is the number, ``{i}`` the instance (``P21N{i}``, ``Pr{n}``, ``R{n}``)."""
     listed: dict[str, str] | None = None
     starts: dict[str, int] | None = None
-    """What stands before the point of an instance -> number of its part 0; the parts follow ``step`` by ``step``."""
+    """What is before the point of an instance -> number of its part 0; the parts follow ``step`` by ``step``."""
     disputed: bool = False
     """The manual prints this number for another parameter too, and that other one is right."""
 
@@ -152,7 +152,7 @@ class Numbers(Model):
             self.format.format(n=0, i="")
         except (LookupError, ValueError):
             raise ValueError(
-                f"the format {self.format!r} may hold {{n}} and {{i}} and nothing else in braces"
+                f"the format {self.format!r} may contain {{n}} and {{i}} and nothing else in braces"
             ) from None
         return self
 
@@ -187,7 +187,7 @@ class Effect(Model):
     """When a change takes effect."""
 
     level: Literal["at-once", "reset", "restart", "command", "unknown"]
-    """``unknown`` where the manual does not say."""
+    """``unknown`` where the manual gives none."""
     command: str | None = None
     """The command that makes the device read the value (level ``command``)."""
 
@@ -202,7 +202,7 @@ class Help(Model):
 
 
 class Default(Model):
-    """A printed default, and where it stands."""
+    """A printed default, and its page."""
 
     value: float | bool | str
     """A number in ``unit``, a choice key, or a text."""
@@ -229,7 +229,7 @@ class Parameter(Model):
     instances: Instances | None = None
     """Only where they differ from those of the scope; ``1.3`` is a part of instance 1 (spindle 1, gear 3)."""
     each: str | None = None
-    """What one instance is called where that is not the scope's own label: ``Macro call {i}``, ``Gear {j}``.
+    """What one instance is called if that is not the scope's own label: ``Macro call {i}``, ``Gear {j}``.
 
     ``{i}`` is the instance, or the text before its point, ``{j}`` the text behind it.
     """
@@ -244,7 +244,7 @@ class Parameter(Model):
     range_variants: tuple[RangeVariant, ...] = ()
     choices: Choices | None = None
     more_codes: bool = False
-    """The control has codes that the manual does not print: any code may stand, as ``raw:<code>``."""
+    """The control has codes that the manual does not print: any code may be given, as ``raw:<code>``."""
     bits: Bits | None = None
     default: Default | None = None
     storage: Storage | None = None
@@ -255,7 +255,7 @@ class Parameter(Model):
     tunable: bool = False
     """Can be changed on line, at the running machine."""
     patchable: bool = False
-    """Stands in the table of values that can be keyed in at the control."""
+    """Is in the table of values that can be keyed in at the control."""
     optional: bool = False
     """A file is complete without it: a table an operator fills as he goes (tool offsets), a filter that is not used."""
     secret: bool = False

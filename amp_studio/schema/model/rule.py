@@ -34,7 +34,7 @@ class Rule(Model):
     ``id`` the same instance, ``id@*`` the list over all instances, ``id@<`` and
     ``id@>`` those before and after, ``id@.`` the parts of the same instance (the gears
     of its spindle), ``id@3`` one of them, and a plain ``id`` of global scope wherever
-    it stands. Numbers arrive in the quantity's canonical unit.
+    it is used. Numbers arrive in the quantity's canonical unit.
     """
 
     id: Annotated[str, Field(pattern=r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]
@@ -62,7 +62,7 @@ class Rule(Model):
     Left out: what ``effective`` replaces, else the first of ``reads``. ``it`` is the value at hand, ``at`` its position in a list.
     """
     compares: dict[str, str] = {}
-    """The same for what it is compared with. All other single values it speaks of follow, unless ``blames`` names them."""
+    """The same for what it is compared with. All other single values it names follow, unless ``blames`` names them."""
     page: Page
 
     @property
@@ -97,7 +97,7 @@ class Rules(Model):
 
 
 class BuilderRule(Rule):
-    """A rule of a machine builder: no page of a manual stands behind it."""
+    """A rule of a machine builder: it comes from no page of a manual."""
 
     family: str = ""
     """The control family it is for, where files of several lie side by side."""
@@ -106,12 +106,12 @@ class BuilderRule(Rule):
 
     @property
     def cited(self) -> str:
-        """The source in words; empty where the builder does not say."""
+        """The source in words; empty where the builder gives none."""
         return self.page
 
 
 class Suppression(Model):
-    """Findings that a builder has looked at and leaves as they are."""
+    """Findings that a builder has checked and leaves as they are."""
 
     rule: str
     params: tuple[str, ...] = ()

@@ -1,1 +1,1 @@
-"""What puts files into controls and compares them: exchanges, the copies kept of what a control held."""
+"""What puts files into controls and compares them: exchanges, the copies kept of what a control contained."""

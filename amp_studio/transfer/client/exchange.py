@@ -2,7 +2,7 @@
 
 Words as the manuals use them: a download goes from here to the control, an
 upload from the control to here. A restore is the download of what a control
-has held.
+has contained.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import Literal
 
 from amp_studio.transfer.driver import ControlDriver, ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
-    HELD_TEXT,
+    AT_CONTROL_TEXT,
+    AtControl,
     CancelledError,
-    Held,
     ImageChangedError,
     KeepFailedError,
     NotInEmergencyStopError,
@@ -37,16 +37,16 @@ Keep = Callable[[bytes], str]
 class Outcome:
     """How a download ended.
 
-    ``held``      what the control holds now: the "old" image, the "new" one, or "unknown"
-    ``verified``  whether every byte of the new image was read back and is equal
-    ``written``   whether the control had to take anything
-    ``kept``      where the image it held before is kept, byte for byte; None when nothing was replaced or it held none
-    ``restart``   "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
-    ``sha256``    of the image, in hexadecimal
-    ``text``      all of it in one sentence or two
+    ``at_control``  what the control contains now: the "old" image, the "new" one, or "unknown"
+    ``verified``    whether every byte of the new image was read back and is equal
+    ``written``     whether the control had to take anything
+    ``kept``        where the image before it is kept, byte for byte; None when nothing was replaced or it was empty
+    ``restart``     "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
+    ``sha256``      of the image, in hexadecimal
+    ``text``        all of it in one sentence or two
     """
 
-    held: Held
+    at_control: AtControl
     verified: bool
     written: bool
     kept: str | None
@@ -56,7 +56,7 @@ class Outcome:
 
 
 def upload(driver: ControlDriver, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
-    """Return the image the control holds; raises TransferError."""
+    """Return the image the control contains; raises TransferError."""
     with _only_looking():
         driver.identify(progress, cancel)
         return driver.fetch(progress, cancel)
@@ -65,7 +65,7 @@ def upload(driver: ControlDriver, progress: Progress = quiet, cancel: threading.
 def look_at(
     driver: ControlDriver, progress: Progress = quiet, cancel: threading.Event | None = None
 ) -> tuple[ControlIdentity, bytes, str]:
-    """Return who the control is, what it holds, and the SHA-256 of that in hexadecimal; raises TransferError."""
+    """Return who the control is, what it contains, and the SHA-256 of that in hexadecimal; raises TransferError."""
     with _only_looking():
         control = driver.identify(progress, cancel)
         content = driver.fetch(progress, cancel)
@@ -74,11 +74,11 @@ def look_at(
 
 @contextlib.contextmanager
 def _only_looking() -> Iterator[None]:
-    """Leave out of an error what the control holds: who only looks replaces nothing, and an earlier download may have."""
+    """Leave out of an error what the control contains: who only looks replaces nothing, and an earlier download may have."""
     try:
         yield
     except TransferError as error:
-        error.held = ""
+        error.at_control = ""
         raise
 
 
@@ -96,12 +96,12 @@ def download(
 ) -> Outcome:
     """Put an image into a control, and prove it.
 
-    Fetches what the control holds and hands it to ``keep``, which returns where it has kept it, before
+    Fetches what the control contains and hands it to ``keep``, which returns where it has kept it, before
     anything is replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to
     ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
     schema's under which the image was made. ``expected`` is the SHA-256 of the image that may be replaced; None
-    for whatever is there. ``is_return`` says that the control has held this image before: one that remembers
-    what it held decides by itself whether it takes it. Raises TransferError, whose ``held`` and ``kept`` say what the control holds and
+    for whatever is there. ``is_return`` means that the control has contained this image before: one that remembers
+    what it contained decides by itself whether it takes it. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
     where its old image is.
     """
     digest = hashlib.sha256(image)
@@ -131,7 +131,7 @@ def download(
     try:
         return _prove(driver, image, receipt, kept, progress, cancel, restart_wait)
     except TransferError as error:
-        error.held, error.kept = "new", kept
+        error.at_control, error.kept = "new", kept
         raise
     except KeyboardInterrupt:
         raise CancelledError("stopped", "new", kept) from None
@@ -151,7 +151,7 @@ def first_difference(a: bytes, b: bytes) -> int | None:
 
 
 def short(digest: bytes) -> str:
-    """Return the beginning of a digest, enough for a person to tell two apart."""
+    """Return the beginning of a digest, enough for a person to distinguish two."""
     return digest.hex()[:12]
 
 
@@ -166,7 +166,7 @@ def _check_signature(control: ControlIdentity, signature: str) -> None:
 def _check_expected(expected: bytes | None, found: bytes | None) -> None:
     if expected is not None and found is not None and expected != found:
         raise ImageChangedError(
-            f"the control holds something else than what was approved to be replaced "
+            f"the control contains something else than what was approved to be replaced "
             f"(sha256 {short(found)}…, approved {short(expected)}…)"
         )
 
@@ -179,7 +179,7 @@ def _check_stop(control: ControlIdentity, digest: bytes) -> None:
 
 def _nothing_to_do(control: ControlIdentity, digest: str) -> Outcome:
     waiting = control.restart_needed
-    text = "The control holds exactly this image already; nothing was written."
+    text = "The control contains exactly this image already; nothing was written."
     if waiting:
         text += " Restart the control to make it current."
     return Outcome("new", True, False, None, "needed" if waiting else "not needed", digest, text)
@@ -192,7 +192,7 @@ def _keep(keep: Keep, old: bytes) -> str:
         said = str(error)
         if isinstance(error, OSError) and error.filename and error.strerror:
             said = f"{error.filename}: {error.strerror}"
-        raise KeepFailedError(f"what the control holds could not be kept ({said})") from error
+        raise KeepFailedError(f"what the control contains could not be kept ({said})") from error
 
 
 def _prove(
@@ -206,7 +206,7 @@ def _prove(
 ) -> Outcome:
     """Wait for the restart, read back, compare."""
     digest = hashlib.sha256(image).hexdigest()
-    before = f" What it held before is kept in {kept}." if kept else " It held nothing before."
+    before = f" What it contained before is kept in {kept}." if kept else " It was empty before."
     restart: Literal["done", "needed"] = "needed"
     if receipt.restarting:
         if not driver.wait_restarted(receipt, restart_wait, progress, cancel):
@@ -214,11 +214,11 @@ def _prove(
             text += f"within {restart_wait:g} s."
             return Outcome("new", False, True, kept, "missed", digest, text + before)
         restart = "done"
-    held = driver.fetch(progress, cancel, "verify")
-    at = first_difference(image, held)
+    fetched = driver.fetch(progress, cancel, "verify")
+    at = first_difference(image, fetched)
     if at is not None:
-        text = f"The control took the image, but what it holds differs from byte {at} on; "
-        text += f"{HELD_TEXT['unknown']}."
+        text = f"The control took the image, but what it contains differs from byte {at} on; "
+        text += f"{AT_CONTROL_TEXT['unknown']}."
         return Outcome("unknown", False, True, kept, restart, digest, text + before)
     text = "Download complete and read back equal"
     text += (

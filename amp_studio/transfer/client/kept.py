@@ -1,7 +1,7 @@
-"""Copies of what a control held: kept byte for byte before anything is replaced, and put back as they are.
+"""Copies of what a control contained: kept byte for byte before anything is replaced, and put back as they are.
 
 ``NAME.before-STAMP.img`` is the image itself, ``NAME.before-STAMP.img.sha256`` its digest as ``sha256sum`` writes
-it. ``NAME.before-STAMP.amp`` is there as well where a parameter file says exactly the same.
+it. ``NAME.before-STAMP.amp`` is there as well where a parameter file contains exactly the same.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ class Copy:
     """An image that is to be put back.
 
     ``image``      its bytes
-    ``signature``  of the schema it was made under, as far as that can be told, else ""
+    ``signature``  of the schema it was made under, as far as that is known, else ""
     ``file``       what it means; None where this program cannot read it
     ``fault``      why it cannot
     ``is_checked`` whether it was compared with a digest beside it
-    ``is_kept``    whether it is what a control held, byte for byte: an image, or a parameter file beside its image
+    ``is_kept``    whether it is what a control contained, byte for byte: an image, or a parameter file beside its image
     """
 
     image: bytes
@@ -118,7 +118,7 @@ def open_copy(path: Path) -> Copy:
         is_kept = beside.is_file() and _content(beside) == image
         return Copy(image, file.schema.signature, file, "", is_checked=True, is_kept=is_kept)
     if path.suffix != IMAGE:
-        raise CopyError(f"{path} is no copy of what a control held: those end in {IMAGE} or {ENDING}")
+        raise CopyError(f"{path} is no copy of what a control contained: those end in {IMAGE} or {ENDING}")
     image = _content(path)
     is_checked = os.path.lexists(digest_path(path))  # one that cannot be read is not none
     if is_checked:
@@ -145,7 +145,7 @@ def _check(path: Path, image: bytes) -> None:
     digest = _content(beside)[:64].decode("ascii", errors="replace").casefold()
     if not re.fullmatch("[0-9a-f]{64}", digest):
         raise CopyError(
-            f"{beside} holds no digest as sha256sum writes it: remove it to put {path.name} back unchecked"
+            f"{beside} contains no digest as sha256sum writes it: remove it to put {path.name} back unchecked"
         )
     if digest != hashlib.sha256(image).hexdigest():
         raise CopyError(f"{path} is not what was kept: its digest is not the one in {beside.name}")

@@ -34,10 +34,10 @@ def download_file(
     file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,
     cancel: threading.Event | None = None, *, expected: str | None = None,
 ) -> Outcome:  # fmt: skip
-    """Put a file into the control at ``address``; what it held is kept in ``folder`` before anything is replaced.
+    """Put a file into the control at ``address``; what it contained is kept in ``folder`` before anything is replaced.
 
     ``expected`` is the digest of what may be replaced, None for whatever is there. Raises TransferError, whose
-    text says what the control holds, ImageError for a file no image can carry, and ValueError for an address or
+    text names what the control contains, ImageError for a file no image can carry, and ValueError for an address or
     a digest that is none.
     """
     image, approved = encode_image(file), read_digest(expected)
@@ -51,9 +51,9 @@ def restore_copy(
     copy: Copy, address: str, folder: Path, stem: str, progress: Progress = quiet,
     cancel: threading.Event | None = None, *, expected: str | None = None,
 ) -> Outcome:  # fmt: skip
-    """Put back what a control has held, byte for byte; what it holds instead is kept in ``folder`` first.
+    """Put back what a control has contained, byte for byte; what it contains instead is kept in ``folder`` first.
 
-    What is kept goes back whatever it is, for the control to say whether it has held it. Raises as ``download_file``.
+    What is kept goes back whatever it is, for the control to decide whether it has contained it. Raises as ``download_file``.
     """
     family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
     approved = read_digest(expected)
@@ -85,7 +85,7 @@ def read_digest(text: str | None) -> bytes | None:
 def fetch_image(
     address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
 ) -> bytes:
-    """Return what the control at ``address`` holds, byte for byte; raises TransferError."""
+    """Return what the control at ``address`` contains, byte for byte; raises TransferError."""
     with closing(open_driver(address, family)) as driver:
         return upload(driver, progress, cancel)
 
@@ -93,5 +93,5 @@ def fetch_image(
 def fetch_file(
     address: str, progress: Progress = quiet, cancel: threading.Event | None = None
 ) -> ParameterFile:
-    """Return what the control at ``address`` holds as a parameter file; raises TransferError, ImageError."""
+    """Return what the control at ``address`` contains as a parameter file; raises TransferError, ImageError."""
     return decode_image(fetch_image(address, progress, cancel))

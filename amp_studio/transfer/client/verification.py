@@ -1,4 +1,4 @@
-"""Whether a control holds a file: its values, and every byte of its image."""
+"""Whether a control contains a file: its values, and every byte of its image."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from amp_studio.transfer.image import ImageError, decode_image, head_of
 
 @dataclass(frozen=True)
 class HeadDifference:
-    """A line of an image's head (``revision``) with what stands there on both sides."""
+    """A line of an image's head (``revision``) with what is there on both sides."""
 
     line: str
     a: str
@@ -24,7 +24,7 @@ class ImageComparison:
 
     ``is_same``     whether every byte is the same
     ``values``      the values that differ; none are listed where the control's image cannot be read
-    ``other_units`` values that are the same and stand in another unit
+    ``other_units`` values that are the same in another unit
     ``head``        lines of the head that differ
     ``unreadable``  why the control's image cannot be compared with the file, else ""
     """
@@ -40,9 +40,9 @@ class ImageComparison:
         if self.is_same:
             return f"Nothing differs: {self.values.same} values and every byte are the same."
         if self.unreadable:
-            return f"The control holds something else: {self.unreadable}."
+            return f"The control contains something else: {self.unreadable}."
         if self.values.differences:
-            return "The control holds other values."
+            return "The control contains other values."
         parts = []
         if self.head:
             parts.append(f"the header ({', '.join(d.line for d in self.head)})")
@@ -51,20 +51,20 @@ class ImageComparison:
         return f"All values are the same; only {' and '.join(parts)} {'differ' if self.other_units else 'differs'}."
 
 
-def verify_images(image: bytes, held: bytes) -> ImageComparison:
-    """Compare the image of a file with what a control holds; raises ImageError where the file's own cannot be read."""
+def verify_images(image: bytes, fetched: bytes) -> ImageComparison:
+    """Compare the image of a file with what a control contains; raises ImageError where the file's own cannot be read."""
     a = decode_image(image)
     try:
-        b = decode_image(held)
+        b = decode_image(fetched)
     except ImageError as error:
         return ImageComparison(
-            is_same=False, values=Comparison((), 0), unreadable=str(error) if held else "nothing"
+            is_same=False, values=Comparison((), 0), unreadable=str(error) if fetched else "nothing"
         )
     if b.schema is not a.schema:
         name = b.schema.family.name
         return ImageComparison(is_same=False, values=Comparison((), 0), unreadable=f"a file for {name}")
     found = compare(a.schema, a.values, b.values)
-    return ImageComparison(image == held, found, _other_units(a, b), _head_differences(a, b))
+    return ImageComparison(image == fetched, found, _other_units(a, b), _head_differences(a, b))
 
 
 def _head_differences(a: ParameterFile, b: ParameterFile) -> tuple[HeadDifference, ...]:

@@ -1,4 +1,4 @@
-"""An emulated control: what it holds, when it takes something else, and what is left after a crash.
+"""An emulated control: what it contains, when it takes something else, and what is left after a crash.
 
 Its memory:
     active.img            the image it works with after the next start
@@ -9,7 +9,7 @@ Its memory:
     outgoing.img          what becomes previous.img when that commit has happened
 
 The one moment a commit happens in is the rename of the staged file to
-active.img. After a crash, commit.json and the digest of active.img tell on
+active.img. After a crash, commit.json and the digest of active.img show on
 which side of it the control stopped.
 """
 
@@ -40,7 +40,7 @@ CAPACITY = 1 << 20  # bytes
 class Control:
     """One control with its memory in a folder.
 
-    A new folder is born with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not
+    A new folder begins with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not
     given, at first on. ``accept`` raises, best ValueError, for an image the control does not take. Raises
     StateError when the folder is another control's, damaged or in use. Requests raise RefusalError and then have
     changed nothing.
@@ -77,7 +77,7 @@ class Control:
         """Leave the folder to others."""
         self._lock.release()
 
-    # -- what it holds -----------------------------------------------------------------------------
+    # -- what it contains --------------------------------------------------------------------------
 
     @property
     def image(self) -> bytes:
@@ -136,7 +136,7 @@ class Control:
         if wish.signature != self.identity.signature and not self._record.has_held(wish.sha256):
             raise RefusalError(
                 Code.SIGNATURE,
-                "the control numbers its parameters by another schema and has not held this image",
+                "the control numbers its parameters by another schema and has not contained this image",
             )
         self._need_estop("download")
         self._need_expected(wish.expected)
@@ -204,7 +204,7 @@ class Control:
                 self._staging.drop()
                 said = str(error) if isinstance(error, ValueError) else type(error).__name__
                 raise RefusalError(
-                    Code.REJECTED, f"the control has not held this image and does not take it: {said}"
+                    Code.REJECTED, f"the control has not contained this image and does not take it: {said}"
                 ) from None
 
     def _replace_active(self, pending: PendingDownload, intent: dict[str, Any]) -> None:
@@ -217,7 +217,7 @@ class Control:
             self.memory.move(pending.part, ACTIVE)
         except OSError as error:
             fault = error.strerror or str(error)
-        # Whatever went wrong above: what now stands in active.img is what the control holds.
+        # Whatever went wrong above: what is now in active.img is what the control contains.
         self._take(self.memory.read(ACTIVE) or b"")
         if self._digest != pending.sha256:
             self._forget_intent()
@@ -238,7 +238,7 @@ class Control:
             self._forget_intent()
 
     def _forget_intent(self) -> None:
-        # One that cannot be removed says nothing wrong: the digest of active.img decides.
+        # One that cannot be removed does no harm: the digest of active.img decides.
         with contextlib.suppress(OSError):
             self.memory.remove(INTENT)
 

@@ -1,4 +1,4 @@
-"""An emulated control in a process of its own, on a real line, with its memory on disk.
+"""An emulated control in a separate process, on a real line, with its memory on disk.
 
 The manual's chapter 2 for the 9/PC is its model: a download needs E-stop, the
 control restarts to make it current (by itself or by hand), and until then
@@ -33,12 +33,12 @@ from .responder import CHUNK, WINDOW, Responder
 RESTART_SECONDS = 0.5
 SLICE = 0.05  # seconds between two looks at the operator's commands
 HELD_LINE = 5.0  # seconds without a whole frame after which another client may take the control over
-LINES = 8  # open at once; beyond them the one that was opened first and does not hold the control is cut
+LINES = 8  # open at once; beyond them the one that was opened first and does not have the control is cut
 PIECE = 2_048  # bytes of one client that are worked on before anybody else has a turn
 COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
 COMMANDS_A_TURN = 16
 LONGEST_COMMAND = 4_096  # bytes
-LONGEST_LINE = 300  # characters the operator is told of what somebody else has said
+LONGEST_LINE = 300  # characters the operator sees of what somebody else has sent
 
 Patch = Callable[[bytes, str, str], bytes]
 
@@ -61,11 +61,11 @@ class Caller:
 class Emulator:
     """Serves one client at a time until ``quit`` or ``stop``.
 
-    The control is held by the client that has sent a whole frame, until another sends one after the first
-    has sent none for HELD_LINE seconds: bytes that are no frame hold nothing.
+    The control belongs to the client that has sent a whole frame, until another sends one after the first
+    has sent none for HELD_LINE seconds: bytes that are no frame do not count.
 
     ``patch`` gets the image, a key and a value and returns the changed image; it may raise ValueError with
-    what the operator is to read. ``say`` gets what the operator is told, one line at a time.
+    what the operator is to read. ``say`` gets what the operator is to see, one line at a time.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class Emulator:
             self._hang_up()
 
     def turn(self) -> None:
-        """Do what the operator wants, and give each client its turn; waits 0.05 s at most for something to do."""
+        """Do what the operator asks for, and give each client its turn; waits 0.05 s at most for something to do."""
         self._obey()
         if self._restart_due:
             self._restart_due = False
@@ -197,7 +197,7 @@ class Emulator:
         left = back_at - self._clock()
         if left <= 0:
             self._back_at = None
-            self._tell(self._restarted)
+            self._report(self._restarted)
             return
         caller = self._listener.accept(min(left, SLICE))
         if caller is not None:
@@ -212,10 +212,10 @@ class Emulator:
                 return
             line = self._commands.get().strip()
             if line:
-                self._tell(partial(self._done, line))
+                self._report(partial(self._done, line))
 
-    def _tell(self, action: Callable[[], str]) -> None:
-        """Do something and tell the operator how it went."""
+    def _report(self, action: Callable[[], str]) -> None:
+        """Do something and show the operator how it went."""
         try:
             self._say(action())
         except (RefusalError, ValueError) as error:
@@ -282,11 +282,11 @@ def serve(
 ) -> int:
     """Run an emulated control until ``quit``, an interrupt or ``stop``; return the exit code 0.
 
-    Says ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those of
-    standard input where that is a terminal or a pipe. Raises ValueError for an address that is none,
+    Prints ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those of
+    standard input if that is a terminal or a pipe. Raises ValueError for an address that is none,
     LinkError for one that cannot be listened on.
     """
-    tell = say or print_line
+    show = say or print_line
     stop = stop or threading.Event()
     with contextlib.ExitStack() as stack:
         stack.callback(control.close)
@@ -299,7 +299,7 @@ def serve(
             patch=patch,
             faults=faults,
             restart_seconds=restart_seconds,
-            say=tell,
+            say=show,
             stop=stop,
         )
         lines = standard_input() if commands is None else commands
@@ -309,10 +309,10 @@ def serve(
                 emulator.command(line)
 
         threading.Thread(target=forward, name="operator", daemon=True).start()
-        tell(f"listening on {listener.endpoint}")
+        show(f"listening on {listener.endpoint}")
         emulator.run()
         if stop.is_set():
-            tell("bye")
+            show("bye")
     return 0
 
 
@@ -329,7 +329,7 @@ def print_line(line: str) -> None:
 def standard_input() -> Iterator[str]:
     """Yield the lines of standard input where somebody can write there: at a terminal or through a pipe.
 
-    It reads the handle itself: a thread that waits inside ``sys.stdin`` would hold up the end of the program.
+    It reads the handle itself: a thread that waits inside ``sys.stdin`` would delay the end of the program.
     """
     try:
         handle = sys.stdin.fileno()

@@ -22,9 +22,9 @@ def emulate(
     autostart: bool = True,
     faults: str = "{}",
 ) -> int:  # fmt: skip
-    """Run an emulated control until it is told to quit; returns the exit code.
+    """Run an emulated control until it is asked to quit; returns the exit code.
 
-    It is born with the family's printed defaults; its memory lies in ``state``, or in a temporary folder. ``faults``
+    It begins with the family's printed defaults; its memory lies in ``state``, or in a temporary folder. ``faults``
     are what goes wrong, to practise with, as one JSON object.
     """
     stop = threading.Event()

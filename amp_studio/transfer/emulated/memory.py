@@ -1,6 +1,6 @@
 """The memory of an emulated control: a folder whose files are replaced all or nothing.
 
-Every change is a few steps on the disk, and ``on_step`` is told of each before
+Every change is a few steps on the disk, and ``on_step`` is called with each before
 it is done, so that a test can pull the plug at any of them.
 """
 
@@ -48,7 +48,7 @@ class Memory:
             return 0
 
     def replace(self, name: str, content: bytes) -> None:
-        """Give a file new content: after a crash at any step it holds the old content or the new, whole."""
+        """Give a file new content: after a crash at any step it contains the old content or the new, whole."""
         temporary = self.folder / (name + TEMPORARY)
         try:
             self.on_step(f"write {temporary.name}")

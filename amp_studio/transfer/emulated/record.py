@@ -12,7 +12,7 @@ from amp_studio.transfer.house.message import Committed, Flags
 from .memory import Memory
 
 RECORD = "control.json"
-REMEMBERED = 100  # digests of images a control has held
+REMEMBERED = 100  # digests of images a control has contained
 LAST = (1 << 32) - 1  # the greatest number of a start that the wire can carry
 
 
@@ -22,7 +22,7 @@ class StateError(ValueError):
 
 @dataclass(frozen=True)
 class Identity:
-    """What a control says of itself: family id, signature of its schema, its name, its software revision."""
+    """What a control answers about itself: family id, signature of its schema, its name, its software revision."""
 
     family: str
     signature: str
@@ -35,7 +35,7 @@ class Record:
     """The state of a control.
 
     ``committed`` is its answer to the last commit, in words JSON has; ``images`` are the digests of what it has
-    held, the newest last.
+    contained, the newest last.
     """
 
     family: str
@@ -50,16 +50,16 @@ class Record:
     images: list[str] = field(default_factory=list)
 
     def hold(self, sha256: bytes) -> None:
-        """Remember that the control holds an image with this digest."""
+        """Remember that the control contains an image with this digest."""
         digest = sha256.hex()
         self.images = [*(d for d in self.images if d != digest), digest][-REMEMBERED:]
 
     def has_held(self, sha256: bytes) -> bool:
-        """Whether the control has held this image, so that it may be given back whatever it is."""
+        """Whether the control has contained this image, so that it may be given back whatever it is."""
         return sha256.hex() in self.images
 
     def save(self, memory: Memory) -> None:
-        """Write the record; raises OSError, and then the old one stands."""
+        """Write the record; raises OSError, and then the old one stays."""
         memory.replace(RECORD, to_json(asdict(self)))
 
     def flags(self) -> Flags:
@@ -136,7 +136,7 @@ def to_json(content: dict[str, Any]) -> bytes:
 
 
 def load_json(memory: Memory, name: str) -> dict[str, Any] | None:
-    """Return the object a JSON file holds, None when there is no such file; raises StateError."""
+    """Return the object of a JSON file, None when there is no such file; raises StateError."""
     content = memory.read(name)
     if content is None:
         return None

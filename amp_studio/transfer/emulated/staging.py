@@ -1,4 +1,4 @@
-"""The download an emulated control has begun to take, in a file of its own, so that it can be resumed."""
+"""The download an emulated control has begun to take, in a separate file, so that it can be resumed."""
 
 from __future__ import annotations
 

@@ -29,9 +29,9 @@ OpenLink = Callable[[Callable[[], None]], Link]
 
 PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
 LONGEST_PAUSE = 2.0  # up to this
-SLICE = 0.1  # seconds a pause may last before the cancel event is looked at again
-SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is told so
-SILENT_EVERY = 1.0  # seconds until he is told again
+SLICE = 0.1  # seconds a pause may last before the cancel event is read again
+SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is notified
+SILENT_EVERY = 1.0  # seconds until he is notified again
 LINGER = 5.0  # seconds a commit is seen through after somebody has asked to stop
 
 # Patience begins anew only with a step of so many bytes (fewer of a small image, on a slow line, or at the
@@ -41,15 +41,15 @@ STEPS = 64
 
 
 class OutOfTimeError(NoAnswerError):
-    """Patience has ended, or nobody wants to wait any longer."""
+    """Patience has ended, or somebody asked to stop."""
 
 
 class Connection:
-    """Conversations with one control, one after the other; ``welcome`` is what it said last about itself.
+    """Conversations with one control, one after the other; ``welcome`` is what it answered last about itself.
 
     ``open_link`` gets a function to call at least every 0.1 s while it waits. ``cancel`` may be set from
     another thread: then whatever waits here raises CancelledError; while ``is_committing`` it waits a little
-    longer for the answer. ``progress`` is told of silences too, and nothing it raises matters.
+    longer for the answer. ``progress`` is called for silences too, and nothing it raises matters.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class Connection:
         self._until: float | None = None  # when patience ends
         self._reached = 0  # bytes of the image under way when patience last began anew
         self._best = 0  # the most bytes of it that were ever there
-        self._moved_at = self._told_at = clock()
+        self._moved_at = self._notified_at = clock()
         self._stopped_at: float | None = None
 
     def close(self) -> None:
@@ -91,7 +91,7 @@ class Connection:
             self._talk = None
 
     def greet(self, tries: int = 3) -> Welcome:
-        """Say Hello on the line there is, or on a new one.
+        """Send Hello on the line there is, or on a new one.
 
         Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError, after which the line is closed.
         """
@@ -172,10 +172,10 @@ class Connection:
 
     def further(self) -> None:
         """Something that was waited for is there: nothing is silent."""
-        was_silent = self._told_at > self._moved_at
-        self._moved_at = self._told_at = self.now()
+        was_silent = self._notified_at > self._moved_at
+        self._moved_at = self._notified_at = self.now()
         if was_silent:
-            self.tell(SILENT, 0, round(self._patience))
+            self.notify(SILENT, 0, round(self._patience))
 
     def moved(self, done: int, total: int) -> None:
         """``done`` of ``total`` bytes are there: after a step of some size patience begins anew."""
@@ -190,8 +190,8 @@ class Connection:
             self._reached = done
             self._until = self.now() + self._patience
 
-    def tell(self, stage: str, done: int, total: int) -> None:
-        """Tell whoever waits; that he cannot be told ends no exchange."""
+    def notify(self, stage: str, done: int, total: int) -> None:
+        """Notify whoever waits; that he cannot be notified ends no exchange."""
         with contextlib.suppress(Exception):
             self.progress(stage, done, total)
 
@@ -216,10 +216,10 @@ class Connection:
         if self._until is not None and now >= self._until:
             raise OutOfTimeError
         silent = now - self._moved_at
-        if silent >= SILENT_AFTER and now - self._told_at >= SILENT_EVERY:
-            self._told_at = now
+        if silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
+            self._notified_at = now
             left = 0.0 if self._until is None else self._until - now
-            self.tell(SILENT, round(silent), round(silent + left))
+            self.notify(SILENT, round(silent), round(silent + left))
 
     def _stop(self, cancel: threading.Event, now: float) -> None:
         if not self.is_committing:

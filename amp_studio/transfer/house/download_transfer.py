@@ -1,4 +1,4 @@
-"""One download from the client's side: stage, commit, and know at every moment what the control holds."""
+"""One download from the client's side: stage, commit, and know at every moment what the control contains."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import threading
 from dataclasses import dataclass
 
 from amp_studio.transfer.errors import (
+    AtControl,
     CancelledError,
-    Held,
     ImageChangedError,
     ProtocolMismatchError,
     TransferError,
@@ -36,7 +36,7 @@ class Sent:
 
 
 class DownloadTransfer:
-    """Sends one image under one transfer id; ``held`` is what the control holds as far as can be known."""
+    """Sends one image under one transfer id; ``at_control`` is what the control contains as far as can be known."""
 
     def __init__(self, line: Connection, image: bytes, signature: str, expected: bytes) -> None:
         self._line = line
@@ -46,8 +46,8 @@ class DownloadTransfer:
         self._digest = hashlib.sha256(image).digest()
         self._transfer = line.random(16)
         self._reached = 0
-        self._lost = 0  # how often the control had less than it had said before
-        self.held: Held = "old"
+        self._lost = 0  # how often the control had less than it had answered before
+        self.at_control: AtControl = "old"
 
     def run(self, cancel: threading.Event | None) -> Sent:
         """Return what the control answered to the commit; raises TransferError."""
@@ -57,15 +57,15 @@ class DownloadTransfer:
         try:
             return Sent(self._stage_and_commit(), self._line.reconnections)
         except TransferError as error:
-            error.held = self.held
+            error.at_control = self.at_control
             self._abort()
             raise
         except KeyboardInterrupt:
             self._abort()
-            raise CancelledError("stopped", self.held) from None
-        except Exception as error:  # no memory, no handle: what the control holds is to be said anyway
+            raise CancelledError("stopped", self.at_control) from None
+        except Exception as error:  # no memory, no handle: what the control contains is to be reported anyway
             self._abort()
-            raise TransferError(f"the exchange broke off ({unforeseen(error)})", self.held) from error
+            raise TransferError(f"the exchange broke off ({unforeseen(error)})", self.at_control) from error
         finally:
             self._line.cancel = None
             self._line.is_committing = False
@@ -78,7 +78,7 @@ class DownloadTransfer:
                 return self._line.persist(self._attempt)
             except RefusalError as refusal:
                 # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
-                # control may also have begun anew without the client's noticing; then it says how much it
+                # control may also have begun anew without the client's noticing; then it answers how much it
                 # has.
                 if refusal.code == Code.DIGEST:
                     spoilt, self._reached = spoilt + 1, 0
@@ -92,7 +92,7 @@ class DownloadTransfer:
                 self._old_holds()
 
     def _attempt(self, talk: Transaction) -> Committed:
-        """Take the download up where the control says, and commit it."""
+        """Continue the download where the control asks, and commit it."""
         total = len(self._image)
         opening = OpenDownload(self._transfer, total, self._digest, self._expected, self._signature)
         ready = talk.request(opening, Ready)
@@ -109,7 +109,7 @@ class DownloadTransfer:
         def done(staged: int) -> None:
             self._reached = max(self._reached, staged)
             self._line.moved(staged, total)
-            self._line.tell("download", staged, total)
+            self._line.notify("download", staged, total)
 
         done(ready.offset)
         push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
@@ -117,24 +117,24 @@ class DownloadTransfer:
 
     def _commit(self, talk: Transaction) -> Committed:
         cancel = self._line.cancel
-        if self.held == "old":
+        if self.at_control == "old":
             if cancel is not None and cancel.is_set():
                 raise CancelledError("stopped")
             self._line.begin()  # the time for the commit counts from its first asking, over all lines
-        self._line.tell("commit", 0, 1)
+        self._line.notify("commit", 0, 1)
         self._line.is_committing = True  # from here on the matter is seen through
-        self.held = "unknown"
+        self.at_control = "unknown"
         committed = talk.request(
             Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT, tries=COMMIT_TRIES
         )
-        self.held = "new"
+        self.at_control = "new"
         self._line.further()
-        self._line.tell("commit", 1, 1)
+        self._line.notify("commit", 1, 1)
         return committed
 
     def _old_holds(self) -> None:
         """No commit has happened, and nothing needs to be seen through."""
-        self.held = "old"
+        self.at_control = "old"
         self._line.is_committing = False
 
     def _lose(self, offset: int) -> None:
@@ -152,15 +152,15 @@ class DownloadTransfer:
         """
         error = error_of(refusal)
         welcome = self._line.welcome
-        if isinstance(error, ImageChangedError) and self.held == "unknown":
-            error.held = "new" if welcome is not None and welcome.sha256 == self._digest else "unknown"
-        self.held = error.held
+        if isinstance(error, ImageChangedError) and self.at_control == "unknown":
+            error.at_control = "new" if welcome is not None and welcome.sha256 == self._digest else "unknown"
+        self.at_control = error.at_control
         return error
 
     def _abort(self) -> None:
         """Have the control throw the staged bytes away; one that does not hear it keeps them for nothing."""
         self._line.cancel = None
-        if self.held == "old":
+        if self.at_control == "old":
             self._line.once(
                 lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1),
                 ABORT_WAIT,

@@ -26,7 +26,7 @@ class HouseDriver:
         return cls(Session.at(endpoint, family=family))
 
     def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
-        """Return what the control says of itself."""
+        """Return what the control answers about itself."""
         welcome = self.session.hello(cancel, progress)
         return ControlIdentity(
             family=welcome.family,

@@ -1,4 +1,4 @@
-"""Frames: how one message stands in a stream of bytes.
+"""Frames: how one message is written in a stream of bytes.
 
     frame   = COBS(body) 00
     body    = type u8, sequence u16, payload, CRC-32 u32      (numbers little-endian)
@@ -46,7 +46,7 @@ def encode_frame(frame: Frame) -> bytes:
 
 
 def decode_frame(encoded: bytes) -> Frame | None:
-    """Return the frame that stands between two zero bytes, or None when it is damaged."""
+    """Return the frame between two zero bytes, or None when it is damaged."""
     body = cobs_decode(encoded)
     if body is None or not HEAD.size + CHECK.size <= len(body) <= MAX_BODY:
         return None
@@ -96,7 +96,7 @@ class FrameDecoder:
 def cobs_encode(data: bytes) -> bytes:
     """Return ``data`` without zero bytes: each becomes the distance to the next one (or to the end).
 
-    A code byte n (1 to 254) stands for n - 1 bytes and a zero, 255 for 254 bytes and no zero; the zero after
+    A code byte n (1 to 254) means n - 1 bytes and a zero, 255 for 254 bytes and no zero; the zero after
     the last group is not part of the data.
     """
     out = bytearray()
@@ -108,7 +108,7 @@ def cobs_encode(data: bytes) -> bytes:
         out.append(len(run) - whole + 1)
         out += run[whole:]
     if run and whole == len(run):
-        del out[-1]  # the data ends with a full group: there is no zero left to stand for
+        del out[-1]  # the data ends with a full group: there is no zero left to write
     return bytes(out)
 
 

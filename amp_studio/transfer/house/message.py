@@ -1,4 +1,4 @@
-"""Messages: what the two ends say to each other, one frame each.
+"""Messages: what the two ends send to each other, one frame each.
 
 A message declares its fields with the words of ``docs/protocols/exchange.md``:
 
@@ -122,7 +122,7 @@ class Commit(Message):
 
 @dataclass(frozen=True)
 class OpenUpload(Message):
-    """Asks the control to hold a copy of its image still, to be read."""
+    """Asks the control to keep a copy of its image unchanged, to be read."""
 
     TYPE = 0x06
 
@@ -154,7 +154,7 @@ class Restart(Message):
 
 @dataclass(frozen=True)
 class Welcome(Message):
-    """Who the control is, what it holds, and what it can take at once."""
+    """Who the control is, what it contains, and what it can take at once."""
 
     TYPE = 0x81
     version: int = _wire("u8")
@@ -200,7 +200,7 @@ class Ack(Message):
 
 @dataclass(frozen=True)
 class Gap(Message):
-    """The Data of this number is not kept, because what stands before it is missing from ``next`` on."""
+    """The Data of this number is not kept, because what comes before it is missing from ``next`` on."""
 
     TYPE = 0x85
     next: int = _wire("u32")
@@ -270,7 +270,7 @@ LAYOUTS: dict[int, tuple[tuple[str, str], ...]] = {
 
 
 def pack(message: Message, sequence: int) -> Frame:
-    """Return the frame of a message; raises ValueError for a value that its field cannot hold."""
+    """Return the frame of a message; raises ValueError for a value that its field cannot contain."""
     try:
         parts = [_PACK[kind](getattr(message, name)) for name, kind in LAYOUTS[message.TYPE]]
     except struct.error as error:
@@ -297,11 +297,11 @@ def unpack(frame: Frame) -> Message:
 
 
 def shorten(text: str, limit: int = 255) -> str:
-    """Return as much of a text as a text field can hold (255 bytes of UTF-8)."""
+    """Return as much of a text as a text field can contain (255 bytes of UTF-8)."""
     return text.encode("utf-8")[:limit].decode("utf-8", errors="ignore")
 
 
-# -- how each kind of field stands in the payload --------------------------------------------------
+# -- how each kind of field is written in the payload --------------------------------------------------
 
 
 def _number(form: str) -> tuple[Callable[[Any], bytes], Callable[[bytes, int], tuple[Any, int]]]:

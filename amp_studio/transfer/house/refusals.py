@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from amp_studio.transfer.errors import (
+    AtControl,
     ControlBusyError,
     ControlFullError,
-    Held,
     ImageChangedError,
     ImageDamagedError,
     ImageRejectedError,
@@ -30,8 +30,8 @@ _BY_CODE: dict[int, type[TransferError]] = {
 }
 
 
-def error_of(refusal: RefusalError, held: Held = "old") -> TransferError:
+def error_of(refusal: RefusalError, at_control: AtControl = "old") -> TransferError:
     """Return the error that a control's refusal means; the control's own words are its text."""
     kind = _BY_CODE.get(refusal.code, ProtocolMismatchError)
     what = refusal.text or f"the control refuses (code {refusal.code})"
-    return kind(what, held)
+    return kind(what, at_control)

@@ -1,4 +1,4 @@
-"""The client's side of an exchange: it survives cut lines and ends by saying what the control holds."""
+"""The client's side of an exchange: it survives cut lines and ends by reporting what the control contains."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Session:
     ``open_link`` makes the line, and makes it again when it is cut, for up to ``patience`` seconds without
     progress; while it waits, it calls the function it is given at least every 0.1 s. ``family`` is the family
     the control must be of ("" for any). ``clock`` and ``sleep`` are in seconds. A session belongs to one
-    thread; only a cancel event may be set from another. A ``progress`` is told within 2 s when nothing is
+    thread; only a cancel event may be set from another. A ``progress`` is called within 2 s when nothing is
     answered.
     """
 
@@ -89,7 +89,7 @@ class Session:
     # -- asking ------------------------------------------------------------------------------------
 
     def hello(self, cancel: threading.Event | None = None, progress: Progress = quiet) -> Welcome:
-        """Return who the control is and what it holds; connects where there is no line yet.
+        """Return who the control is and what it contains; connects where there is no line yet.
 
         Raises NoConnectionError, ControlSilentError, ControlBusyError, WrongFamilyError, ProtocolMismatchError, CancelledError.
         """
@@ -126,7 +126,7 @@ class Session:
     ) -> Welcome | None:
         """Call the control until it answers with another incarnation; None when it has not after ``seconds``.
 
-        Raises CancelledError and what tells that another control answers.
+        Raises CancelledError and an error where another control answers.
         """
         line = self._line
         start = line.now()
@@ -138,7 +138,7 @@ class Session:
         self.close()
         line.begin(seconds)
         while line.now() - start < seconds:
-            line.tell("restart", 0, 1)
+            line.notify("restart", 0, 1)
             try:
                 welcome = line.greet(tries=1)
             except (LinkError, NoAnswerError, RefusalError):
@@ -147,7 +147,7 @@ class Session:
                 if welcome.incarnation != incarnation:
                     line.further()
                     line.progress = progress
-                    line.tell("restart", 1, 1)
+                    line.notify("restart", 1, 1)
                     return welcome
             with contextlib.suppress(OutOfTimeError):
                 line.pause(PAUSE)
@@ -175,7 +175,7 @@ class Session:
 
         Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through, for
         up to 5 s more (not at all where the event is a Stop that was set twice). Raises TransferError, whose
-        ``held`` says what the control holds.
+        ``at_control`` is what the control contains.
         """
         self._line.progress = progress
         return DownloadTransfer(self._line, image, signature, expected).run(cancel)

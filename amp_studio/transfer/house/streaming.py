@@ -39,7 +39,7 @@ def window_limit(chunk: int, offered: int, bytes_per_second: float | None) -> in
 def push(talk: Transaction, image: bytes, offset: int, chunk: int, limit: int, done: Done) -> None:
     """Send ``image`` from ``offset`` on until the control has staged it all.
 
-    ``done`` is told how many bytes are staged. Raises RefusalError, NoAnswerError, LinkError.
+    ``done`` is called with how many bytes are staged. Raises RefusalError, NoAnswerError, LinkError.
     """
     window = Window(offset, len(image), chunk, limit)
     staged = offset
@@ -68,7 +68,7 @@ def pull(talk: Transaction, size: int, chunk: int, limit: int, pieces: dict[int,
     """Read the ``size`` bytes of an opened upload into ``pieces`` (offset to bytes); what is there is not
     read again.
 
-    ``done`` is told how many bytes are there. Raises RefusalError, NoAnswerError, LinkError.
+    ``done`` is called with how many bytes are there. Raises RefusalError, NoAnswerError, LinkError.
     """
     window = Window(0, size, chunk, limit)
     for at in pieces:
@@ -100,7 +100,7 @@ def _run(
     send: Callable[[int, int], int],
     answer: Callable[[int, Message], bool],
 ) -> None:
-    """Keep the window full until every piece has arrived; ``answer`` says whether it was a step forward."""
+    """Keep the window full until every piece has arrived; ``answer`` returns whether it was a step forward."""
     missed = useless = 0
     while not window.is_done:
         while (piece := window.next_piece()) is not None:

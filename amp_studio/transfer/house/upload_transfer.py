@@ -19,7 +19,7 @@ ATTEMPTS = 3  # how often reading may be broken off by the control, begin anew, 
 
 
 class UploadTransfer:
-    """Fetches the active image; ``stage`` is what it is told as to ``progress``."""
+    """Fetches the active image; ``stage`` is the name it gives to ``progress``."""
 
     def __init__(self, line: Connection, stage: str) -> None:
         self._line = line
@@ -44,7 +44,7 @@ class UploadTransfer:
                 continue
             image = b"".join(self._pieces[at] for at in sorted(self._pieces))
             if hashlib.sha256(image).digest() == ready.sha256:
-                self._line.tell(self._stage, len(image), len(image))
+                self._line.notify(self._stage, len(image), len(image))
                 return image
             self._opened = None
             spoilt += 1
@@ -67,7 +67,7 @@ class UploadTransfer:
 
         def done(received: int) -> None:
             self._line.moved(received, ready.size)
-            self._line.tell(self._stage, received, ready.size)
+            self._line.notify(self._stage, received, ready.size)
 
         pull(talk, ready.size, chunk, limit, self._pieces, done)
         return ready

@@ -1,7 +1,7 @@
 """The sliding window: which pieces of an image are under way, and which were lost.
 
-Each sending of a piece has a number of its own, and the answer names it. A
-line keeps the order, so an answer to a later sending says that the earlier
+Each sending of a piece has a separate number, and the answer names it. A
+line keeps the order, so an answer to a later sending means that the earlier
 ones without an answer are lost: they are sent again at once, and only they.
 """
 
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Piece:
-    """One sending: where the piece stands in the image (bytes) and when it was sent (seconds)."""
+    """One sending: where the piece is in the image (bytes) and when it was sent (seconds)."""
 
     offset: int
     length: int

@@ -43,7 +43,7 @@ class Endpoint:
 
 
 def parse_endpoint(text: str) -> Endpoint:
-    """Return the address a person wrote; raises ValueError with one sentence that says what is wrong."""
+    """Return the address a person wrote; raises ValueError with one sentence about what is wrong."""
     text = text.strip()
     if text.startswith("tcp://"):
         return _tcp(text)

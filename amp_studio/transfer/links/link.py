@@ -12,7 +12,7 @@ from .endpoint import Endpoint
 
 
 class LinkError(OSError):
-    """A link that cannot be made or is gone: ``endpoint`` says which, ``what`` what happened."""
+    """A link that cannot be made or is gone: ``endpoint`` names it, ``what`` what happened."""
 
     def __init__(self, endpoint: Endpoint | str, what: str) -> None:
         super().__init__(f"{endpoint}: {what}")
@@ -25,14 +25,14 @@ class Link(Protocol):
 
     @property
     def bytes_per_second(self) -> float | None:
-        """What the line can carry each way; None where that is not known or does not matter."""
+        """What the line can carry each way; None if that is not known or does not matter."""
 
     def read(self, timeout: float) -> bytes:
         """Return what has come, at the latest after ``timeout`` seconds (then b""); raises LinkError."""
 
     def write(self, data: bytes) -> None:
         """Hand over all bytes; raises LinkError when the line is gone or takes nothing more, and what the
-        link was told to call while it waits raises.
+        link was asked to call while it waits raises.
         """
 
     def close(self) -> None:

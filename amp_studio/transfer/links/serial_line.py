@@ -88,7 +88,7 @@ def _need_port(endpoint: Endpoint) -> None:
     try:
         kind = Path(endpoint.device).stat()
     except (OSError, ValueError):
-        return  # what is not there is told when it is opened
+        return  # what is not there is reported when it is opened
     if not stat.S_ISCHR(kind.st_mode):
         raise LinkError(endpoint, NO_PORT)
 

@@ -1,4 +1,4 @@
-"""The serial ports of this computer, with what their USB devices say of themselves."""
+"""The serial ports of this computer, with what their USB devices report about themselves."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ SLICE = 0.1  # seconds between two looks while waiting
 READ_SIZE = 65_536
 LAST_READS = 16  # how much of what nobody will read is taken off a line that is closed
 
-# What a listening socket may say of one caller, or for the moment: it goes on listening.
+# What a listening socket may report of one caller, or for the moment: it goes on listening.
 PASSING = {
     errno.ECONNABORTED,
     errno.ECONNRESET,

@@ -233,9 +233,9 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
         ("TLM X#1", "line 1, column 5: 'X#1' sets nothing: TLM is written as 'TLM X1'"),
         ("MULT X1.5", "line 1, column 7: Encoder Mult takes whole numbers, not 1.5"),
         ("PPU X1 Y1E400", "line 1, column 9: '1E400' is too large"),
-        ("TLM X1\nTLM Y1 X2", "line 2, column 8: TLM X stands twice, in line 1 already"),
-        ("NOTCH X(1, 2)\nNOTCH X(3, 4)", "line 2, column 7: NOTCH X stands twice, in line 1 already"),
-        ("P1=1 (x)\np1 = 2", "line 2, column 1: P1 stands twice, in line 1 already"),
+        ("TLM X1\nTLM Y1 X2", "line 2, column 8: TLM X occurs twice, in line 1 already"),
+        ("NOTCH X(1, 2)\nNOTCH X(3, 4)", "line 2, column 7: NOTCH X occurs twice, in line 1 already"),
+        ("P1=1 (x)\np1 = 2", "line 2, column 1: P1 occurs twice, in line 1 already"),
     ],
 )  # fmt: skip
 def test_a_script_that_cannot_be_meant_is_told_with_its_place(text: str, said: str) -> None:

@@ -1,4 +1,4 @@
-"""Every worked number of chapter 6 of the NUM manual, Servo-Control, and what chapter 11 says of its parameters.
+"""Every worked number of chapter 6 of the NUM manual, Servo-Control, and what chapter 11 adds to its parameters.
 
 Speeds are per minute, as the words of P30 hold them; the manual's examples give them per second.
 """

@@ -46,8 +46,8 @@ def test_what_the_example_leaves_out_is_told(num: Schema) -> None:
     """Page 13-14 gives P4 four words and P6 nine, and writes three and five."""
     notes = FORMAT.read(SAMPLE, num, False).notes
     assert notes == [
-        "the table does not hold P16, P18, P21 to P22, P30, P50, P96 to P98, P101, P113",
-        "the table does not hold these words: P4N3, P6N5 to P6N8",
+        "the table does not contain P16, P18, P21 to P22, P30, P50, P96 to P98, P101, P113",
+        "the table does not contain these words: P4N3, P6N5 to P6N8",
         "the table has other numbers of words than Small NUM: 4 of P4 (5)",
     ]
 
@@ -157,12 +157,12 @@ def test_what_a_word_cannot_hold_is_not_written(
     [
         (["P9N0:t6n32", "#0"], "line 2, column 7: P9 of Small NUM has words of type 0, not 6"),
         (["P9N0:t3n32", "#0"], "line 2, column 7: there is no type 3 of words"),
-        (["P9N0:t0n32", "#0", "P9N1:t0n31", "#0"], "line 4, column 6: a header above says t0n32 of P9"),
+        (["P9N0:t0n32", "#0", "P9N1:t0n31", "#0"], "line 4, column 6: a header above gives t0n32 of P9"),
         (["P5N0:t0n2", "#1 0 0"], "line 3, column 6: P5 has 2 words: there is no P5N2"),
         (["P5N2:t0n2", "#1"], "line 2, column 3: P5 has 2 words: there is no P5N2"),
         (["P5N2", "#1"], "line 2, column 3: P5 has 2 words: there is no P5N2"),
-        (["P9N0:t0n32", "#" + " ".join("0" * 11)], "line 3, column 22: a data line holds 10 values at most"),
-        (["P9N0:t0n32", "#0 0", "P9N1:t0n32", "#5"], "line 5, column 2: P9N1 stands in line 3 already"),
+        (["P9N0:t0n32", "#" + " ".join("0" * 11)], "line 3, column 22: a data line contains 10 values at most"),
+        (["P9N0:t0n32", "#0 0", "P9N1:t0n32", "#5"], "line 5, column 2: P9N1 is in line 3 already"),
         (["P5N0:t0n2", "#1  0"], "line 3, column 4: a value is missing: values have one blank"),
         (["P5N0:t0n2", "#"], "line 3, column 2: a value is missing"),
         (["P5N0:t0n2", "#0 100"], "line 3, column 4: P5N1: '100' is not hexadecimal from 0 to FF"),
@@ -203,17 +203,17 @@ def test_a_table_that_cannot_be_meant_is_told_with_its_place(
         (XOFF, "", "line 30, column 1: the table has no Xoff (ALT 19) at its end: it may have been cut off"),
         (f";09\n{XOFF}", "", "line 29, column 10: the table has no Xoff"),
         (XOFF, "X off\n", "line 30, column 1: the table ends with the character Xoff (ALT 19), not with its name"),
-        (XOFF, f"{XOFF}\nmore", "line 31, column 1: something stands behind Xoff"),
-        (XOFF, f"{XOFF} ", "line 30, column 2: something stands behind Xoff"),
+        (XOFF, f"{XOFF}\nmore", "line 31, column 1: something comes after Xoff"),
+        (XOFF, f"{XOFF} ", "line 30, column 2: something comes after Xoff"),
         ("%00000000;09", "%0000000;08", "line 1, column 1: a table begins with '%' and the eight digits"),
         ("%00000000;09", "%000000000;0A", "line 1, column 1: a table begins with '%' and the eight digits"),
         ("%00000000;09\n", "", "line 1, column 1: a table begins with '%'"),
         ("#1 0;04", "#1 0", "line 13, column 5: the line does not close with ';' and two digits for its length"),
-        ("#1 0;04", "#1 0;04 ", "line 13, column 8: something stands behind the length"),
-        ("#1 0;04", "#1 0;04\tremark", "line 13, column 8: something stands behind the length"),
+        ("#1 0;04", "#1 0;04 ", "line 13, column 8: something comes after the length"),
+        ("#1 0;04", "#1 0;04\tremark", "line 13, column 8: something comes after the length"),
         ("0 0;0A", "0 0;0a", "line 15, column 12: the length is written with capitals: 0A"),
-        ("#1 0;04", "#1 0;05", "line 13, column 6: the line has 4 characters, 04 in hexadecimal, and says 05"),
-        ("#1 0;04", "#1 1 0;04", "line 13, column 8: the line has 6 characters, 06 in hexadecimal, and says 04"),
+        ("#1 0;04", "#1 0;05", "line 13, column 6: the line has 4 characters, 04 in hexadecimal, and gives 05"),
+        ("#1 0;04", "#1 1 0;04", "line 13, column 8: the line has 6 characters, 06 in hexadecimal, and gives 04"),
         ("#1 0;04", "", "line 13, column 1: an empty line"),
         ("#1 0;04\n", "#1 0;04\r\n", "line 13, column 8: the line ends otherwise than the first one"),
     ],
@@ -282,7 +282,7 @@ def test_words_between_known_ones_are_kept_apart(num: Schema, tmp_path: Path) ->
         (["P12N0:t0n4", "#0 100"], "line 3, column 4: P12N1: '100' is not hexadecimal from 0 to FF"),
         (["P12N0:t0n2", "#0 1 2"], "line 3, column 6: P12 has 2 words: there is no P12N2"),
         (["P9N0:t6n32", "#0"], "line 2, column 7: P9 of Small NUM has words of type 0, not 6"),
-        (["P12N0:t0n4", "#0", "P12N1:t1n4", "#0"], "line 4, column 7: a header above says t0n4 of P12"),
+        (["P12N0:t0n4", "#0", "P12N1:t1n4", "#0"], "line 4, column 7: a header above gives t0n4 of P12"),
     ],
 )
 def test_what_is_kept_is_checked_by_the_type_the_table_tells(
@@ -407,7 +407,7 @@ def test_a_table_is_found_by_its_content_and_written_by_its_ending(
     monkeypatch.setattr("amp_studio.formats.import_export.load_schema", lambda family: num)
     (tmp_path / "in").write_bytes(SAMPLE.encode("ascii"))
     told: list[str] = []
-    file = import_file(tmp_path / "in", tell=told.append)
+    file = import_file(tmp_path / "in", notify=told.append)
     assert export_file(file, tmp_path / name).key == "num"
     assert (tmp_path / name).read_bytes() == SAMPLE.encode("ascii")
     assert len(told) == 3

@@ -87,7 +87,7 @@ def test_the_verbs_take_a_table_and_give_it_back(
     table = tmp_path / "in.par"
     table.write_bytes(SAMPLE.encode("ascii"))
     assert run(["import", str(table), "-o", str(tmp_path / "machine.amp")]) == 0
-    assert "the table does not hold these words: P4N3, P6N5 to P6N8" in capsys.readouterr().err
+    assert "the table does not contain these words: P4N3, P6N5 to P6N8" in capsys.readouterr().err
     assert run(["export", str(tmp_path / "machine.amp"), "-o", str(tmp_path / "out.par")]) == 0
     assert (tmp_path / "out.par").read_bytes() == table.read_bytes()
 
@@ -99,7 +99,7 @@ def test_the_verbs_say_where_a_table_is_wrong_and_make_nothing_of_it(
     table.write_bytes(SAMPLE.replace("#54 A;05", "#54 A;06").encode("ascii"))
     assert run(["import", str(table), "-o", str(tmp_path / "machine.amp")]) == 2
     said = capsys.readouterr().err.strip()
-    assert said.endswith("line 17, column 7: the line has 5 characters, 05 in hexadecimal, and says 06")
+    assert said.endswith("line 17, column 7: the line has 5 characters, 05 in hexadecimal, and gives 06")
     assert not (tmp_path / "machine.amp").exists()
 
 

@@ -317,7 +317,7 @@ def test_a_cam_of_positions_is_written_word_by_word(servo: Schema) -> None:
 
 def test_registers_beyond_the_points_of_a_cam_stand_for_nothing(servo: Schema) -> None:
     said = told(TABLE, servo, "130 1\n128 1\n132 5\n133 5")
-    assert said.startswith("line 4, column 1: register 133 stands for nothing here: ")
+    assert said.startswith("line 4, column 1: register 133 means nothing here: ")
     assert taken(TABLE, servo, "130 1\n128 1\n132 5\n133 5", keep=True).unknown == {"R133": "5"}
 
 
@@ -377,7 +377,7 @@ def test_a_task_may_have_more_settings_than_tens_of_lines(servo: Schema) -> None
         ("10 PGAIN%=1 \\GOTO 10", "line 1, column 14: 'GOTO 10' assigns no value to a register"),
         ("10 IF A@ THEN PGAIN%=1", "line 1, column 4: 'IF A@ THEN PGAIN%=1' assigns no value to a register"),
         ("PGAIN%=1", "line 1, column 1: a line of a task begins with its number"),
-        ("10 PGAIN%=1\n10 REG_4%=1", "line 2, column 1: number 10 stands twice, in line 1 already"),
+        ("10 PGAIN%=1\n10 REG_4%=1", "line 2, column 1: number 10 occurs twice, in line 1 already"),
         ("10 PGAIN%=1\n20 A@=B@ &", "line 2: the last line ends with '&' and goes on nowhere"),
         ("10 ! x\n20 WAIT &\n  ON X \\PGAIN%=A", "line 2, column 4: 'WAIT & ON X' assigns no value to a register"),
         ("10 PGAIN%=1 &\n   \\REG_4%=A", "line 1, column 11: PGAIN%: '1 &' is no whole number"),

@@ -38,7 +38,7 @@ def files(draw: st.DrawFn, schema: Schema) -> ParameterFile:
 
 
 def as_held(file: ParameterFile) -> dict[Address, Value]:
-    """Return what the registers hold of a file, in the words of the schema."""
+    """Return the content of the registers for a file, in the words of the schema."""
     registers = Registers(file.schema, file.machine)
     found = {}
     for address, value in file.values.items():

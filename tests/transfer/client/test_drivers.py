@@ -83,7 +83,12 @@ def test_an_unknown_protocol_is_refused_with_those_there_are(sheet_family: None)
 def test_a_download_over_any_driver_is_kept_sent_and_read_back() -> None:
     control, kept = Sheet(), []
     outcome = download(control, NEW, lambda old: str(kept.append(old)), signature="s1")
-    assert (outcome.held, outcome.verified, outcome.written, outcome.restart) == ("new", True, True, "needed")
+    assert (outcome.at_control, outcome.verified, outcome.written, outcome.restart) == (
+        "new",
+        True,
+        True,
+        "needed",
+    )
     assert (control.content, kept) == (NEW, [OLD])
     assert control.calls == ["identify", "fetch", "send", "fetch"]
 

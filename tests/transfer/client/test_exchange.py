@@ -66,12 +66,17 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
         signature="s1",
         progress=lambda stage, done, total: told.append(stage),
     )
-    assert (outcome.held, outcome.verified, outcome.written, outcome.restart) == ("new", True, True, "done")
+    assert (outcome.at_control, outcome.verified, outcome.written, outcome.restart) == (
+        "new",
+        True,
+        True,
+        "done",
+    )
     assert outcome.sha256 == hashlib.sha256(NEW).hexdigest()
     assert outcome.kept == "machine.before.amp"
     assert outcome.text == (
         "Download complete and read back equal; the control has restarted with it. "
-        "What it held before is kept in machine.before.amp."
+        "What it contained before is kept in machine.before.amp."
     )
     assert shelf.kept == [OLD]
     assert made.control.image == NEW
@@ -81,7 +86,7 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
 def test_without_autostart_a_person_must_restart_the_control(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(autostart=False)
     outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
-    assert (outcome.held, outcome.verified, outcome.restart) == ("new", True, "needed")
+    assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "needed")
     assert "Restart the control to make it current" in outcome.text
     assert made.control.flags & Flags.RESTART_NEEDED
     again = download(HouseDriver(session), NEW, shelf, signature="s1")
@@ -92,8 +97,8 @@ def test_without_autostart_a_person_must_restart_the_control(bench: Callable[...
 def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(estop=False)
     outcome = download(HouseDriver(session), OLD, shelf, signature="s1")
-    assert (outcome.held, outcome.verified, outcome.written, outcome.kept) == ("new", True, False, None)
-    assert outcome.text == "The control holds exactly this image already; nothing was written."
+    assert (outcome.at_control, outcome.verified, outcome.written, outcome.kept) == ("new", True, False, None)
+    assert outcome.text == "The control contains exactly this image already; nothing was written."
     assert shelf.kept == []
     assert made.control.incarnation == 1
 
@@ -101,8 +106,8 @@ def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]
 def test_a_control_without_an_image_has_nothing_to_keep(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(initial=b"")
     outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
-    assert (outcome.held, outcome.kept, shelf.kept) == ("new", None, [])
-    assert outcome.text.endswith("It held nothing before.")
+    assert (outcome.at_control, outcome.kept, shelf.kept) == ("new", None, [])
+    assert outcome.text.endswith("It was empty before.")
     assert made.control.image == NEW
 
 
@@ -137,12 +142,12 @@ def test_a_change_at_the_control_after_it_was_kept_is_not_overwritten(bench: Cal
     made, session, shelf = bench()
 
     def keep_and_patch(image: bytes) -> str:
-        made.control.patch(lambda held: held + b"11 = 5\n")
+        made.control.patch(lambda at_control: at_control + b"11 = 5\n")
         return shelf.kept.append(image) or "kept.amp"
 
     with pytest.raises(ImageChangedError) as caught:
         download(HouseDriver(session), NEW, keep_and_patch, signature="s1")
-    assert (caught.value.held, caught.value.kept) == ("old", "kept.amp")
+    assert (caught.value.at_control, caught.value.kept) == ("old", "kept.amp")
     assert made.control.image == OLD + b"11 = 5\n"
 
 
@@ -167,7 +172,7 @@ def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callabl
 
     def greet_and_patch(*arguments: Any) -> Any:
         welcome = greet(*arguments)
-        made.control.patch(lambda held: held + b"11 = 5\n")
+        made.control.patch(lambda at_control: at_control + b"11 = 5\n")
         return welcome
 
     session.hello = greet_and_patch
@@ -187,8 +192,8 @@ def test_what_a_control_has_held_goes_back_under_no_signature(bench: Callable[..
     made, session, shelf = bench()
     download(HouseDriver(session), NEW, shelf, signature="s1")
     outcome = download(HouseDriver(session), OLD, shelf, signature="", is_return=True)
-    assert (outcome.held, outcome.verified, made.control.image) == ("new", True, OLD)
-    with pytest.raises(SignatureMismatchError, match="has not held this image; nothing was replaced"):
+    assert (outcome.at_control, outcome.verified, made.control.image) == ("new", True, OLD)
+    with pytest.raises(SignatureMismatchError, match="has not contained this image; nothing was replaced"):
         download(HouseDriver(session), b"other", shelf, signature="", is_return=True)
 
 
@@ -197,7 +202,7 @@ def test_an_error_while_only_looking_does_not_say_what_was_replaced(bench: Calla
     _, session, _ = bench(lines=0)
     with pytest.raises(NoConnectionError) as caught:
         upload(HouseDriver(session))
-    assert caught.value.held == ""
+    assert caught.value.at_control == ""
     assert "replaced" not in str(caught.value)
 
 
@@ -211,7 +216,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
 
     with pytest.raises(ConnectionCutError) as caught:
         download(HouseDriver(session), NEW, shelf, signature="s1", progress=pull_the_cable)
-    assert caught.value.held == "unknown"
+    assert caught.value.at_control == "unknown"
     assert "not known: verify before you go on" in str(caught.value)
     assert "kept in machine.before.amp" in str(caught.value)
 
@@ -219,7 +224,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
 def test_a_control_that_does_not_come_back_is_told(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench(lines=1)
     outcome = download(HouseDriver(session), NEW, shelf, signature="s1", restart_wait=5)
-    assert (outcome.held, outcome.verified, outcome.restart) == ("new", False, "missed")
+    assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", False, "missed")
     assert "has not come back from its restart within 5 s" in outcome.text
     assert "kept in machine.before.amp" in outcome.text
 
@@ -235,10 +240,10 @@ def test_a_cancel_while_the_control_restarts_says_that_the_new_image_is_there(
             cancel.set()
 
     with pytest.raises(
-        CancelledError, match=r"the control holds the new image.*kept in machine\.before\.amp"
+        CancelledError, match=r"the control contains the new image.*kept in machine\.before\.amp"
     ) as caught:
         download(HouseDriver(session), NEW, shelf, signature="s1", cancel=cancel, progress=while_restarting)
-    assert caught.value.held == "new"
+    assert caught.value.at_control == "new"
     assert made.control.image == NEW
 
 
@@ -250,7 +255,7 @@ def test_a_control_that_holds_something_else_after_the_commit_is_found_out(bench
             made.control._take(NEW[:50] + b"?" + NEW[51:])
 
     outcome = download(HouseDriver(session), NEW, shelf, signature="s1", progress=rot)
-    assert (outcome.held, outcome.verified) == ("unknown", False)
+    assert (outcome.at_control, outcome.verified) == ("unknown", False)
     assert "differs from byte 50 on" in outcome.text
     assert "kept in machine.before.amp" in outcome.text
 
@@ -266,7 +271,7 @@ def test_a_download_is_all_or_nothing_wherever_the_line_is_cut(bench: Callable[.
             first_hello_failed.append(cut_at)
             assert made.control.image == OLD
         else:
-            assert (outcome.held, outcome.verified, outcome.kept) == ("new", True, "machine.before.amp")
+            assert (outcome.at_control, outcome.verified, outcome.kept) == ("new", True, "machine.before.amp")
             assert made.control.image == NEW
             was_cut = made.modem.lines > 2
         made.control.close()
@@ -292,9 +297,9 @@ def test_where_two_images_first_differ(a: bytes, b: bytes, at: int | None) -> No
 @pytest.mark.parametrize(
     "error", [MemoryError(), OSError(28, "No space left on device"), RuntimeError("odd")]
 )
-@pytest.mark.parametrize(("part", "held"), [("OpenDownload", "old"), ("Commit", "unknown")])
+@pytest.mark.parametrize(("part", "at_control"), [("OpenDownload", "old"), ("Commit", "unknown")])
 def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
-    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception, part: str, held: str
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception, part: str, at_control: str
 ) -> None:
     def breaks(*_: object) -> None:
         raise error
@@ -303,7 +308,7 @@ def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
     _, session, shelf = bench()
     with pytest.raises(TransferError) as caught:
         download(HouseDriver(session), NEW, shelf, signature="s1")
-    assert caught.value.held == held
+    assert caught.value.at_control == at_control
     assert (str(error) or "MemoryError") in str(caught.value)
 
 
@@ -318,4 +323,4 @@ def test_whatever_ends_the_reading_back_is_told_with_what_the_control_holds(
     monkeypatch.setattr(session, "wait_restarted", breaks)
     with pytest.raises(TransferError, match=r"kept in machine\.before\.amp") as caught:
         download(HouseDriver(session), NEW, shelf, signature="s1")
-    assert caught.value.held == "new"
+    assert caught.value.at_control == "new"

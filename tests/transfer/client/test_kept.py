@@ -132,9 +132,9 @@ def test_sha256sum_agrees(tmp_path: Path) -> None:
     ("digest", "said"),
     [
         (b"0" * 64 + b"  x.img\n", "is not what was kept"),
-        (b"junk", "holds no digest"),
-        (b"", "holds no digest"),
-        (b"\xff" * 64, "holds no digest"),
+        (b"junk", "contains no digest"),
+        (b"", "contains no digest"),
+        (b"\xff" * 64, "contains no digest"),
     ],
 )
 def test_a_copy_that_is_not_what_was_kept_is_refused(digest: bytes, said: str, tmp_path: Path) -> None:
@@ -173,7 +173,7 @@ def test_an_edited_parameter_file_is_no_longer_what_was_kept(tmp_path: Path) -> 
 @pytest.mark.parametrize("name", ["copy.bak", "copy", "copy.amp.bak"])
 def test_what_is_no_copy_is_not_sent_to_a_control(name: str, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(GARBAGE)
-    with pytest.raises(CopyError, match="is no copy of what a control held"):
+    with pytest.raises(CopyError, match="is no copy of what a control contained"):
         open_copy(tmp_path / name)
 
 

@@ -1,4 +1,4 @@
-"""The main job against an emulated control in a process of its own, by the command line's verbs."""
+"""The main job against an emulated control in a separate process, by the command line's verbs."""
 
 from __future__ import annotations
 

@@ -58,10 +58,10 @@ def bench(
 ) -> Callable[[bytes], Bench]:
     """Give a function that starts a control which holds these bytes."""
 
-    def make(held: bytes) -> Bench:
+    def make(at_control: bytes) -> Bench:
         memory = tmp_path / "control"
         memory.mkdir()
-        (memory / "active.img").write_bytes(held)
+        (memory / "active.img").write_bytes(at_control)
         _, address = start_control()
         return Bench(address, memory / "active.img", tmp_path, capsys.readouterr)
 
@@ -73,17 +73,17 @@ def test_whatever_a_control_holds_is_kept_replaced_and_put_back(
     what: str, bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
     """Byte for byte, and what the restore replaces is kept just so."""
-    held = HOSTILE[what]
-    control = bench(held)
+    at_control = HOSTILE[what]
+    control = bench(at_control)
     sent = encode_image(open_file(mill).file)
 
     assert run(["download", str(mill), "--to", control.address]) == 0
     [first] = control.kept()
-    assert first.read_bytes() == held
+    assert first.read_bytes() == at_control
     assert control.active.read_bytes() == sent
 
     assert run(["restore", str(first), "--to", control.address, "--expect", sha(sent)]) == 0
-    assert control.active.read_bytes() == held
+    assert control.active.read_bytes() == at_control
     [second] = [path for path in control.kept() if path != first]
     assert second.name.startswith("mill.before-")
     assert second.name.count(".before-") == 1
@@ -120,7 +120,7 @@ def test_what_a_control_never_held_and_cannot_read_it_refuses(
     assert run(["restore", str(copy), "--to", control.address]) == 2
 
     said = control.said().err.strip().splitlines()[-1]
-    assert "has not held" in said
+    assert "has not contained" in said
     assert said.endswith("nothing was replaced in the control")
     assert control.active.read_bytes() == mill_image()
 
@@ -131,19 +131,19 @@ def test_an_empty_control_has_nothing_to_keep_and_says_so(
     control = bench(b"")
 
     assert run(["upload", "--from", control.address, "-o", str(control.folder / "new.img")]) == 2
-    assert "holds nothing" in control.said().err
+    assert "the control is empty" in control.said().err
     assert run(["verify", str(mill), "--with", control.address]) == 1
-    assert "The control holds something else: nothing." in control.said().out
+    assert "The control contains something else: nothing." in control.said().out
     assert run(["download", str(mill), "--to", control.address, "--expect", sha(b"")]) == 0
 
-    assert "It held nothing before." in control.said().out
+    assert "It was empty before." in control.said().out
     assert control.kept() == []
 
 
 def test_a_restore_says_what_is_wrong_with_what_goes_back(
     bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
-    """Errors are listed but are no reason to refuse what a control held."""
+    """Errors are listed but are no reason to refuse what a control contained."""
     control = bench(mill_image())
     assert run(["download", str(mill), "--to", control.address]) == 0
     [first] = control.kept()
@@ -153,7 +153,7 @@ def test_a_restore_says_what_is_wrong_with_what_goes_back(
 
     said = control.said().err
     assert "error 1030 Servo Hardware Type" in said
-    assert "goes back with 2 errors, as the control held it" in said
+    assert "goes back with 2 errors, as the control contained it" in said
     assert control.active.read_bytes() == mill_image()
 
 
@@ -166,7 +166,7 @@ def test_a_parameter_file_with_errors_that_no_control_held_is_not_restored(
 
     assert run(["restore", str(path), "--to", control.address]) == 2
 
-    assert "no image beside it says that a control held it" in control.said().err
+    assert "no image beside it proves that a control contained it" in control.said().err
     assert control.active.read_bytes() == mill_image()
 
 
@@ -192,7 +192,7 @@ def test_without_a_place_to_keep_it_nothing_is_replaced(
     assert run(["download", str(mill), "--to", control.address, "--keep", str(nowhere)]) == 2
 
     said = control.said().err.strip().splitlines()[-1]
-    assert "what the control holds could not be kept (" in said
+    assert "what the control contains could not be kept (" in said
     assert said.endswith(": No such file or directory); nothing was replaced in the control")
     assert control.active.read_bytes() == GARBAGE
 
@@ -266,7 +266,7 @@ def test_a_file_with_errors_is_not_sent_unless_they_are_accepted(
         "what is wrong with both axes alike is one line"
     )
     assert said.splitlines()[-1] == (
-        f"amp-studio: {path} has 4 errors: nothing was sent (--accept-errors sends it all the same)"
+        f"amp-studio: {path} has 4 errors: nothing was sent (--accept-errors sends it anyway)"
     )
     assert control.active.read_bytes() == GARBAGE
 
@@ -328,7 +328,7 @@ def test_verify_tells_a_value_in_another_unit(bench: Callable[[bytes], Bench], t
 def test_verify_of_what_cannot_be_read_says_so(bench: Callable[[bytes], Bench], mill: Path) -> None:
     control = bench(GARBAGE)
     assert run(["verify", str(mill), "--with", control.address]) == 1
-    assert "The control holds something else: the control image is not text." in control.said().out
+    assert "The control contains something else: the control image is not text." in control.said().out
     assert run(["verify", str(mill), "--with", control.address, "--json"]) == 1
     told = json.loads(control.said().out)
     assert (told["differences"], told["same_bytes"], told["header"]) == ([], False, [])
@@ -381,7 +381,7 @@ def test_what_is_no_serial_port_is_told(port: str, mill: Path, capsys: pytest.Ca
 def test_a_digest_that_cannot_be_read_is_not_taken_for_none(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "a.img").write_bytes(b"what a control held")
+    (tmp_path / "a.img").write_bytes(b"what a control contained")
     (tmp_path / "a.img.sha256").symlink_to("nowhere")
     assert run(["restore", str(tmp_path / "a.img"), "--to", "tcp://127.0.0.1:1"]) == 2
     assert "a.img.sha256" in capsys.readouterr().err

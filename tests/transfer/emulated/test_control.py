@@ -188,13 +188,13 @@ def test_a_control_takes_back_whatever_it_has_held(make: Callable[..., Control])
     control.commit(Commit(b"b" * 16, sha(OLD)))
 
     assert control.image == OLD
-    with pytest.raises(RefusalError, match="has not held this image") as caught:
+    with pytest.raises(RefusalError, match="has not contained this image") as caught:
         control.open_download(opening(b"other", OLD, b"c" * 16, signature=""))
     assert caught.value.code == Code.SIGNATURE
     control.open_download(opening(b"other", OLD, b"c" * 16))
     control.stage(b"c" * 16, b"other")
     with pytest.raises(
-        RefusalError, match="has not held this image and does not take it: nobody can read it"
+        RefusalError, match="has not contained this image and does not take it: nobody can read it"
     ):
         control.commit(Commit(b"c" * 16, sha(b"other")))
 

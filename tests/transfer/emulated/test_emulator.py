@@ -74,7 +74,7 @@ def test_the_whole_exchange_over_a_real_line(emulate: Callable[..., Any], tmp_pa
     with session_at(emulated.address, family="9pc") as session:
         assert upload(HouseDriver(session)) == OLD
         outcome = download(HouseDriver(session), NEW, keep, signature="s1")
-        assert (outcome.held, outcome.verified, outcome.restart) == ("new", True, "done")
+        assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "done")
         assert upload(HouseDriver(session)) == NEW
     assert emulated.hear() == "restarted 2"
     assert emulated.command("quit") == "bye"
@@ -100,7 +100,7 @@ def test_a_bad_line_is_lived_through(
     emulated = emulate(tmp_path, kind, faults=faults)
     with session_at(emulated.address) as session:
         outcome = download(HouseDriver(session), NEW, keep, signature="s1")
-    assert (outcome.held, outcome.verified) == ("new", True)
+    assert (outcome.at_control, outcome.verified) == ("new", True)
     assert (tmp_path / "active.img").read_bytes() == NEW
 
 
@@ -145,16 +145,16 @@ def test_a_control_killed_at_any_step_of_the_commit_holds_old_or_new(
 
         def open_link(look: Any, emulated: list[Any] = emulated, folder: Path = folder) -> Any:
             if emulated[-1].is_dead:
-                held = (folder / "active.img").read_bytes()
-                assert held in (OLD, NEW)
-                seen.append(held)
+                at_control = (folder / "active.img").read_bytes()
+                assert at_control in (OLD, NEW)
+                seen.append(at_control)
                 emulated.append(emulate(folder, restart_seconds=0.0))
             return connect(parse_endpoint(emulated[-1].address))
 
         with Session(open_link, policy=QUICK) as session:
             outcome = download(HouseDriver(session), NEW, keep, signature="s1")
         died = len(emulated) > 1
-        assert (outcome.held, outcome.verified) == ("new", True), f"step {step}"
+        assert (outcome.at_control, outcome.verified) == ("new", True), f"step {step}"
         assert (folder / "previous.img").read_bytes() == OLD, f"step {step}"
         assert sorted(p.name for p in folder.iterdir()) == [
             ".control.holder",
@@ -175,7 +175,7 @@ def test_a_control_that_stays_dead_after_the_commit_was_asked_for_is_unknown(
     emulated = emulate(tmp_path, faults={"die_at_commit_step": 5})
     with session_at(emulated.address, patience=0.5) as session, pytest.raises(ConnectionCutError) as caught:
         download(HouseDriver(session), NEW, keep, signature="s1")
-    assert (caught.value.held, caught.value.kept) == ("unknown", "kept.amp")
+    assert (caught.value.at_control, caught.value.kept) == ("unknown", "kept.amp")
 
 
 def test_estop_is_what_the_operator_says(emulate: Callable[..., Any], tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""A session ends well over bad lines, and where it cannot, it says truly what the control holds."""
+"""A session ends well over bad lines, and where it cannot, it says truly what the control contains."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def test_a_line_cut_at_any_byte_for_good_ends_with_the_truth(
         made = rig(Faults(drop_after_bytes=cut_at), control=new_control(initial=OLD), lines=1)
         try:
             send(made.session())
-            held = "new"
+            at_control = "new"
             was_cut = False
         except ConnectionCutError as error:
-            held = error.held
+            at_control = error.at_control
         truth = {OLD: "old", NEW: "new"}[made.control.image]
-        assert held in {truth, "unknown"}, f"cut at byte {cut_at}: said {held}, and it is {truth}"
-        ends.add((held, truth))
+        assert at_control in {truth, "unknown"}, f"cut at byte {cut_at}: said {at_control}, and it is {truth}"
+        ends.add((at_control, truth))
         made.control.close()
     assert ends == {("old", "old"), ("unknown", "old"), ("unknown", "new"), ("new", "new")}
 
@@ -105,7 +105,7 @@ def test_a_hopeless_line_ends_in_time_and_with_the_truth(
     made = rig(Faults(corrupt_every=13), control=control(), patience=20)
     with pytest.raises(ControlSilentError) as caught:
         send(made.session())
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
     assert "nothing was replaced" in str(caught.value)
     assert made.control.image == OLD
     assert made.clock.now < 60
@@ -154,7 +154,7 @@ def test_noise_of_any_kind_never_gives_a_wrong_image(
         send(made.session())
         said = "new"
     except TransferError as error:
-        said = error.held
+        said = error.at_control
     truth = {OLD: "old", NEW: "new"}[made.control.image]
     made.control.close()
     assert said in {truth, "unknown"}

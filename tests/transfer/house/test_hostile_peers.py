@@ -153,7 +153,7 @@ def test_more_staged_than_there_is_cannot_be(lying: Callable[..., Any]) -> None:
     )
     with pytest.raises(ProtocolMismatchError, match="staged 4294967295 bytes of 175") as caught:
         send(made.session())
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
     assert made.control.image == OLD
 
 
@@ -175,7 +175,7 @@ def test_a_control_that_loses_again_and_again_what_it_was_sent_is_given_up(lying
     made = lying(lie)
     with pytest.raises(TransferError) as caught:
         send(made.session())
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
     assert made.clock.now < 25
 
 
@@ -355,7 +355,7 @@ def test_an_image_that_upsets_the_control_is_not_taken(
     made = rig(control=new_control(initial=OLD, accept=accept))
     with pytest.raises(ImageRejectedError) as caught:
         send(made.session())
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
     assert made.control.image == OLD
 
 
@@ -378,6 +378,6 @@ def test_a_download_goes_through_where_nobody_is_hostile(tmp_path: Path) -> None
     room = Room(tmp_path, [])
     session = Session(room.open_link, clock=room.clock, sleep=hostile_clients._turns(room))
     outcome = download(HouseDriver(session), NEW, lambda image: "kept.amp", signature="s1")
-    assert (outcome.held, outcome.verified) == ("new", True)
+    assert (outcome.at_control, outcome.verified) == ("new", True)
     assert room.control.image == NEW
     room.close()

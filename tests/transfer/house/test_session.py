@@ -77,7 +77,7 @@ def test_a_cancel_in_the_middle_leaves_the_old_image_and_nothing_staged(
 
     with pytest.raises(CancelledError) as caught:
         send(made.session(), cancel=cancel, progress=halfway)
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
     assert str(caught.value) == "stopped; nothing was replaced in the control"
     assert made.control.image == OLD
     assert not [name for name in made.control.memory.names() if name.startswith("staged-")]

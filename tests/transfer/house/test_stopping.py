@@ -1,4 +1,4 @@
-"""A download that is stopped at any moment says truly what the control holds; a commit is answered for in 20 s."""
+"""A download that is stopped at any moment says truly what the control contains; a commit is answered for in 20 s."""
 
 from __future__ import annotations
 
@@ -46,24 +46,28 @@ def test_a_download_stopped_at_any_moment_says_what_the_control_holds(
         made = rig(control=new_control(initial=OLD), bytes_per_second=2_000, latency=0.02)
         cancel = SetAfter(asks, urgent=urgent)
         try:
-            held = download(HouseDriver(made.session()), NEW, keep, signature="s1", cancel=cancel).held
+            at_control = download(
+                HouseDriver(made.session()), NEW, keep, signature="s1", cancel=cancel
+            ).at_control
             was_stopped = False
         except CancelledError as error:
-            held, said = error.held, str(error)
+            at_control, said = error.at_control, str(error)
         if was_stopped:
             assert said.startswith("stopped")
-            assert ("nothing was replaced" in said) == (held == "old")
-            assert ("kept in kept.amp" in said) == (held != "old")
+            assert ("nothing was replaced" in said) == (at_control == "old")
+            assert ("kept in kept.amp" in said) == (at_control != "old")
         truth = {OLD: "old", NEW: "new"}[made.control.image]
-        assert held in {truth, "unknown"}, f"asked {asks} times: said {held}, and it is {truth}"
-        if held == "old":
+        assert at_control in {truth, "unknown"}, f"asked {asks} times: said {at_control}, and it is {truth}"
+        if at_control == "old":
             assert not [name for name in made.control.memory.names() if name.startswith("staged-")]
-        ends.add((held, truth))
+        ends.add((at_control, truth))
         made.control.close()
         asks += 1
     assert asks > 40
     assert {("old", "old"), ("new", "new")} <= ends
-    assert any(held == "unknown" for held, _ in ends) == urgent, "asked once, the commit is seen through"
+    assert any(at_control == "unknown" for at_control, _ in ends) == urgent, (
+        "asked once, the commit is seen through"
+    )
 
 
 def test_a_keyboard_interrupt_after_the_commit_says_that_the_new_image_is_there(
@@ -77,7 +81,7 @@ def test_a_keyboard_interrupt_after_the_commit_says_that_the_new_image_is_there(
 
     with pytest.raises(CancelledError) as caught:
         download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=interrupt)
-    assert (caught.value.held, caught.value.kept) == ("new", "kept.amp")
+    assert (caught.value.at_control, caught.value.kept) == ("new", "kept.amp")
     assert made.control.image == NEW
 
 
@@ -148,7 +152,7 @@ def test_an_unanswered_commit_is_given_up_within_20_seconds(
         download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=note)
     assert 19.9 <= made.clock.now - asked[0] <= 20.2
     assert isinstance(caught.value, ControlSilentError if lines > 2 else ConnectionCutError)
-    assert caught.value.held == "unknown"
+    assert caught.value.at_control == "unknown"
     assert "amp-studio verify FILE --with ADDRESS" in str(caught.value)
     assert "kept in kept.amp" in str(caught.value)
 
@@ -170,7 +174,7 @@ def test_who_stops_while_the_commit_is_not_answered_waits_5_seconds_and_not_at_a
 
     with pytest.raises(CancelledError, match="stopped before the control has answered") as caught:
         download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=stop, cancel=cancel)
-    assert caught.value.held == "unknown"
+    assert caught.value.at_control == "unknown"
     assert least <= made.clock.now - stopped_at[0] <= most
     assert made.control.image == NEW
 

@@ -88,7 +88,7 @@ def test_another_control_after_the_commit_was_asked_for_leaves_the_end_unknown(
 
     with pytest.raises(ProtocolMismatchError) as caught:
         send(session, progress=move_the_cable)
-    assert caught.value.held == "unknown"
+    assert caught.value.at_control == "unknown"
 
 
 def test_a_line_begins_with_the_end_of_whatever_was_there_before(
@@ -128,7 +128,7 @@ def test_a_refusal_becomes_an_error_that_says_nothing_was_replaced(
     before = made.control.image
     with pytest.raises(kind) as caught:
         send(made.session())
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
     assert str(caught.value).endswith("nothing was replaced in the control")
     assert made.control.image == before
     assert not [name for name in made.control.memory.names() if name.startswith("staged-")], (
@@ -161,7 +161,7 @@ def test_estop_released_before_the_commit(rig: Callable[..., Any], control: Call
 
     with pytest.raises(NotInEmergencyStopError) as caught:
         send(made.session(), progress=release)
-    assert caught.value.held == "old"
+    assert caught.value.at_control == "old"
 
 
 def test_a_control_that_has_lost_what_was_staged_gets_it_again(
@@ -222,13 +222,13 @@ def test_staged_bytes_that_rot_are_noticed_and_sent_again(
     assert made.control.image == NEW
 
 
-@pytest.mark.parametrize(("there", "held"), [(b"somebody's\n", "unknown"), (NEW, "new")])
+@pytest.mark.parametrize(("there", "at_control"), [(b"somebody's\n", "unknown"), (NEW, "new")])
 def test_a_download_by_another_client_while_the_line_was_cut_is_not_claimed(
     rig: Callable[..., Any],
     control: Callable[..., Any],
     monkeypatch: pytest.MonkeyPatch,
     there: bytes,
-    held: str,
+    at_control: str,
 ) -> None:
     """The commit was sent and the line cut; when it is back, the control has committed for another client."""
 
@@ -244,7 +244,7 @@ def test_a_download_by_another_client_while_the_line_was_cut_is_not_claimed(
     monkeypatch.setattr("tests.transfer.null_modem.Responder", Overtaken)
     with pytest.raises(ImageChangedError) as caught:
         send(rig(control=control()).session())
-    assert caught.value.held == held
+    assert caught.value.at_control == at_control
 
 
 class OnlyInOrder(Responder):
@@ -321,7 +321,7 @@ def test_a_control_that_does_not_keep_to_the_protocol_is_not_believed(
     made = rig(control=control(), bytes_per_second=11_520)
     with pytest.raises(kind) as caught:
         upload(HouseDriver(made.session()))
-    assert caught.value.held == "", "an upload replaces nothing, and need not say so"
+    assert caught.value.at_control == "", "an upload replaces nothing, and need not say so"
     assert made.clock.now < 120
 
 

@@ -45,13 +45,13 @@ class Setting:
 
     @property
     def name(self) -> str:
-        """What a person is told of it: ``PPU X``, ``EXC AXIS0``."""
+        """Its name in messages: ``PPU X``, ``EXC AXIS0``."""
         return self.write(["" for _ in self.addresses]).split("(")[0].rstrip(" =")
 
 
 @dataclass(frozen=True)
 class Argument:
-    """A setting as it stands in a line: its figures, each with its column, and where it ends."""
+    """A setting as it is in a line: its figures, each with its column, and where it ends."""
 
     setting: Setting
     figures: tuple[tuple[str, int], ...]
@@ -65,7 +65,7 @@ class Command:
     def __init__(self, template: str, settings: tuple[Setting, ...]) -> None:
         head, _, tail = template.partition(" ")
         self.word, self.form = ("", template) if "{" in head else (head.upper(), tail)
-        """A word in front of all arguments, which need not be said again: PPU, but not the DAC of ``DAC{k} GAIN``."""
+        """A word in front of all arguments, which need not be repeated: PPU, but not the DAC of ``DAC{k} GAIN``."""
         self.settings = settings
         self._by_instance = {s.instance.casefold(): s for s in settings}
         self._by_place = {s.place: s for s in settings}
@@ -80,7 +80,7 @@ class Command:
         return self.settings[0].write(["1" for _ in self.settings[0].addresses])
 
     def read(self, text: str, at: int) -> Argument | None:
-        """Return the setting that stands at a place of a line; None where there is none."""
+        """Return the setting at a place of a line; None where there is none."""
         found = self._pattern.match(text, at)
         if found is None:
             return None

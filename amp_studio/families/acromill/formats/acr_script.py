@@ -1,7 +1,7 @@
 """The script of commands that sets an ACR controller, as the terminal of AcroMill sends them (pages 91 and 113 to 135).
 
 A setting is written in the form that its parameter names: ``PPU X4096``, ``EXC AXIS0 4``, ``NOTCH X(500, 50)``. One
-setting stands in a line; several axes behind one command are read too, as ``PPU X4096 Y4096`` is printed (page 114).
+setting is in a line; several axes behind one command are read too, as ``PPU X4096 Y4096`` is printed (page 114).
 Written are scales, signs and limits before the gains they make safe (see ``ORDER``).
 ``REM`` begins a remark (page 128).
 """
@@ -25,7 +25,7 @@ FAMILY = "acromill"
 _KIND = "acr"
 _HEAD = "REM ACR command script"
 _SIGNS = "cp437"
-"""Commands are plain ASCII; of other signs, which a remark may hold, every byte comes back as it was."""
+"""Commands are plain ASCII; of other signs, which a remark may contain, every byte comes back as it was."""
 _MARK = "\ufeff".encode().decode(_SIGNS)
 _MARK_SEEN_AS_LATIN = "\ufeff".encode().decode("latin-1")
 _UNITS = re.compile(r"\s*REM\s+units\s+(\S+)\s*", re.IGNORECASE)
@@ -41,8 +41,8 @@ ORDER = ("PPU", "MULT", "DAC", "EXC", "TLM", "LOPASS", "NOTCH", "DWIDTH", "DGAIN
 
 A controller obeys line by line, so a gain that came before its scale, sign or limit would move an axis with the old one.
 The guide sets pulses, counting, polarity and error band first (page 114), then the torque limit and the damping before
-P Gain, the integral and the feedforwards (page 115). Filters and the delay and limit of the integral stand before the
-gains they hold back; that much is ours.
+P Gain, the integral and the feedforwards (page 115). Filters and the delay and limit of the integral come before the
+gains they limit; that much is ours.
 """
 
 
@@ -73,7 +73,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
         for argument in line.arguments:
             before = place.setdefault(argument.setting, line.number)
             if before != line.number or argument.setting.addresses[0] in found.values:
-                said = f"{argument.setting.name} stands twice, in line {before} already"
+                said = f"{argument.setting.name} occurs twice, in line {before} already"
                 raise FormatError(said, line.number, argument.column)
             found.values.update(_values(schema, argument, line.number, system))
     keep(found, _KIND, [row for line in lines for row in _layout(line)])
@@ -121,7 +121,7 @@ def _not_read(line: _Line, at: int, known: list[Command]) -> FormatError:
 
 
 def _set_aside_repeated(lines: list[_Line]) -> None:
-    """Take what is set more than once for not understood: which value holds, the run of the script decides."""
+    """Take what is set more than once for not understood: which value counts, the run of the script decides."""
     counts = Counter(a.setting for line in lines for a in line.arguments)
     twice = {setting for setting, count in counts.items() if count > 1}
     for line in lines:
@@ -133,13 +133,13 @@ def _read_system(lines: list[_Line], schema: Schema, found: TextRead) -> str:
     """Return the unit system of the figures, and set it where the script names it."""
     chooser = schema.family.unit_parameter
     for line in lines:
-        told = _UNITS.fullmatch(line.text)
-        if told and chooser:
-            system = told[1].casefold()
+        named = _UNITS.fullmatch(line.text)
+        if named and chooser:
+            system = named[1].casefold()
             if system not in schema.family.units:
                 offered = ", ".join(schema.family.units)
                 raise FormatError(
-                    f"'{told[1]}' is no unit system here: {offered}", line.number, told.start(1) + 1
+                    f"'{named[1]}' is no unit system here: {offered}", line.number, named.start(1) + 1
                 )
             found.values[chooser, ""] = Value(system)
             return system
@@ -225,7 +225,7 @@ def _row(file: ParameterFile, setting: Setting, system: str) -> str:
 def _filled(
     file: ParameterFile, layout: list[str], rows: dict[Address, str], units: list[str]
 ) -> Iterator[str]:
-    """Yield the lines of a kept script with the values of now; a new setting stands behind all that go before it."""
+    """Yield the lines of a kept script with the values of now; a new setting comes after all that go before it."""
     at = {what: n for n, row in enumerate(layout) if (what := marked(row))}
     there = {a: at[written(a)] for a in rows if written(a) in at}
     beside = neighbours(rows, there, there)

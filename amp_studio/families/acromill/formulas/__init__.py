@@ -1,10 +1,10 @@
 """The named formulas of the AcroMill user's guide, a module for each subject.
 
 Every function is pure. Lengths may be in any one unit (inch or mm) that Pulses/Unit counts for, speeds are that unit
-per minute unless a text says otherwise, ramps that unit per second squared; gains are in volts and encoder pulses.
+per minute unless a text states otherwise, ramps that unit per second squared; gains are in volts and encoder pulses.
 
 An argument that makes no sense raises ValueError with one sentence that names it. Where the guide contradicts itself
-the formula is taken, not the printed number; the text of the function says so. A page is that of the section.
+the formula is taken, not the printed number; the text of the function states it. A page is that of the section.
 """
 
 from .ballscrew import (

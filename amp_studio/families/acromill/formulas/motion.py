@@ -30,7 +30,7 @@ def index_time(distance: float, speed: float) -> float:
 def overridden_feed(speed: float, percent: float, highest: float) -> float:
     """Speed of a feed or rapid move under an override, never above Max Machine Speed (pages 70, 71 and 74).
 
-    G63 holds the override of the feed at 100 % (page 33). That the two are multiplied is ours.
+    G63 keeps the override of the feed at 100 % (page 33). That the two are multiplied is ours.
     """
     asked = not_negative("The speed", speed) * not_negative("The override", percent) / 100.0
     return min(asked, positive("Max Machine Speed", highest))

@@ -1,8 +1,8 @@
 """The sheet for keying values in at the control: its number, what it stores, in the control's own unit.
 
-Lines are ``number``, ``stored value``, ``unit`` and ``name`` between tabs; what stands behind ``#`` is for the
-reader, but for ``# machine``, which says what the numbers mean. Only values that the control lets one key in stand in
-it; a choice without a printed code stands as a remark.
+Lines are ``number``, ``stored value``, ``unit`` and ``name`` between tabs; what comes after ``#`` is for the
+reader, but for ``# machine``, which decides what the numbers mean. Only values that the control lets one key in are in
+it; a choice without a printed code is a remark.
 """
 
 from __future__ import annotations
@@ -57,8 +57,8 @@ def _write(file: ParameterFile) -> str:
 
 
 def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
-    told = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
-    machine = told[1] if told else schema.family.default_machine
+    named = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
+    machine = named[1] if named else schema.family.default_machine
     if machine not in schema.machines:
         raise FormatError(f"{schema.family.name} has no machine type {quoted(machine)}")
     found = TextRead(machine=machine)
@@ -77,13 +77,13 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
             if not keep_unknown:
                 raise FormatError(str(error), n, 1) from None
             if number.strip() in found.unknown:
-                raise FormatError(f"{quoted(number)} stands twice", n, 1) from None
+                raise FormatError(f"{quoted(number)} occurs twice", n, 1) from None
             found.unknown[number.strip()] = " ".join(cell for cell in cells[:2] if cell)
             continue
         if not schema.parameters[address[0]].patchable:
             raise FormatError(f"{number} cannot be keyed in at the control", n, 1)
         if address in found.values:
-            raise FormatError(f"{number} stands twice", n, 1)
+            raise FormatError(f"{number} occurs twice", n, 1)
         found.values[address] = _value(file, address, cells, n, len(number) + 2)
     return found
 

@@ -1,11 +1,11 @@
 """The named formulas of the 9/PC AMP reference manual, a module for each subject.
 
-Every function is pure. Unless its text says otherwise, lengths may be in any one unit (mm, inch or
+Every function is pure. Unless its text states otherwise, lengths may be in any one unit (mm, inch or
 degree), speeds are that unit per minute, accelerations that unit per second squared, and a gain is
 the number of parameter 1710: gain 1 means 0.001 units of following error per unit per minute.
 
 An argument that makes no sense raises ValueError with one sentence that names it. Where the manual
-contradicts itself the formula is taken, not the printed number; the text of the function says so.
+contradicts itself the formula is taken, not the printed number; the text of the function states it.
 """
 
 from .axes import (

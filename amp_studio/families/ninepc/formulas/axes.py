@@ -27,8 +27,8 @@ def dcm_position(scale_position: float, machine_position_at_zero: float) -> floa
 def inside_zone(position: Sequence[float], limits: Sequence[tuple[float, float]]) -> bool:
     """Whether a position lies in the block of one zone group (page 6-4).
 
-    ``position`` and ``limits`` (minimum, maximum) hold the axes of the group only, in machine
-    coordinates; an axis outside the group does not count. The manual says "between", so a position
+    ``position`` and ``limits`` (minimum, maximum) are those of the axes of the group only, in machine
+    coordinates; an axis outside the group does not count. The manual has "between", so a position
     on a limit is not inside.
     """
     if len(position) != len(limits) or not limits:

@@ -11,7 +11,7 @@ COUNTS_PER_LINE = 4
 """Quadrature: each line of an encoder gives four counts (page 7-33)."""
 
 COUNTS_PER_INCH_LIMIT = 4_194_304
-"""More feedback counts per inch than this may hold the system in E-Stop (page 7-33)."""
+"""More feedback counts per inch than this may keep the system in E-Stop (page 7-33)."""
 
 COUNTS_PER_CYCLE_LIMIT = 4_194_304
 """Upper end of Position Feedback Counts/Cycle; the same figure, but counts over one cycle (page 7-33)."""
@@ -47,7 +47,7 @@ def sercos_cycles(scan_ms: float) -> tuple[int, ...]:
 def sercos_servos(cycle_ms: float, baud_mhz: float) -> int | None:
     """Largest recommended number of servos on the ring (page 7-4).
 
-    4 at 1 ms and 2 MHz, 8 from 2 ms on; None at 1 ms and 4 MHz, where the manual only says "more".
+    4 at 1 ms and 2 MHz, 8 from 2 ms on; None at 1 ms and 4 MHz, where the manual only has "more".
     """
     positive("The baud rate", baud_mhz)
     if whole("The SERCOS cycle time in ms", cycle_ms) >= 2:
@@ -97,7 +97,7 @@ def largest_scale_pitch(lines: float, length: float) -> float:
     """Largest Lead Screw Thread Pitch to enter for a linear scale, in the unit of ``length`` (page B-2).
 
     Where the counts over the pitch would be more than the parameter takes, a smaller pitch is entered.
-    The division is ours, the manual only says so. The scale has ``lines`` lines on ``length``.
+    The division is ours, the manual only has so. The scale has ``lines`` lines on ``length``.
     """
     return COUNTS_PER_CYCLE_LIMIT / scale_counts_per_cycle(lines, length, 1.0)
 
@@ -140,7 +140,7 @@ def feedback_revolutions_per_screw_revolution(motor_teeth: float, screw_teeth: f
 def gear_train(pairs: Sequence[tuple[float, float]]) -> tuple[int, int]:
     """One pair of teeth for a series of gears or pulleys, in lowest terms (pages 7-38, 7-52 and 7-82).
 
-    Each pair is (feedback or motor side, screw or spindle side). The manual says to factor the series into
+    Each pair is (feedback or motor side, screw or spindle side). The manual asks to factor the series into
     the two parameters; that the pairs multiply is ours.
     """
     if not pairs:

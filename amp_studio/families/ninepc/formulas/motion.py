@@ -29,7 +29,7 @@ def vector_feedrate_limit(distances: Sequence[float], limits: Sequence[float]) -
 
 
 def f1_rapid(rapid: float, percent: float) -> float:
-    """Rapid feedrate with the rapid override switch on F1; 0 % stands still (page 9-5)."""
+    """Rapid feedrate with the rapid override switch on F1; 0 % is standstill (page 9-5)."""
     share = percent_of("F1 Rapid Override Percent", percent) / 100.0
     return not_negative("The rapid feedrate", rapid) * share
 

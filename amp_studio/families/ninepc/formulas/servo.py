@@ -165,7 +165,7 @@ def peak_current_percent(positive_volts: float, negative_volts: float, continuou
     """Peak Current as a % of RMS of an analog system (page 7-60).
 
     The smaller magnitude of Analog Servo Pos. and Neg. Voltage over the voltage for continuous duty.
-    (Table A.A of appendix A says "higher"; chapter 7 says "smaller" twice.)
+    (Table A.A of appendix A has "higher"; chapter 7 has "smaller" twice.)
     """
     peak = min(abs(finite("Analog Servo Pos. Voltage", positive_volts)), abs(negative_volts))
     continuous = positive("The voltage for continuous duty", continuous_volts)

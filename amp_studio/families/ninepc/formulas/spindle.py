@@ -99,7 +99,7 @@ def spindle_zero_angle(marker: float, calibration: float) -> float:
 def orient_turn(position: float, target: float) -> float:
     """Signed angle, positive with the angles, that an orient turns once the marker is known (page 12-13).
 
-    Of a closed-loop spindle at rest, by the shortest way. The manual does not say which way half a turn
+    Of a closed-loop spindle at rest, by the shortest way. The manual does not state which way half a turn
     goes; here it is positive.
     """
     way = (finite("The orient angle", target) - finite("The position", position)) % TURN
@@ -136,7 +136,7 @@ def tapping_ramp(max_rpm: float, time_s: float) -> float:
 
 
 def tapping_acceleration(ramp: float, lead: float, axis_acceleration: float) -> float:
-    """Acceleration of the tapping axis, per s squared: the lower of its own and the spindle's (page 27-2).
+    """Acceleration of the tapping axis, per s squared: the lower of the axis's and the spindle's (page 27-2).
 
     ``ramp`` of the spindle in rpm per s, ``lead`` of the thread in the length unit of ``axis_acceleration``.
     That the spindle moves the axis by the lead in each turn is implied, not printed.

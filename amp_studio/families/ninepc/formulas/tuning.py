@@ -29,7 +29,7 @@ def dac_monitor_code(function: float, axis: float) -> int:
 
 
 def dac_monitor_function(code: float) -> tuple[int, int]:
-    """Function code and axis number that a value of 86 or 87 stands for: 504 is 500 and axis 4 (page A-6)."""
+    """Function code and axis number that a value of 86 or 87 means: 504 is 500 and axis 4 (page A-6)."""
     function, axis = divmod(whole("The code of the DAC monitor", code), 100)
     if dac_monitor_code(function * 100, axis) != code:
         raise ValueError(f"{code!r} is no function code plus axis number.")

@@ -23,7 +23,7 @@ def word_value(word: str, form: str, inch: bool, suppressed: Literal["leading", 
     """Number of a word written without a point where zeros of one end are left out (page 15-3).
 
     In format 4.3 with leading zeros suppressed 01 is 0.001 and 2790 is 2.790; with trailing zeros
-    suppressed 01 is 100.000 and 279 is 2790.000. ``word`` is what stands behind the letter.
+    suppressed 01 is 100.000 and 279 is 2790.000. ``word`` is what comes after the letter.
     """
     before, behind = _digits(form, inch)
     found = _WORD.fullmatch(word)

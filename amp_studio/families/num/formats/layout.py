@@ -1,7 +1,7 @@
 """How the lines of a NUM parameter table are laid out, and what of a table is no value.
 
 A table is written as the control sends it (page 13-14) unless the parameter file remembers otherwise. What it
-remembers stands in its header, in words that a person can read and change; ``docs/formats.md`` lists them.
+remembers is in its header, in words that a person can read and change; ``docs/formats.md`` lists them.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ _BLOCK = re.compile(r"P([0-9]{1,4})N([0-9]{1,4})(:?)(?: ([0-9]{1,2})|#([ -~]*))"
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """Words that stand together in a data line."""
+    """Words that are together in a data line."""
 
     first: Word
     count: int
     typed: bool = True
-    """Whether the header tells type and number of words."""
+    """Whether the header gives type and number of words."""
     data: str | None = None
-    """How the line spells its words, where that is not the control's way."""
+    """How the line spells its words, if that is not the control's way."""
 
     @property
     def words(self) -> Iterable[Word]:
@@ -45,7 +45,7 @@ class Placed:
         parameter, first = self.first
         return ((parameter, n) for n in range(first, first + self.count))
 
-    def told(self) -> str:
+    def as_header(self) -> str:
         """Return the block as the header of a parameter file has it: ``P9N0: 10``, ``P9N0#00 01``."""
         head = name_of(self.first) + (":" if self.typed else "")
         return f"{head} {self.count}" if self.data is None else f"{head}#{self.data}"
@@ -53,56 +53,58 @@ class Placed:
 
 @dataclass
 class Layout:
-    """What a table says beside its words; the defaults are those of a table that the control sends."""
+    """What a table contains besides its words; the defaults are those of a table that the control sends."""
 
     job_reference: str = "00000000"
     comment: str = ""
-    """What stands behind the job reference, with its blank."""
+    """What comes after the job reference, with its blank."""
     line_end: str = "\n"
     end: str = ""
     """From behind the length of the last line; empty for a line end and Xoff."""
     old_headers: bool = False
     """Headers without type and number of words: software before index K."""
     heads: dict[int, tuple[int, int]] = field(default_factory=dict)
-    """Parameter -> type and number of words where the schema says otherwise: software of another index."""
+    """Parameter -> type and number of words where the schema has others: software of another index."""
     blocks: list[Placed] = field(default_factory=list)
     """The order and the division of the lines; empty for the control's own."""
 
-    def told(self) -> dict[str, object]:
+    def as_header(self) -> dict[str, object]:
         """Return it for the header of a parameter file, without what goes without saying."""
-        told: dict[str, object] = {}
+        header: dict[str, object] = {}
         if self.job_reference != Layout.job_reference:
-            told["job_reference"] = self.job_reference
+            header["job_reference"] = self.job_reference
         if self.comment:
-            told["comment"] = self.comment
+            header["comment"] = self.comment
         if self.line_end != Layout.line_end:
-            told["line_end"] = _named(self.line_end)
+            header["line_end"] = _named(self.line_end)
         if self.end not in ("", self.line_end + XOFF):
-            told["end"] = _named(self.end)
+            header["end"] = _named(self.end)
         if self.old_headers:
-            told["headers"] = "old"
+            header["headers"] = "old"
         if self.heads:
-            told["words"] = {f"P{a}": f"t{code}n{count}" for a, (code, count) in self.heads.items()}
+            header["words"] = {f"P{a}": f"t{code}n{count}" for a, (code, count) in self.heads.items()}
         if self.blocks:
-            told["lines"] = [block.told() for block in self.blocks]
-        return told
+            header["lines"] = [block.as_header() for block in self.blocks]
+        return header
 
     @classmethod
-    def of_told(cls, told: object) -> Layout:
-        """Read what the header of a parameter file says; raises FormatError where a person wrote what cannot be."""
-        said = told if isinstance(told, Mapping) else {}
-        number = said.get("job_reference", cls.job_reference)
+    def from_header(cls, header: object) -> Layout:
+        """Read the header of a parameter file; raises FormatError where a person wrote what cannot be."""
+        entries = header if isinstance(header, Mapping) else {}
+        number = entries.get("job_reference", cls.job_reference)
         reference = f"{number:08d}" if isinstance(number, int) else str(number)
         if not re.fullmatch("[0-9]{8}", reference):
             raise FormatError(f"the job reference '{reference}' is not of eight digits")
-        comment = str(said.get("comment", ""))
+        comment = str(entries.get("comment", ""))
         if not re.fullmatch(r"(?![0-9])[ -~]*", comment):
             raise FormatError(
-                "the comment behind the job reference holds more than ASCII or begins with a digit"
+                "the comment behind the job reference contains more than ASCII or begins with a digit"
             )
-        layout = cls(reference, comment, _signs(said.get("line_end", "LF")), _signs(said.get("end", "")))
-        layout.old_headers = said.get("headers") == "old"
-        words, lines = said.get("words"), said.get("lines")
+        layout = cls(
+            reference, comment, _signs(entries.get("line_end", "LF")), _signs(entries.get("end", ""))
+        )
+        layout.old_headers = entries.get("headers") == "old"
+        words, lines = entries.get("words"), entries.get("lines")
         for key, head in (words if isinstance(words, Mapping) else {}).items():
             found = _HEAD.fullmatch(str(head))
             if found is None or not re.fullmatch("P[0-9]{1,4}", str(key)):
@@ -167,7 +169,7 @@ def _arranged(cells: Cells, layout: Layout) -> list[Placed]:
 
 
 def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
-    """Divide words into the lines of the control: ten to a line from word 0, and a line of its own behind each gap."""
+    """Divide words into the lines of the control: ten to a line from word 0, and a separate line after each gap."""
     first, count = (-1, -1), 0
     for parameter, n in words:
         if count and (parameter, n) == (first[0], first[1] + count) and n % MOST_VALUES:

@@ -29,7 +29,7 @@ class Block:
     header: str
     first: Word
     code: int | None
-    """None in the tables of older software, which do not tell it."""
+    """None in the tables of older software, which do not give it."""
     count: int | None
     data: str
     """The data line behind its ``#``."""
@@ -45,7 +45,7 @@ def _content(said: str, n: int) -> str:
     length = len(found[1])
     if int(found[2], 16) != length:
         raise FormatError(
-            f"the line has {length} characters, {length:02X} in hexadecimal, and says {found[2]}",
+            f"the line has {length} characters, {length:02X} in hexadecimal, and gives {found[2]}",
             n,
             length + 2,
         )
@@ -66,7 +66,7 @@ def _unmeasured(said: str, n: int) -> FormatError:
     last = written[-1]
     if last.end() == len(said):
         return FormatError(f"the length is written with capitals: {last[0][1:].upper()}", n, last.start() + 2)
-    return FormatError("something stands behind the length of the line", n, last.end() + 1)
+    return FormatError("something comes after the length of the line", n, last.end() + 1)
 
 
 def split_table(text: str) -> tuple[list[str], Layout]:
@@ -84,7 +84,7 @@ def split_table(text: str) -> tuple[list[str], Layout]:
     if behind is None or behind.end() != len(tail):
         before = f"{body}{xoff}{tail[: behind.end() if behind else 0]}"
         line, column = before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1
-        raise FormatError("something stands behind Xoff, which ends the table", line, column)
+        raise FormatError("something comes after Xoff, which ends the table", line, column)
     line_end = "\r\n" if body.partition("\n")[0].endswith("\r") else "\n"
     lines = body.split(line_end)
     end = xoff + tail
@@ -104,7 +104,7 @@ def blocks_of(lines: list[str]) -> Iterator[Block]:
     for n, line in enumerate(lines, 2):
         if line.startswith("#"):
             if header is None:
-                raise FormatError("a data line without a header PaNb of its own", n, 1)
+                raise FormatError("a data line without a header PaNb before it", n, 1)
             at, said = header
             a, b, code, count = (None if number is None else int(number) for number in said.groups())
             yield Block(at, said[0], (a or 0, b or 0), code, count, line[1:])
@@ -121,7 +121,7 @@ def blocks_of(lines: list[str]) -> Iterator[Block]:
 
 
 def _no_header(line: str, n: int) -> FormatError:
-    """Say at which character a line stops to be a header."""
+    """Return at which character a line stops to be a header."""
     at = 0
     for pattern, expected in _HEADER_PARTS:
         found = re.compile(pattern).match(line, at)

@@ -1,7 +1,7 @@
 """The parameter table that NUM controls send and take (section 13.2.6).
 
 ``%`` and the job reference, then a header ``PaNb:tcnd`` and a data line ``#`` for each ten words, Xoff at the end;
-every line closes with ``;`` and its length in hexadecimal. ``docs/formats.md`` says what was decided where the manual
+every line closes with ``;`` and its length in hexadecimal. ``docs/formats.md`` lists what was decided where the manual
 is silent.
 """
 
@@ -33,7 +33,7 @@ from .words import (
 KEY = "num_table"
 """Where a parameter file remembers, in its header, what is no value in the table it came from."""
 _KEPT = re.compile(r"(?::t([0-24-9])n([1-9][0-9]{0,3}))?#([ -~]*)")
-"""What stands behind the number of the first word where words are kept that the schema does not have."""
+"""What comes after the number of the first word where words are kept that the schema does not have."""
 
 
 def _recognises(text: str) -> bool:
@@ -53,7 +53,7 @@ class _Reader:
     """Words that the schema has."""
     found: TextRead = field(default_factory=TextRead)
     heads: dict[int, tuple[int, int]] = field(default_factory=dict)
-    """Parameter -> type and number of words, where a header tells them."""
+    """Parameter -> type and number of words, where a header gives them."""
     places: dict[Word, tuple[int, int]] = field(default_factory=dict)
     """Every word of the table, known or not -> line and column."""
 
@@ -105,24 +105,24 @@ class _Reader:
         if own is not None and own[0] != block.code:
             said = f"P{parameter} of {self.schema.family.name} has words of type {own[0]}, not {block.code}"
             raise FormatError(said, line, column)
-        told = self.heads.setdefault(parameter, (block.code, block.count))
-        if told != (block.code, block.count):
-            said = f"a header above says t{told[0]}n{told[1]} of P{parameter}"
+        before = self.heads.setdefault(parameter, (block.code, block.count))
+        if before != (block.code, block.count):
+            said = f"a header above gives t{before[0]}n{before[1]} of P{parameter}"
             raise FormatError(said, line, column - 1)
         return block.count
 
     def _check_place(self, block: Block, word: Word, count: int | None, column: int) -> None:
-        """See that there is such a word, that the line has room for it and that it stands once."""
+        """See that there is such a word, that the line has room for it and that it occurs once."""
         line = block.line + 1
         if word[1] - block.first[1] >= MOST_VALUES:
-            raise FormatError(f"a data line holds {MOST_VALUES} values at most", line, column)
+            raise FormatError(f"a data line contains {MOST_VALUES} values at most", line, column)
         if count is not None and word[1] >= count and (block.count is not None or not self.keep_unknown):
             said = f"P{word[0]} has {count} {'word' if count == 1 else 'words'}: there is no {name_of(word)}"
             if word == block.first:
                 raise FormatError(said, block.line, block.header.index("N") + 1)
             raise FormatError(said, line, column)
         if word in self.places:
-            raise FormatError(f"{name_of(word)} stands in line {self.places[word][0]} already", line, column)
+            raise FormatError(f"{name_of(word)} is in line {self.places[word][0]} already", line, column)
 
     def _check_kept(self, block: Block, word: Word, column: int) -> None:
         """Refuse a word that the schema does not have, unless such words are to be kept."""
@@ -135,14 +135,14 @@ class _Reader:
 
     def _keep(self, block: Block, kept: list[tuple[Word, str]]) -> None:
         """Keep words that the schema does not have: those that follow each other under the number of the first."""
-        unknown, (_, colon, told) = self.found.unknown, block.header.partition(":")
+        unknown, (_, colon, form) = self.found.unknown, block.header.partition(":")
         key, behind = "", (-1, -1)
         for word, text in kept:
             if word == behind:
                 unknown[key] += f" {text}"
             else:
                 key = name_of(word)
-                unknown[key] = f"{colon}{told}#{text}"
+                unknown[key] = f"{colon}{form}#{text}"
             behind = word[0], word[1] + 1
 
     def values(self) -> None:
@@ -168,12 +168,12 @@ class _Reader:
             raise FormatError(f"{name_of(word)}: {error}", *self.places[word]) from None
 
     def missing(self) -> Iterator[str]:
-        """Yield what the table leaves open: parameters and words that it does not have, numbers of words of its own."""
+        """Yield what the table leaves open: parameters and words that it does not have, other numbers of words."""
         here: dict[int, set[int]] = {}
         for parameter, word in self.places:
             here.setdefault(parameter, set()).add(word)
         if absent := [a for a in sorted(self.known.counts) if a not in here]:
-            yield f"the table does not hold {_runs_of('P', absent)}"
+            yield f"the table does not contain {_runs_of('P', absent)}"
         left, other = [], []
         for parameter, words in sorted(here.items()):
             known = self.known.counts.get(parameter)
@@ -183,7 +183,7 @@ class _Reader:
             if known is not None and count != known:
                 other.append(f"{count} of P{parameter} ({known})")
         if left:
-            yield f"the table does not hold these words: {', '.join(left)}"
+            yield f"the table does not contain these words: {', '.join(left)}"
         if other:
             yield f"the table has other numbers of words than {self.schema.family.name}: {', '.join(other)}"
 
@@ -212,8 +212,8 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     layout.heads = {a: h for a, h in reader.heads.items() if a in known.counts and h != known.heads.get(a)}
     if placed != list(runs(sorted(reader.places), not layout.old_headers)):
         layout.blocks = placed
-    if told := layout.told():
-        found.extra[KEY] = told
+    if header := layout.as_header():
+        found.extra[KEY] = header
     return found
 
 
@@ -244,7 +244,7 @@ def _kept(unknown: dict[str, str]) -> Iterator[tuple[Word, tuple[int, int] | Non
 
 def _write(file: ParameterFile) -> str:
     known = words_of(file.schema, file.machine)
-    layout = Layout.of_told(file.header.extra.get(KEY))
+    layout = Layout.from_header(file.header.extra.get(KEY))
     heads = _heads(known, layout, file.unknown)
     alone = {a for a, (code, count) in heads.items() if count == 1 and WORD_TYPES[code].is_text}
     cells: Cells = {}

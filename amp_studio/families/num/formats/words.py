@@ -1,8 +1,8 @@
 """The words of a NUM control: which number is which value of the schema, how a word is spelled, what it means.
 
-A word of a known parameter is spelled and understood by what the schema says of its storage: notation, bits, sign,
+A word of a known parameter is spelled and understood by the storage the schema gives it: notation, bits, sign,
 unit, scale and the control's code of its type. For a parameter that the schema does not have, the type that the table
-names stands in (page 1-3).
+names is used (page 1-3).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from amp_studio.schema.values import checked
 Word = tuple[int, int]
 """The numbers of parameter and word: (21, 3) for P21N3."""
 Content = int | float | str
-"""What stands in a word."""
+"""What is in a word."""
 _NUMBER = re.compile(r"P([0-9]+)N([0-9]+)")
 
 
@@ -63,7 +63,7 @@ class Form:
 
     @classmethod
     def of(cls, storage: Storage) -> Form:
-        """Return how words are spelled that the control holds in such a way.
+        """Return how words are spelled that the control stores in such a way.
 
         Page 13-14 shows eight digits for hexadecimal words of 32 bits and no leading zeros for those of 8 bits.
         """
@@ -92,26 +92,26 @@ class Form:
         raise InvalidValueError(f"'{text}' is not a whole number from {self.low} to {self.high}")
 
     def spell(self, content: Content) -> str:
-        """Spell a word as the control does; raises InvalidValueError for what the word cannot hold."""
+        """Spell a word as the control does; raises InvalidValueError for what the word cannot contain."""
         if isinstance(content, str):
             self.read(spelled_text(content))
             return content
         if not math.isfinite(content):
-            raise InvalidValueError(f"{content} is no number that a word holds")
+            raise InvalidValueError(f"{content} is no number that a word can contain")
         if self.is_text or self.is_floating:
             return write_number(content).upper()
         number = round(content)
         if not self.low <= number <= self.high:
             raise InvalidValueError(
-                f"{write_number(content)} is outside {self.low} to {self.high}, which the word holds"
+                f"{write_number(content)} is outside {self.low} to {self.high}, which the word can contain"
             )
         return f"{number:0{self.digits}X}" if self.base == 16 else str(number)
 
 
 def spelled_text(text: str) -> str:
-    """Return a text that a word may hold; raises InvalidValueError."""
+    """Return a text that a word may contain; raises InvalidValueError."""
     if not (text.isascii() and text.isprintable()):
-        raise InvalidValueError(f"'{text}' holds characters that are not ASCII")
+        raise InvalidValueError(f"'{text}' contains characters that are not ASCII")
     return text
 
 
@@ -173,7 +173,7 @@ class Meaning:
         return checked(parameter, from_stored(parameter, content, self.unit_in(file)))
 
     def content(self, file: ParameterFile, value: Value) -> Content:
-        """Return what the word of a value holds, before it is made a whole number; raises InvalidValueError."""
+        """Return what the word of a value contains, before it is made a whole number; raises InvalidValueError."""
         found = value.value
         if self.parameter.choices:
             return code_of(self.parameter, value)
@@ -208,7 +208,7 @@ class Words:
     """Parameter -> type and number of its words, where the schema knows the type."""
 
     def form(self, parameter: int, heads: Mapping[int, tuple[int, int]]) -> Form | None:
-        """Return how the words of a parameter are spelled: by the schema, else by the type that a table tells."""
+        """Return how the words of a parameter are spelled: by the schema, else by the type that a table gives."""
         own = self.forms.get(parameter)
         if (own is None or own.code is None) and parameter in heads:
             return WORD_TYPES[heads[parameter][0]]

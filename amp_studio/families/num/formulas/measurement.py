@@ -41,7 +41,7 @@ def measured_step(multi: float, divi: float, sensor: float) -> float:
     """Movement of one encoder increment in internal units (page 5-6): MULTI / DIVI, whatever a short frame is shifted by.
 
     The sensor is the word of P34. What an SSI frame of fewer than 16 bits sends is shifted to the left first (page
-    5-8): 1 / 16 with 12 bits is one unit. A DIVI that does not hold the shift gives no scale at all.
+    5-8): 1 / 16 with 12 bits is one unit. A DIVI that does not contain the shift gives no scale at all.
     """
     word = int(sensor)
     bits = word >> 3 & 31
@@ -54,7 +54,7 @@ def measured_step(multi: float, divi: float, sensor: float) -> float:
 def coded_conversion(period: float, interpolation: float) -> tuple[int, int]:
     """MULTI and DIVI of a scale that moves with the axis, from its period in internal units (page 5-22).
 
-    Period 20 with an EXE of 10 gives 1 and 2. The manual takes the maker's period times k, which stands for the unit
+    Period 20 with an EXE of 10 gives 1 and 2. The manual takes the maker's period times k, which represents the unit
     and for a gear.
     """
     return multi_divi(period, 4 * whole("The interpolation", interpolation))

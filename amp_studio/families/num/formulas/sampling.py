@@ -1,6 +1,6 @@
 """Times, memory and characters of the control: chapters 9 and 10. Periods are in µs, other times in ms.
 
-Where the control takes another value than it is given, the functions called ``..._in_force`` say which.
+Where the control takes another value than it is given, the functions called ``..._in_force`` are those.
 """
 
 from __future__ import annotations

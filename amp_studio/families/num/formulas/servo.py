@@ -1,4 +1,4 @@
-"""Servo-control: chapter 6, and what chapter 11 says of its parameters.
+"""Servo-control: chapter 6, and what chapter 11 adds to its parameters.
 
 Speeds are mm or degrees per minute as in the words of P30, times (the sampling period too) are ms, and ``unit`` is the
 internal unit of the axis in mm or degrees (see ``units``). The manual's own formulas take mm/s and seconds.
@@ -136,7 +136,7 @@ def of_group(values: Sequence[float | None], assignment: float) -> float:
 
 
 def axis_time_constant(own: float, of_group: float) -> float:
-    """Time constant of an axis: its word of P66, and where that is 0 the one of its group (page 6-40)."""
+    """Time constant of an axis: its word of P66, and if that is 0 the one of its group (page 6-40)."""
     group = not_negative("The time constant of the group", of_group)
     return not_negative("The time constant of the axis", own) or group
 
@@ -179,7 +179,7 @@ def max_following_error(max_speed: float, time_constant: float, unit: float) -> 
 def theoretical_speeds(following_error: float, time_constant: float) -> tuple[float, float]:
     """Speeds between which the real one must be at a following error in mm or degrees (page 6-24).
 
-    How the tolerance of P57 widens that band stood in a figure that is lost.
+    How the tolerance of P57 widens that band was in a figure that is lost.
     """
     seconds = positive("The time constant", time_constant) / 1000.0
     speed = not_negative("The following error", following_error) / seconds * 60.0
@@ -190,7 +190,7 @@ def theoretical_speeds(following_error: float, time_constant: float) -> tuple[fl
 
 
 def in_position_window(standing_error: float) -> float:
-    """In-Position Window: twice the error displayed while the axis stands (page 11-7)."""
+    """In-Position Window: twice the error displayed at standstill (page 11-7)."""
     return 2.0 * not_negative("The error of the standing axis", standing_error)
 
 

@@ -38,7 +38,7 @@ def spindle_increment(points: float) -> float:
 
 
 def spindle_offset(angle: float, points: float) -> int:
-    """Angle in internal units, as P42 and P44 hold it: degrees x modulo / 360, rounded (page 8-5).
+    """Angle in internal units, as in P42 and P44: degrees x modulo / 360, rounded (page 8-5).
 
     Page 8-5 prints 4096 / 360, which is right with the least modulo only (erratum e-p42-modulo).
     """
@@ -77,7 +77,7 @@ def ranges_for_speed(
 ) -> list[int]:
     """Speed ranges, 40 to 45, in which a speed may be programmed (page 8-16).
 
-    A range whose highest speed is 0 does not exist; a limit speed of 0 stands for the highest speed.
+    A range whose highest speed is 0 does not exist; a limit speed of 0 means the highest speed.
     """
     wanted = not_negative("The spindle speed", speed)
     found = []
@@ -93,7 +93,7 @@ def speed_gap(
 ) -> float:
     """Speed in rpm above which the next range begins too late, 0 where no speed between the ranges is lost (page 8-16).
 
-    A range ends at its limit speed, or at its highest speed where that is 0; the next speed is 1 rpm higher. A range
+    A range ends at its limit speed, or at its highest speed if that is 0; the next speed is 1 rpm higher. A range
     whose highest speed is 0 does not exist, and one that ends before it begins has no speeds.
     """
     _same_length(minima, maxima, limits)

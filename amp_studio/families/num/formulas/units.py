@@ -1,4 +1,4 @@
-"""The internal measurement unit, in which the CNC holds its dimensions: page 4-18.
+"""The internal measurement unit, in which the CNC stores its dimensions: page 4-18.
 
 Word P4N2 sets it for linear axes and word P4N4 for rotary axes. A change of either gives another meaning to every
 dimension among the machine parameters.

@@ -1,6 +1,6 @@
 """AutoMax texts of the 57C422B: a table of registers, and the assignments of a BASIC task.
 
-A line of the table is the number of a register and what stands in it, in decimals or, as the tasks of the manual
+A line of the table is the number of a register and its content, in decimals or, as the tasks of the manual
 write it, in hexadecimals (``01414H``, page 5-5). A double word is two registers. The task sets variables: ``%`` is one
 register, ``!`` a double word (page 4-48).
 """
@@ -17,7 +17,7 @@ from amp_studio.schema import Address, InvalidValueError, Schema, show_value
 from amp_studio.schema.storage import is_low_first
 
 from .basic_text import Line, Statement, read_lines
-from .registers import Held, Meaning, Registers, Written, held_by, registers_of
+from .registers import Meaning, RegisterContent, Registers, Written, contents_of, registers_of
 from .word_text import read_word, write_hexadecimal
 
 _SIGNS = "cp437"
@@ -34,8 +34,8 @@ def _in_signs(text: str) -> str:
     return " ".join(text.encode(_SIGNS, "replace").decode(_SIGNS).split())
 
 
-def _number(registers: Registers, of: Held) -> str:
-    """Write the number of a register: the bits of a word, and what no signed number can say, in hexadecimals."""
+def _number(registers: Registers, of: RegisterContent) -> str:
+    """Write the number of a register: the bits of a word, and what no signed number can express, in hexadecimals."""
     storage = registers.parameter(of.address).storage
     bits = 16 * len(of.words)
     if (storage and storage.notation == "hex" and of.number) or of.number >= 1 << (bits - 1):
@@ -53,7 +53,7 @@ _WORD = re.compile(r"[+-]?[0-9][0-9A-F]*H?", re.IGNORECASE)
 
 
 def _is_table(text: str) -> bool:
-    """Return whether most lines are rows; a table with a line that is none is still told of that line."""
+    """Return whether most lines are rows; a table with a line that is none gets a message about that line."""
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("!")]
     rows = [line for line in lines if (row := _ROW.match(line)) and _WORD.fullmatch(row[4])]
     return text.startswith(_TABLE_HEAD) or 2 * len(rows) > len(lines)
@@ -65,7 +65,7 @@ def _write_table(file: ParameterFile) -> str:
     for key, text in file.unknown.items():
         if re.fullmatch(r"R[0-9]{1,9}", key):
             rows[int(key[1:])] = f"{key[1:]}\t{_kept_word(key, text)}"
-    for one in held_by(file, registers):
+    for one in contents_of(file, registers):
         remark = _remark(file, registers, one.address)
         if len(one.words) == 1:
             rows[one.register] = f"{one.register}\t{_number(registers, one)}\t{remark}"
@@ -126,7 +126,7 @@ class Variables:
     """The names of registers in a task: those of the manual's own tasks, else ``REG_`` and the number.
 
     The configuration of a rack gives the names (page 4-2). Which variable is which register the family's table
-    ``basic-variables`` says; ``REG_64%`` is printed for register 64 (page 4-48) and does for every other one.
+    ``basic-variables`` lists; ``REG_64%`` is printed for register 64 (page 4-48) and does for every other one.
     """
 
     def __init__(self, schema: Schema) -> None:
@@ -160,7 +160,7 @@ def _is_task(text: str) -> bool:
 
 def _write_task(file: ParameterFile) -> str:
     registers, variables = registers_of(file.schema, file.machine), Variables(file.schema)
-    settings = [one for one in held_by(file, registers) if len(one.words) <= 2]
+    settings = [one for one in contents_of(file, registers) if len(one.words) <= 2]
     statements = {one.register: _assignment(registers, variables, one) for one in settings}
     layout = kept(file, _KIND)
     if layout is not None:
@@ -176,7 +176,7 @@ def _write_task(file: ParameterFile) -> str:
     return "\n".join([*lines, ""])
 
 
-def _assignment(registers: Registers, variables: Variables, of: Held) -> str:
+def _assignment(registers: Registers, variables: Variables, of: RegisterContent) -> str:
     """Return the assignment of a register; two of them where a ``!``, whose first register is the upper half, will not do."""
     if is_low_first(registers.parameter(of.address)):
         return " \\ ".join(
@@ -187,12 +187,12 @@ def _assignment(registers: Registers, variables: Variables, of: Held) -> str:
 
 
 def _acts_at_once(file: ParameterFile, address: Address) -> bool:
-    """Return whether the module acts on a register as soon as it is written: such ones stand last in a task."""
+    """Return whether the module acts on a register as soon as it is written: such ones come last in a task."""
     return (file.schema.parameters[address[0]].effect or file.schema.family.effect).level == "at-once"
 
 
 def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict[int, str]) -> str:
-    """Return a task as it was kept, with the values of now; a new one stands beside the register before it."""
+    """Return a task as it was kept, with the values of now; a new one comes beside the register before it."""
     lines = list(read_lines("\n".join(layout)))
     marks = [_marked_registers(s) for line in lines for s in line.statements]
     there = [first for first, _ in settings if any(first in m for m in marks)]
@@ -233,7 +233,7 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
                     raise
             if re.match(r"IF\b", statement.text, re.IGNORECASE):
                 break  # what follows in the line hangs on the condition (page 4-48)
-    if keep_unknown:  # which of several values holds, the run of the task decides
+    if keep_unknown:  # which of several values counts, the run of the task decides
         counts = Counter(one.register for one in settings.values())
         settings = {key: one for key, one in settings.items() if counts[one.register] == 1}
     meaning = Meaning(registers_of(schema, machine), keep_unknown)
@@ -247,7 +247,7 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
 
 
 def _row(line: Line, settings: dict[int, Written]) -> Row:
-    """Return a line with a mark where each setting stood."""
+    """Return a line with a mark where each setting was."""
     is_known = all(id(statement) in settings for statement in line.statements)
     for statement in line.statements:
         if id(statement) in settings:

@@ -1,6 +1,6 @@
 r"""The lines of a BASIC task, taken apart into statements: ``2030 PGAIN%=18700 \!Position Gain`` (page 5-5).
 
-A line begins with its number; ``\`` stands between statements, ``!`` or ``REM`` before a remark, and ``&`` at the end of
+A line begins with its number; ``\`` is between statements, ``!`` or ``REM`` before a remark, and ``&`` at the end of
 what goes on in the next line (page 4-48). A ``!`` that follows a name at once belongs to it.
 """
 
@@ -36,7 +36,7 @@ class Statement:
 
     @property
     def short(self) -> str:
-        """What a person is told of it."""
+        """Its name in messages."""
         text = " ".join(self.text.split())
         return text if len(text) <= 40 else text[:39] + "…"
 
@@ -108,7 +108,7 @@ def read_lines(text: str) -> Iterator[Line]:
             found = _line("\n".join(begun), first)
             before = seen.setdefault(found.number, first)
             if before != first:
-                raise FormatError(f"number {found.number} stands twice, in line {before} already", first, 1)
+                raise FormatError(f"number {found.number} occurs twice, in line {before} already", first, 1)
             yield found
         begun = []
     if begun:

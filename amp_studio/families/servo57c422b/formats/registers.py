@@ -1,6 +1,6 @@
 """The registers of a control: which parameter each belongs to, and the values that written registers mean.
 
-Where a register stands for several parameters (a gear ratio as one number or as two, page 4-15; the points of a cam
+Where a register means several parameters (a gear ratio as one number or as two, page 4-15; the points of a cam
 table, page 4-57) the one that exists for the machine counts, as its other registers decide.
 """
 
@@ -41,14 +41,14 @@ class Written:
 
 
 @dataclass(frozen=True)
-class Held:
-    """The number that the registers of a value hold."""
+class RegisterContent:
+    """The number in the registers of a value."""
 
     address: Address
     register: int
     number: int
     words: tuple[int, ...]
-    """What stands in each of its registers, 0 to 65535."""
+    """The content of each of its registers, 0 to 65535."""
 
 
 class Registers:
@@ -91,12 +91,12 @@ def registers_of(schema: Schema, machine: str) -> Registers:
 # -- values to registers -------------------------------------------------------------------------------------------
 
 
-def held_by(file: ParameterFile, registers: Registers) -> list[Held]:
-    """Return what the registers hold of a file, by rising number: the values that exist and can be written.
+def contents_of(file: ParameterFile, registers: Registers) -> list[RegisterContent]:
+    """Return the content of the registers for a file, by rising number: the values that exist and can be written.
 
     Raises FormatError for a value that does not fit, and where two values share a register.
     """
-    found: list[Held] = []
+    found: list[RegisterContent] = []
     owner: dict[int, Address] = {}
     for address in file.addresses():
         value = file.get(address)
@@ -106,14 +106,14 @@ def held_by(file: ParameterFile, registers: Registers) -> list[Held]:
         for register in registers.of(address):
             other = owner.setdefault(register, address)
             if other != address:
-                said = f"{written(other)} and {written(address)} are both set, and both stand in it"
-                raise FormatError(f"register {register} holds one of two values: {said}")
+                said = f"{written(other)} and {written(address)} are both set, and both are stored in it"
+                raise FormatError(f"register {register} contains one of two values: {said}")
         try:
             number, words = register_number(parameter, value, unit), words_of(parameter, value, unit)
         except StorageError as error:
             raise FormatError(f"register {registers.first[address]}, {written(address)}: {error}") from None
-        found.append(Held(address, registers.first[address], number, words))
-    return sorted(found, key=lambda held: held.register)
+        found.append(RegisterContent(address, registers.first[address], number, words))
+    return sorted(found, key=lambda content: content.register)
 
 
 def is_writable(file: ParameterFile, address: Address) -> bool:
@@ -129,7 +129,7 @@ def is_writable(file: ParameterFile, address: Address) -> bool:
 
 @dataclass(frozen=True)
 class _Cell:
-    """What stands in one register."""
+    """The content of one register."""
 
     word: int
     source: Written
@@ -175,7 +175,7 @@ class Meaning:
             claims = self.registers.claims[register]
             existing = [a for a in claims if file.evaluation.state(a).state != "hidden"]
             why = dict.fromkeys(file.evaluation.state(a).why for a in claims)
-            self._decide(register, existing, f"stands for nothing here: {'; '.join(w for w in why if w)}")
+            self._decide(register, existing, f"means nothing here: {'; '.join(w for w in why if w)}")
 
     def _decide(self, register: int, claims: list[Address], said: str) -> None:
         if register in self._done:

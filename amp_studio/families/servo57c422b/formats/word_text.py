@@ -17,7 +17,7 @@ def write_hexadecimal(pattern: int) -> str:
 
 
 def read_word(text: str) -> tuple[int, bool]:
-    """Read a whole number, and tell whether it is hexadecimal: the bits as they are. Raises InvalidValueError."""
+    """Read a whole number, and return whether it is hexadecimal: the bits as they are. Raises InvalidValueError."""
     text = text.strip()
     if found := _HEXADECIMAL.fullmatch(text):
         return int(found[1], 16), True

@@ -57,7 +57,7 @@ def cam_master_travel(points: float, increment: float) -> float:
 
 
 def bytes_word(first: float, second: float) -> int:
-    """Register that holds two values of a time cam in bytes: the earlier one is the low byte (page 4-49)."""
+    """Register that contains two values of a time cam in bytes: the earlier one is the low byte (page 4-49)."""
     values = [whole("A value", value, -128) for value in (first, second)]
     if max(values) > 127:
         raise ValueError(f"A value of a cam in bytes must be -128 to 127, not {max(first, second)!r}.")
@@ -65,9 +65,9 @@ def bytes_word(first: float, second: float) -> int:
 
 
 def word_bytes(word: float) -> tuple[int, int]:
-    """The two values of a time cam that a register holds in bytes, the earlier one first (page 4-49)."""
-    held = whole("The register", word, 0)
-    if held > 0xFFFF:
+    """The two values of a time cam that a register contains in bytes, the earlier one first (page 4-49)."""
+    stored = whole("The register", word, 0)
+    if stored > 0xFFFF:
         raise ValueError(f"The register must fit 16 bits, not {word!r}.")
-    low, high = (byte - 256 if byte > 127 else byte for byte in (held & 0xFF, held >> 8))
+    low, high = (byte - 256 if byte > 127 else byte for byte in (stored & 0xFF, stored >> 8))
     return low, high

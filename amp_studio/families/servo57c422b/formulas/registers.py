@@ -9,7 +9,7 @@ SCAN_MS = 1.25
 
 
 def scans(time_ms: float) -> float:
-    """Scans of 1.25 ms in a time, as registers 83 and 129 hold it (pages 4-41, 4-54 and A-2)."""
+    """Scans of 1.25 ms in a time, as registers 83 and 129 contain it (pages 4-41, 4-54 and A-2)."""
     return finite("The time", time_ms) / SCAN_MS
 
 
@@ -25,7 +25,7 @@ def double_words(number: float) -> tuple[int, int]:
 
 
 def double_of(first: float, second: float) -> int:
-    """Double precision number, with its sign, that stands in two registers (page 4-48): the upper half is the first."""
+    """Double precision number, with its sign, in two registers (page 4-48): the upper half is the first."""
     halves = [whole("A register", half, 0) for half in (first, second)]
     if max(halves) >= 2**16:
         raise ValueError(f"A register must fit 16 bits, not {max(first, second)!r}.")

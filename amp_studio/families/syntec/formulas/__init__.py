@@ -1,11 +1,11 @@
 """The named formulas of the Syntec slides, a module for each subject.
 
-Every function is pure. Lengths that a parameter holds are in BLU; travel per turn may be in any one unit, and a
+Every function is pure. Lengths that a parameter contains are in BLU; travel per turn may be in any one unit, and a
 feedrate is then that unit per minute. Speeds of the following error are mm/min with the BLU in mm, or deg/min with it
 in deg. "Pages" are the sections that ``parameter_db/syntec/family.yaml`` counts.
 
 An argument that makes no sense raises ValueError with one sentence that names it. Where the manual
-contradicts itself the formula is taken, not the printed number; the text of the function says so.
+contradicts itself the formula is taken, not the printed number; the text of the function states it.
 """
 
 from .dda import (

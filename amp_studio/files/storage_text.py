@@ -12,7 +12,7 @@ from .parameter_file import ParameterFile
 _LAST_NUMBER = re.compile(r"([0-9]+)(?!.*[0-9])")
 
 
-def held_text(file: ParameterFile, address: Address) -> str:
+def storage_text(file: ParameterFile, address: Address) -> str:
     """Return ``10485760: R19 = 160 (0x00A0), R20 = 0 (0x0000)``, or the stored code or number alone.
 
     Empty where it is what is shown anyway, for a secret, and where the manual prints no form.
@@ -24,18 +24,18 @@ def held_text(file: ParameterFile, address: Address) -> str:
     if stored is None:
         return ""
     storage = parameter.storage
-    told = write_number(stored)
+    text = write_number(stored)
     if storage is None or storage.words == 1:
         same = (
             isinstance(value.value, (int, float))
             and not isinstance(value.value, bool)
             and stored == value.value
         )
-        return "" if same else told
+        return "" if same else text
     try:
         words = words_of(parameter, value, storage.unit or value.unit)
     except StorageError:
-        return told
+        return text
     number = file.machine_schema.number(address) or ""
     names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]
     each = ", ".join(f"{name} = {word} (0x{word:04X})" for name, word in zip(names, words, strict=True))

@@ -1,8 +1,8 @@
 """What a rule offers and says is in the tables of cases too: changed in one place, it no longer offers or says that.
 
-Of every rule of every family the expressions of its repairs, of what the control uses instead and of the figures in its
+Of every rule of every family the expressions of its fixes, of what the control uses instead and of the figures in its
 message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by what it ``mends``, by what it
-``uses`` and by what it ``says``; also, as ``test_rules.py`` does, when there is no longer a repair, or one that should
+``uses`` and by what it ``says``; also, as ``test_rules.py`` does, when there is no longer a fix, or one that should
 not be there, or when what the control uses instead breaks the rule as well.
 """
 
@@ -19,8 +19,7 @@ from rule_stands import FAMILIES, HERE, Case, cases, read
 
 from amp_studio.schema import Rule, load_schema, program
 from amp_studio.validate import Finding
-from amp_studio.validate.expressions import Expressions
-from amp_studio.validate.expressions import Told as WhatIsTold
+from amp_studio.validate.expressions import Expressions, FindingExpressions
 from amp_studio.validate.formulas import rule_functions
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
@@ -28,14 +27,14 @@ from amp_studio.validate.rules import RuleChecks
 PARTS = {"fix": "fixes", "effective": "effective", "values": "values"}
 """Part of a rule -> the field of its compiled expressions."""
 
-EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_told_mutants.yaml")
+EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_finding_mutants.yaml")
 """Rule -> a piece of a mutant's text, which the rule itself does not have -> why it tells the same as the rule."""
 
 CHOICE = re.compile(r"'([^']*)'")
 
 
 @dataclass(frozen=True)
-class Told:
+class Mutant:
     """A rule of which one expression of what it tells was changed."""
 
     part: str
@@ -49,17 +48,17 @@ class Told:
         """Tell whether a piece of text is what was changed here."""
         return piece in self.text and piece not in self.before
 
-    def of(self, rule: Rule, told: WhatIsTold) -> Expressions:
+    def of(self, rule: Rule, expressions: FindingExpressions) -> Expressions:
         """Return the expressions of the rule with this change; raises ValueError if it cannot be compiled."""
         field = PARTS[self.part]
-        all_of_it = list(getattr(told, field))
+        all_of_it = list(getattr(expressions, field))
         all_of_it[self.n] = (all_of_it[self.n][0], program(self.text))
         return Expressions(
-            rule, rule_functions(rule.id.partition(".")[0]), replace(told, **{field: tuple(all_of_it)})
+            rule, rule_functions(rule.id.partition(".")[0]), replace(expressions, **{field: tuple(all_of_it)})
         )
 
 
-def told_by(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
+def parts_of(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
     """Yield the expressions of what a rule tells: the part, which of it, its name, its text."""
     for part in ("fix", "effective"):
         for n, assignment in enumerate(getattr(rule, part)):
@@ -68,12 +67,12 @@ def told_by(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
         yield "values", n, name, text
 
 
-def told_mutants(rule: Rule) -> Iterator[Told]:
+def mutants_of(rule: Rule) -> Iterator[Mutant]:
     """Yield what a rule tells with one thing changed after the other."""
-    for part, n, name, written in told_by(rule):
+    for part, n, name, written in parts_of(rule):
         text = " ".join(written.split())
         for changed, change in (*variations(text), *other_values(rule, part, name, text)):
-            yield Told(part, n, changed, text, f"{rule.id}: {part} {name}: {change}")
+            yield Mutant(part, n, changed, text, f"{rule.id}: {part} {name}: {change}")
 
 
 def other_values(rule: Rule, part: str, name: str, text: str) -> Iterator[tuple[str, str]]:
@@ -96,7 +95,7 @@ def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck], m
     ``mends`` is whether the rule as it is written has a fix there, which a trial may refuse.
     """
     rule = checks[0].rule
-    if rule.fix and any(finding.repairs for finding in found) is not mends:
+    if rule.fix and any(finding.fix for finding in found) is not mends:
         return True
     if case.mends is not None and not case.offers(found):
         return True
@@ -115,7 +114,7 @@ def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck], m
         return any(values.finding(check) for check in checks)
 
 
-def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
+def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ...]:
     """Return the mutants of a rule that a case does not notice."""
     here, left = case.stand, []
     with here.changed(case.given), here.changed(case.breaks or {}):
@@ -123,10 +122,10 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Told]) -> tuple[Told, ...]:
         broken = [
             check for check in checks_of(here.file.evaluation, (rule,)) if values.finding(check) is not None
         ]
-        mends = any(one.repairs for check in broken if (one := values.finding(check)) is not None)
+        mends = any(one.fix for check in broken if (one := values.finding(check)) is not None)
         for mutant in mutants:
             try:
-                expressions = mutant.of(rule, broken[0].expressions.told)
+                expressions = mutant.of(rule, broken[0].expressions.finding)
             except ValueError:
                 continue
             found = [
@@ -145,12 +144,12 @@ def test_no_mutant_of_what_a_rule_tells_passes_the_tables(
 ) -> None:
     caplog.set_level(logging.CRITICAL, "cel")  # a mutant may call a formula with what it does not take
     rules = {rule.id: rule for rule in load_schema(family).rules}
-    left = {rule.id: tuple(told_mutants(rule)) for rule in rules.values()}
+    left = {rule.id: tuple(mutants_of(rule)) for rule in rules.values()}
     total = sum(map(len, left.values()))
     for case in cases(family):
         if case.breaks is not None and left[case.rule]:
             left[case.rule] = alive(case, rules[case.rule], left[case.rule])
-    print(f"{family}: {total} mutants of what is told, {sum(map(len, left.values()))} alive")
+    print(f"{family}: {total} mutants of findings, {sum(map(len, left.values()))} alive")
     unknown = [
         mutant.change
         for rule, mutants in left.items()

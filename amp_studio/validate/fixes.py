@@ -31,15 +31,15 @@ def apply_fixes(validator: Validator, wanted: Callable[[Finding], bool]) -> list
     """
     done: list[Fixed] = []
     for _ in range(_MOST):
-        finding = next((f for f in validator.findings() if f.repairs and wanted(f)), None)
+        finding = next((f for f in validator.findings() if f.fix and wanted(f)), None)
         if finding is None:
             break
-        changes = validator.file.set_many({repair.address: repair.value for repair in finding.repairs})
+        changes = validator.file.set_many({setting.address: setting.value for setting in finding.fix})
         done += [Fixed(change, finding.rule) for change in changes]
         validator.update([change.address for change in changes])
     return done
 
 
-def repair_all_safe(validator: Validator) -> dict[Address, None]:
+def apply_all_safe(validator: Validator) -> dict[Address, None]:
     """Apply every fix that cannot change motion, until there is none; returns the addresses that were set."""
     return dict.fromkeys(fixed.change.address for fixed in apply_fixes(validator, lambda f: f.safe))

@@ -1,4 +1,4 @@
-"""Whatever repair is offered in any state that the tables of cases bring about keeps its promises, whosever it is.
+"""Whatever fix is offered in any state that the tables of cases bring about keeps its promises, whosever it is.
 
 Applied alone it is within range, ends its finding and brings nothing as severe; and one that is said to be safe sets
 what the control uses anyway, or what no motion depends on.
@@ -28,31 +28,31 @@ NO_MOTION = {
     "num.comm.master-gap": "of a serial line",
     "num.comm.plctool-notation": "of a serial line",
 }
-"""Rule whose repair is safe, though it does not say that the control uses that value anyway -> why it is."""
+"""Rule whose fix is safe, though it does not say that the control uses that value anyway -> why it is."""
 
 
 def broken_promises(case: Case) -> Iterator[str]:
-    """Apply each repair that is offered while a case is broken, and tell what it does not keep."""
+    """Apply each fix that is offered while a case is broken, and tell what it does not keep."""
     here = case.stand
     with here.changed(case.given), here.changed(case.breaks or {}):
         before = here.findings
-        for finding in [finding for finding in before if finding.repairs]:
+        for finding in [finding for finding in before if finding.fix]:
             with here.recorded():
-                here.set({repair.address: repair.value for repair in finding.repairs})
+                here.set({setting.address: setting.value for setting in finding.fix})
                 said = [
-                    fault(here.file.evaluation, repair.address, repair.value) for repair in finding.repairs
+                    fault(here.file.evaluation, setting.address, setting.value) for setting in finding.fix
                 ]
                 yield from filter(None, (*said, *unkept(finding, before, here.findings)))
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_an_offered_repair_keeps_what_it_promises(family: str) -> None:
+def test_an_offered_fix_keeps_what_it_promises(family: str) -> None:
     broken = [case for case in cases(family) if case.breaks is not None]
     assert [f"{case}: {said}" for case in broken for said in broken_promises(case)] == []
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_a_safe_repair_changes_no_motion(family: str) -> None:
+def test_a_safe_fix_changes_no_motion(family: str) -> None:
     safe = {rule.id: rule for rule in load_schema(family).rules if any(fix.safe for fix in rule.fix)}
     used = {name for name, rule in safe.items() if rule.effective}
     assert safe.keys() - used == {name for name in NO_MOTION if name.startswith(f"{family}.")}
@@ -60,6 +60,4 @@ def test_a_safe_repair_changes_no_motion(family: str) -> None:
         if case.rule in used and case.breaks is not None:
             with case.stand.changed(case.given), case.stand.changed(case.breaks):
                 found = case.stand.of(case.rule)
-                assert all(f.repairs == f.effective for f in found if f.repairs), (
-                    "what the control uses anyway"
-                )
+                assert all(f.fix == f.effective for f in found if f.fix), "what the control uses anyway"
