@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
 from amp_studio import __version__
 
 from .errors import UsageError
+from .misuse import in_plain_words, unexpected, unknown
 
 _USUAL = {
     "path": "parameter file (.amp)",
@@ -56,7 +56,7 @@ class _Parser(argparse.ArgumentParser):
         return super().add_argument(*names, **({"help": usual} if usual else {}) | how)
 
     def error(self, message: str) -> NoReturn:
-        raise UsageError(f"{message} (see '{self.prog} --help')")
+        raise UsageError(f"{in_plain_words(message)} (see '{self.prog} --help')")
 
     def format_help(self) -> str:
         """Return the help of argparse with what comes below it."""
@@ -75,12 +75,15 @@ class _Parser(argparse.ArgumentParser):
             name = text.partition("=")[0]
             known = list(self._option_string_actions)
             if name.startswith("--") and not any(option.startswith(name) for option in known):
-                self.error(_unknown("option", name, known))
-        return super().parse_known_args(args, namespace)
+                self.error(unknown("option", name, known))
+        found, unknown_texts = super().parse_known_args(args, namespace)
+        if self.verb and unknown_texts:
+            self.error(unexpected(unknown_texts, self._option_string_actions))
+        return found, unknown_texts
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
-            self.error(_unknown(_named(action), str(value), action.choices))
+            self.error(unknown(_named(action), str(value), action.choices))
 
 
 def _named(action: argparse.Action) -> str:
@@ -88,14 +91,8 @@ def _named(action: argparse.Action) -> str:
     return (action.option_strings or [str(action.metavar or action.dest).lower()])[-1].lstrip("-")
 
 
-def _unknown(what: str, name: str, known: Iterable[str]) -> str:
-    from amp_studio.schema.nearest import unknown_name  # the rooms are loaded when they are needed
-
-    return unknown_name(what, name, known)
-
-
 def parser() -> argparse.ArgumentParser:
-    """Return the parser of every verb; ``module`` and ``verb`` say who acts."""
+    """Return the parser of every verb; ``module`` and ``verb`` name the function that runs."""
     top = _Parser(
         prog="amp-studio",
         description="Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program.",
@@ -182,14 +179,14 @@ def parser() -> argparse.ArgumentParser:
     sub = verb(
         "fix",
         "fix",
-        "make suggested fixes, all or none, and say what changed and what is left",
+        "make suggested fixes, all or none, and show what changed and what is left",
         writes="path",
     )
     sub.add_argument("path", type=_path)
     sub.add_argument("--rule", metavar="ID", help="only fixes of this rule")
     sub.add_argument("--param", help="only fixes that set this parameter")
     sub.add_argument("--safe", action="store_true", help="only fixes that cannot change motion")
-    sub.add_argument("--dry-run", action="store_true", help="change nothing, say what would change")
+    sub.add_argument("--dry-run", action="store_true", help="change nothing, show what would change")
     json_option(sub)
     sub = verb("diff", "files", "differences by parameter; A or B may be a control's address")
     sub.add_argument("a")
@@ -305,7 +302,7 @@ def parser() -> argparse.ArgumentParser:
 def _path(text: str) -> Path:
     """Return a path; an empty text, as of a variable that is not set, is not the current folder."""
     if not text:
-        raise argparse.ArgumentTypeError("an empty text is no path")
+        raise argparse.ArgumentTypeError("the path is empty")
     return Path(text)
 
 
@@ -316,7 +313,6 @@ def verbs_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]
 
 
 def _count(text: str) -> int:
-    count = int(text)
-    if count < 1:
-        raise argparse.ArgumentTypeError(f"{count} is no number of processes")
-    return count
+    if not (text.isdecimal() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"{text} is no number of processes")
+    return int(text)

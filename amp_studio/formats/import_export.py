@@ -7,7 +7,7 @@ from pathlib import Path
 
 from amp_studio.files import Header, Notify, ParameterFile, without_secrets, write_atomic
 from amp_studio.schema import Schema, Value, load_schema
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.schema.regular_file import read_file
 
@@ -107,7 +107,7 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
     text = content.decode("latin-1")
     found = next((f for f in offered if f.recognises(text)), None)
     if found is None:
-        raise FormatError(f"this is none of the formats {', '.join(f.key for f in offered)}")
+        raise FormatError(f"Unrecognised file format. Known: {', '.join(f.key for f in offered)}")
     return found
 
 
@@ -118,8 +118,7 @@ def _format_for_writing(family: str, path: Path, format_key: str | None) -> Text
     found = next((f for f in offered if path.suffix.lower() in f.endings), None)
     if found is None:
         raise FormatError(
-            f"'{path.name}': no format is written to such a name; endings are "
-            f"{', '.join(f'{f.ending} ({f.key})' for f in offered)}"
+            f"'{path.name}': unknown file extension. Known: {', '.join(f'{f.ending} ({f.key})' for f in offered)}"
         )
     return found
 
@@ -128,7 +127,7 @@ def _named(key: str, offered: tuple[TextFormat, ...]) -> TextFormat:
     for found in offered:
         if found.key == key:
             return found
-    raise FormatError(f"there is no format {quoted(key)} here: {', '.join(f.key for f in offered)}")
+    raise FormatError(unknown_name("format", key, (f.key for f in offered)))
 
 
 def families_of(chosen: TextFormat) -> tuple[str, ...]:

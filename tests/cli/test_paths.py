@@ -224,4 +224,4 @@ def test_a_path_that_nobody_can_look_at_and_an_empty_folder_end_no_other_check(
 @pytest.mark.parametrize("verb", ["validate", "get", "set", "export"])
 def test_an_empty_path_is_not_the_folder_one_stands_in(amp, verb: str) -> None:
     more = {"set": ["1300=1 mm"], "export": ["-o", "out.csv"]}.get(verb, [])
-    assert "an empty text is no path" in amp(verb, "", *more).err
+    assert "the path is empty" in amp(verb, "", *more).err
