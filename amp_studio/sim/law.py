@@ -146,6 +146,8 @@ class AxisLaw:
     """What is assumed about the control, each a sentence with its page."""
     assumed: Mapping[str, str] = field(default_factory=dict)
     """Figure of the machine that no parameter gives -> why it has its value; dropped when it is set by ``model.*``."""
+    sweep_parameters: Sequence[float] | None = None
+    """The ``p`` of a swept sine, without the faults that its start would raise; None for the same."""
     linear_parameters: Sequence[float] | None = None
     """The ``p`` of the linear model (without quantisation, deadband, stiction terms); None for the same."""
 

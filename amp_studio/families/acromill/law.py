@@ -129,6 +129,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
         assumptions=tuple(notes),
         assumed=_ASSUMED,
+        sweep_parameters=[*p[: loop.EXCESS], 0.0, *p[loop.EXCESS + 1 :]],
         linear_parameters=_linear(p),
     )
     whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures

@@ -48,10 +48,10 @@ SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
 }
 
 _LOST = (
-    "The diagram of the control loop and the scales of the gains are lost with the figures of the manual (sections 4.5"
-    " to 4.9). ASSUMED: a cascade with model.proportional_scale = {0:g}, model.integral_scale = {1:g},"
-    " model.feedforward_scale = {2:g}, model.velocity_scale = {3:g}; the two printed programs (pages 4-48, 5-5) make"
-    " well damped loops with them."
+    "ASSUMED: a cascade with model.proportional_scale = {0:g}, model.integral_scale = {1:g},"
+    " model.feedforward_scale = {2:g}, model.velocity_scale = {3:g}; the diagram of the loop and the"
+    " scales of the gains are lost with the figures of the manual (sections 4.5 to 4.9), and the two printed programs"
+    " (pages 4-48, 5-5) make well damped loops with these."
 )
 _SIGNS = (
     "The bits of Drive Setup are lost with figure 4.2: polarity is taken to fit, and {0} because Velocity Gain is {1}"
@@ -110,6 +110,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         sources=_sources(),
         assumptions=tuple(notes),
         assumed=assumed,
+        sweep_parameters=_without_faults(p),
         linear_parameters=_linear(p),
     )
     whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
@@ -199,6 +200,12 @@ def _alarms(p: Sequence[float]) -> Mapping[int, AlarmText]:
             " the loop is switched off (page 4-9)",
         ),
     }
+
+
+def _without_faults(p: Sequence[float]) -> list[float]:
+    q = list(p)
+    q[loop.POSITION_ERROR] = q[loop.VELOCITY_ERROR] = -1.0
+    return q
 
 
 def _linear(p: Sequence[float]) -> list[float]:

@@ -29,6 +29,7 @@ from amp_studio.sim.signals import (
     COMMAND_VELOCITY,
     MODE,
     MONITOR,
+    MOTOR,
     OUTPUT,
     OUTPUT_TEST,
     POSITION,
@@ -66,8 +67,8 @@ MONITORS = (("wanted_velocity", "counts/scan"), ("velocity_error", "counts/scan"
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     """One scan: from command and measured position to volts."""
     position, commanded = io[POSITION], io[COMMAND_VELOCITY] * SCAN
-    velocity = position - s[BEFORE]
-    s[BEFORE] = position
+    velocity = io[MOTOR] - s[BEFORE]  # the same encoder
+    s[BEFORE] = io[MOTOR]
     if io[MODE] == OUTPUT_TEST:  # the direct drive reference of register 28
         word = io[COMMAND] * WORDS_PER_VOLT
         io[OUTPUT] = min(max(word, -p[CLAMP]), p[CLAMP]) / WORDS_PER_VOLT

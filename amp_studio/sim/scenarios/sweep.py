@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -108,7 +108,8 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
     for tone in tones:
         duration = tone.end - tone.start if tone is not tones[-1] else math.inf
         rows += [tone.start, duration, 0.0, tone.amplitude, 2.0 * math.pi * tone.frequency, 0.0, SINE, 0.0]
-    motion = run_axis(axis, rows, Until(tones[-1].end), thin=True, feed_forward=feed_forward)
+    swept = axis if axis.sweep_parameters is None else replace(axis, parameters=axis.sweep_parameters)
+    motion = run_axis(swept, rows, Until(tones[-1].end), thin=True, feed_forward=feed_forward)
     columns = {name: column[:: motion.rows_per_servo_period] for name, column in motion.columns.items()}
     time = columns["time_s"]
     found = np.full((2, len(tones)), np.nan, dtype=np.complex128)

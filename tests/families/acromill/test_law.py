@@ -30,6 +30,12 @@ TUNED = {
 }
 
 
+@pytest.fixture(autouse=True)
+def plain_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Short runs: compiling would take longer."""
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+
+
 def file_of(**changes: Value | None) -> ParameterFile:
     """Return a new file with axis X tuned; changes by parameter id with ``__`` for the point."""
     file = ParameterFile(load_schema("acromill"))

@@ -16,9 +16,9 @@ from amp_studio.sim.signals import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,
+    MOTOR,
     OUTPUT,
     OUTPUT_TEST,
-    POSITION,
     STOP,
     VELOCITY_LOOP,
 )
@@ -44,6 +44,12 @@ PAGE_4_48 = {
     "gain__velocity": 78,
     "gain__feedforward": 8320,
 }
+
+
+@pytest.fixture(autouse=True)
+def plain_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Short runs: compiling would take longer."""
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
 
 
 def file_of(axis: str = "X", **changes: float | None) -> ParameterFile:
@@ -264,10 +270,8 @@ def test_the_output_is_a_whole_word() -> None:
 def test_feed_forward_and_velocity_are_in_counts_a_scan_of_1_25_ms() -> None:
     # Pages 4-9 and A-2: 80000 counts/s are 100 counts a scan.
     assert volts({COMMAND_VELOCITY: 80_000.0}, FEED_FORWARD=1.0) == pytest.approx(100 / 198.4)
-    assert volts({POSITION: 100.0}, VELOCITY=2.0) == pytest.approx(-200 / 198.4)
-    assert (
-        volts({POSITION: 100.0}, CURRENT_REFERENCE=0.0) == 0.0
-    )  # the module's velocity loop is off, page 5-3
+    assert volts({MOTOR: 100.0}, VELOCITY=2.0) == pytest.approx(-200 / 198.4)
+    assert volts({MOTOR: 100.0}, CURRENT_REFERENCE=0.0) == 0.0  # the module's velocity loop is off, page 5-3
 
 
 def test_the_integral_sums_the_error_scan_by_scan_and_waits_while_the_output_is_clamped() -> None:
@@ -287,8 +291,8 @@ def test_the_deadband_is_added_in_the_direction_of_the_output() -> None:
 def test_faults_come_beyond_their_limit_not_at_it() -> None:
     assert volts({COMMAND: 8.0}, POSITION_ERROR=8.0) == 0.0
     assert volts({COMMAND: 8.1}, POSITION_ERROR=8.0) == -99.0
-    assert volts({POSITION: 8.0}, VELOCITY_ERROR=8.0) == pytest.approx(-8 / 198.4)
-    assert volts({POSITION: 8.1}, VELOCITY_ERROR=8.0) == -99.0
+    assert volts({MOTOR: 8.0}, VELOCITY_ERROR=8.0) == pytest.approx(-8 / 198.4)
+    assert volts({MOTOR: 8.1}, VELOCITY_ERROR=8.0) == -99.0
 
 
 def test_the_modes_of_the_scenarios() -> None:
@@ -296,6 +300,4 @@ def test_the_modes_of_the_scenarios() -> None:
         3.0
     )  # register 28 puts out volts, page 4-16
     assert volts({MODE: OUTPUT_TEST, COMMAND: 30.0}, CLAMP=992.0) == pytest.approx(5.0)
-    assert volts({MODE: VELOCITY_LOOP, COMMAND_VELOCITY: 80_000.0, POSITION: 90.0}) == pytest.approx(
-        10 / 198.4
-    )
+    assert volts({MODE: VELOCITY_LOOP, COMMAND_VELOCITY: 80_000.0, MOTOR: 90.0}) == pytest.approx(10 / 198.4)
