@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.nearest import unknown_name
@@ -12,8 +13,6 @@ from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .errors import SimulationError
 from .law import AxisLaw, Law, law_of
 from .model import with_model
-from .rigid import law as rigid_law
-from .rigid import scenarios as rigid_scenarios
 from .scenarios import SCENARIOS
 from .trace import Trace
 
@@ -33,10 +32,6 @@ def simulate(
         raise SimulationError(unknown_name("scenario", scenario, SCENARIOS))
     given: Mapping[str, ParameterValue] = settings or {}
     family = file.schema.family.family
-    place = registration_of(family).law
-    found = load_part(place) if place else None
-    if isinstance(found, rigid_law.Law):
-        return _rigid(file, scenario, axis, given)
     own = {name: value for name, value in given.items() if not name.startswith("model.")}
     law = law_of(family)
     if scenario not in law.scenarios:
@@ -44,7 +39,9 @@ def simulate(
             f"{file.schema.family.name} has no scenario '{scenario}': {', '.join(law.scenarios)}"
         )
     model = {name: value for name, value in given.items() if name not in own}
-    return SCENARIOS[scenario].run(bind_axis(file, law, axis, model), own)
+    bound = bind_axis(file, law, axis, model)
+    trace = SCENARIOS[scenario].run(bound, own)
+    return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
 
 
 def simulated_axes(file: ParameterFile) -> tuple[str, ...]:
@@ -83,17 +80,3 @@ def _values(file: ParameterFile) -> ReadParameter:
         return file.evaluation.canonical((parameter_id, instance))
 
     return value
-
-
-def _rigid(
-    file: ParameterFile, scenario: str, axis: str | None, given: Mapping[str, ParameterValue]
-) -> Trace:
-    fitted = fitted_axes(file)
-    if not fitted:
-        raise SimulationError("No axis is fitted. Set the type of an axis first")
-    chosen = axis or fitted[0]
-    if chosen not in fitted:
-        raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
-    family = file.schema.family.family
-    gains = rigid_law.law_of(family).standard_gains(file.schema.tables)
-    return rigid_scenarios.SCENARIOS[scenario].run(_values(file), chosen, given, family, gains)

@@ -90,7 +90,7 @@ class StepPlot(pg.GraphicsLayoutWidget):
 
     def _draw_torque(self, trace: Trace, time: np.ndarray, step: int) -> None:
         """Draw the torque over the velocity, scaled to its height; the legend gives the scale."""
-        torque, velocity = trace.columns.get("torque_percent"), trace.columns.get("velocity")
+        torque, velocity = trace.columns.get("torque"), trace.columns.get("velocity")
         if torque is None or velocity is None or not len(torque):
             return
         top = float(np.max(np.abs(velocity), initial=0.0)) or 1.0

@@ -5,31 +5,47 @@ from __future__ import annotations
 import json
 import struct
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from amp_studio.sim import SimulationError, Trace, plot_svg, trace_csv, trace_summary, trace_text, write_trace
-from amp_studio.sim.rigid.servo import AxisServo
-from amp_studio.sim.rigid.step import StepMove, run_step
+from amp_studio.sim import (
+    Recommendation,
+    SimulationError,
+    Trace,
+    plot_svg,
+    trace_csv,
+    trace_summary,
+    trace_text,
+    write_trace,
+)
 from amp_studio.sim.rounding import rounded_down, rounded_up, shown
+from amp_studio.sim.scenarios.step import run_step
 from amp_studio.sim.svg import thinned, ticks
 
-Axis = Callable[..., AxisServo]
+from .tiny import tiny
+
+MOVE = {"move.distance": 60.0, "move.feedrate": 6000.0}
 
 
 @pytest.fixture(scope="module")
-def trace(axis: Axis) -> Trace:
-    return run_step(axis(excess_error=7.0, feedrate_suppression=6.8), StepMove(60.0, 6000.0))
+def trace() -> Trace:
+    return run_step(tiny(excess=7.0), MOVE)
+
+
+@pytest.fixture(scope="module")
+def stopped() -> Trace:
+    advice = Recommendation("excess_error", 5.5, "mm", "The following error reaches 5 mm.")
+    return replace(run_step(tiny(excess=1.0), MOVE), recommendations=(advice,))
 
 
 def test_csv_gives_back_every_number_exactly(trace: Trace) -> None:
     heading, *lines = trace_csv(trace).splitlines()
     assert heading == (
-        "time_s,command_position [mm],position [mm],following_error [mm],command_velocity [mm/min],"
-        "velocity [mm/min],torque_percent"
+        "time_s,command_position [mm],command_velocity [mm/min],position [mm],measured_position [mm],"
+        "following_error [mm],velocity [mm/min],output [%],torque [%],wanted_velocity [mm/s]"
     )
     read = np.array([[float(cell) for cell in line.split(",")] for line in lines]).T
     assert all(np.array_equal(a, b) for a, b in zip(read, trace.columns.values(), strict=True))
@@ -59,13 +75,12 @@ def test_the_plot_is_wellformed_and_names_axes_units_and_limits(trace: Trace) ->
         assert xy[:, 1].max() <= float(root.get("height", "0"))
 
 
-def test_an_alarm_stands_in_the_plot(axis: Axis) -> None:
-    stopped = run_step(axis(excess_error=1.0), StepMove(60.0, 6000.0))
-    assert "EXCESS FOLLOWING ERROR at " in plot_svg(stopped)
+def test_an_alarm_stands_in_the_plot(stopped: Trace) -> None:
+    assert "EXCESS ERROR at " in plot_svg(stopped)
 
 
-def test_a_motion_of_one_row_can_be_drawn(axis: Axis) -> None:
-    still = run_step(axis(), StepMove(60.0, 6000.0, duration=1e-5))
+def test_a_motion_of_one_row_can_be_drawn() -> None:
+    still = run_step(tiny(), {**MOVE, "move.duration": 1e-5})
     assert still.rows == 1
     ET.fromstring(plot_svg(still))
 
@@ -95,15 +110,14 @@ def test_the_summary_has_the_promised_keys_and_is_json(trace: Trace) -> None:
         assert advice.keys() == {"param", "value", "why"}
 
 
-def test_an_alarm_and_its_advice_stand_in_summary_and_text(axis: Axis) -> None:
-    stopped = run_step(axis(excess_error=1.0), StepMove(60.0, 6000.0))
+def test_an_alarm_and_its_advice_stand_in_summary_and_text(stopped: Trace) -> None:
     told = trace_summary(stopped)
     assert told["alarms"][0].keys() == {"code", "time_s", "message"}
     assert told["advice"][0]["param"] == "excess_error"
-    assert told["advice"][0]["value"] == "11.0 mm"
+    assert told["advice"][0]["value"] == "5.5 mm"
     text = trace_text(stopped)
     assert "ALARM at" in text
-    assert "excess_error = 11 mm: " in text
+    assert "excess_error = 5.5 mm: " in text
     assert "Assumptions" in text
 
 

@@ -1,357 +1,229 @@
-"""The servo axis of an Allen-Bradley 9/PC: the parameters it uses, and their meaning.
+"""The servo axis of an Allen-Bradley 9/PC: which parameters make its loops, its machine and its ramps.
 
-The only module of the simulator with ids of the 9/PC. Pages are those of the 9/PC AMP manual.
-
-The unit of the velocity loop gains is an inference; the manual prints none. It bounds Velocity Proportional
-Gain by 3277 to 10923 times the position gain (7-54) and Velocity Integral Gain by 1092 times it (7-56), and
-states that the constants convert to inverse milliseconds, in which the position gain is 60 / gain (7-25). 65536
-/ 3277 = 20, 65536 / 10923 = 6 and 65536 / 1092 = 60: read as value / 65536 per ms, the bounds say that the
-velocity loop shall be 3 to 10 times as fast as the position loop, and its integral slower than the position
-loop, at every gain. This is the textbook design of a cascade, and 65536 is the full scale of the 16-bit
-value. The integral is taken in series with the proportional gain, a* = kp (e + ki sum(e)): then the 5 to 10
-times between both gains at the end of the tuning procedure (appendix A, from A-8 on) are a damping of 1.1 to
-1.6; added in parallel, per ms, they would be one of 0.25 to 0.65.
+Pages are those of the 9/PC AMP manual. `law_samples.py` is the control at work, `law_units.py` the unit of its gains,
+`law_notes.py` what is assumed.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass
+from functools import partial
 
-from amp_studio.schema import Table, canonical, load_schema
+from amp_studio.schema import canonical, load_schema
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import Source
-from amp_studio.sim.rigid.law import Law, MotorGains
-from amp_studio.sim.rigid.servo import AxisServo
+from amp_studio.sim.law import AlarmText, AxisLaw, Law, Ramp, Source
 from amp_studio.sim.rounding import shown
 
-MODEL = "9/PC axis"
-PER_MS = 65536.0
-"""Velocity loop gain for 1 per ms."""
-RATE = 1000.0 / PER_MS
-"""1/s for a velocity loop gain of 1."""
-ANALOG_RATIO = 10923.0 * 60.0 / PER_MS
-"""Ratio of velocity loop rate to position loop rate at the upper end of the printed bounds: 10."""
+from . import law_notes as notes_of
+from . import law_samples as samples
+from .law_advice import advise
+from .law_drives import Parts, analog, digital, third_party
+from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
+from .law_figures import Loop, predictions
+from .law_ramps import ramps_of
 
+TITLE = "9/PC axis"
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
-FEEDBACK, COUNTS, PITCH = "servo.position_feedback_type", "servo.position_counts", "servo.lead_screw_pitch"
-PERIOD = "servo.dcm_small_period"
-PROPORTIONAL, INTEGRAL = "servo.velocity_proportional_gain", "servo.velocity_integral_gain"
-TABLES, MOTOR, INERTIA = "servo.standard_motor_values", "servo.motor_type", "servo.load_inertia_ratio"
-PEAK, MAX_ACCELERATION, CYCLE = "servo.peak_current", "servo.max_acceleration", "servo.sercos_cycle"
-DELAY, SCAN, SCANS = "accdec.programmed_delay", "timing.fine_foreground", "timing.scans_per_logic"
-OWN_ACCELERATION, VISCOUS, COULOMB, OWN_TRAVEL = (
-    "model.acceleration_at_rated",
-    "model.viscous_friction",
-    "model.coulomb_friction",
-    "model.travel_per_turn",
-)
+CYCLE, RAPID, CUTTING = "servo.sercos_cycle", "feedrate.rapid", "feedrate.max_cutting"
+GAIN, BREAK_POINT, BREAK_RATIO = "servo.initial_gain", "servo.gain_break_point", "servo.gain_break_ratio"
+FEED_FORWARD, BAND = "servo.feed_forward", "servo.inposition_band"
+SUPPRESSION, EXCESS, REVERSAL = "servo.feedrate_suppression", "servo.excess_error", "servo.reversal_error"
 
-MODEL_SETTINGS = {
-    OWN_ACCELERATION: "acceleration at 100 % of rated torque (mm/s2 or deg/s2)",
-    VISCOUS: "friction at 1000 mm/min or deg/min (% of rated torque)",
-    COULOMB: "dry friction (% of rated torque)",
+SETTINGS = {
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
+    "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
 }
-"""Settings of the model that are not parameters of the control."""
+"""Settings of the model that are no parameters of the control."""
 
-_ALWAYS_READ = {
-    "position_gain": Source("servo.initial_gain", page="7-25"),
-    "inposition_band": Source("servo.inposition_band", page="7-24"),
-    "feedrate_suppression": Source("servo.feedrate_suppression", page="7-21"),
-    "excess_error": Source("servo.excess_error", page="7-20"),
+SOURCES = {
+    "position_gain": Source(GAIN, page="7-25"),
+    "inposition_band": Source(BAND, page="7-24"),
+    "gain_break_point": Source(BREAK_POINT, page="7-22"),
+    "gain_break_ratio": Source(BREAK_RATIO, page="7-27"),
+    "feed_forward": Source(FEED_FORWARD, page="7-28"),
+    "feedrate_suppression": Source(SUPPRESSION, page="7-21"),
+    "excess_error": Source(EXCESS, page="7-20"),
     "linear_acceleration": Source("accdec.linear_acceleration", page="10-8"),
     "linear_deceleration": Source("accdec.linear_deceleration", page="10-10"),
-}
-_BREAK = {
-    "gain_break_point": Source("servo.gain_break_point", page="7-22"),
-    "gain_break_ratio": Source("servo.gain_break_ratio", page="7-27"),
-}
-_DIGITAL = {
-    "velocity_rate": Source(PROPORTIONAL, 1.0 / RATE, "", True, page="7-54"),
-    "integral_rate": Source(INTEGRAL, 1.0 / RATE, "", True, page="7-56"),
-    "integrator_discharge": Source("servo.integrator_discharge", 1.0, "", True, page="7-58"),
+    "exponential_time": Source("accdec.programmed_delay", whole=True, page="10-17"),
+    "feedrate": Source(RAPID, page="9-1"),
+    "cutting_feedrate": Source(CUTTING, page="9-2"),
+    "servo_period": Source(CYCLE, page="7-4"),
+    "velocity_proportional_gain": Source(
+        "servo.velocity_proportional_gain", unit="", whole=True, page="7-54"
+    ),
+    "velocity_integral_gain": Source("servo.velocity_integral_gain", unit="", whole=True, page="7-56"),
+    "integrator_discharge": Source("servo.integrator_discharge", unit="", whole=True, page="7-58"),
     "torque_limit_positive": Source("servo.max_torque_positive", page="7-62"),
     "torque_limit_negative": Source("servo.max_torque_negative", page="7-61"),
-}
-_OTHERS = {
-    "servo_period": Source(CYCLE, page="7-4"),
-    "feedback_counts": Source(COUNTS, page="7-33"),
-    "gear_teeth": Source("servo.position_gear_teeth", page="7-38"),
-    "screw_teeth": Source("servo.position_screw_teeth", page="7-40"),
-    "feed_forward": Source("servo.feed_forward", page="7-28"),
-    "rapid_feedrate": Source("feedrate.rapid", page="9-1"),
-    "cutting_feedrate": Source("feedrate.max_cutting", page="9-2"),
-    "acceleration_at_rated": Source(OWN_ACCELERATION),
-    "viscous_friction": Source(VISCOUS),
-    "coulomb_friction": Source(COULOMB),
+    "torque_filter": Source("servo.torque_filter", unit="Hz", whole=True, page="7-69"),
 }
 
 _NO_LOOP = {
-    "open": "an open loop axis has no position loop",
     "off": "the servo is off",
     "detached": "the servo is detached",
     "depth-probe": "a depth probe is not moved by a servo",
 }
 
 
-def axis_servo(read: AxisParameters, motor_gains: MotorGains | None = None) -> AxisServo:
-    """Return the servo of one axis from its parameters.
+@dataclass(frozen=True)
+class Kind:
+    """What kind of axis it is."""
 
-    ``motor_gains`` looks up the standard motor tables (Tables 7.B and 7.C); without it the gains of the file
-    are used, with an assumption. Raises SimulationError for an axis whose loop the control does not
-    close, and for a required parameter that is not set.
-    """
-    unit, loop, zfe = _kind(read)
+    unit: str
+    drive: str
+    """digital, analog or sercos."""
+    loop: str
+    """open, closed or zfe."""
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return one axis; raises SimulationError for an axis that no loop moves, a value that is not set or impossible."""
+    kind = _kind(read)
+    if kind.drive == "sercos":
+        return third_party(read, kind.unit, _common(read, kind))
     notes: list[str] = []
-    needed = {**_ALWAYS_READ, **_BREAK}
-    figures: dict[str, float] = {}
-    for name, source in needed.items():
-        # A ZFE axis does not use the gain break, but its place among the limits still counts (7-22).
-        if not (zfe and name in _BREAK and read.value(source.parameter) is None):
-            figures[name] = read.number(source.parameter)
-    figures["servo_period"] = read.number(CYCLE, everywhere=True)
-    sources = {**needed, **_OTHERS, "travel": _feedback(read, unit, figures, notes)}
-    if loop == "digital":
-        _digital(read, unit, figures, notes, motor_gains)
-        sources.update(_DIGITAL)
-    else:
-        _analog(read, figures, notes)
-    if zfe:
-        figures["feed_forward"] = read.number("servo.feed_forward")
-    figures["viscous_friction"] = read.optional(VISCOUS) or 0.0
-    figures["coulomb_friction"] = read.optional(COULOMB) or 0.0
-    time, scan = _exponential(read, notes)
-    sources["exponential_time"] = Source(DELAY, 1.0 / scan if scan else 1.0, "", True, page="10-17")
-    mode = read.value("accdec.positioning_mode", everywhere=True)
-    return AxisServo(
-        **figures,
-        zero_following_error=zfe,
-        ideal_feedback=False,
-        exponential_time=time,
-        positioning_ramp="linear" if mode is None else str(mode),
-        rapid_feedrate=read.optional("feedrate.rapid") or None,
-        cutting_feedrate=read.optional("feedrate.max_cutting") or None,
-        unit=unit,
-        axis=read.axis,
-        model=MODEL,
-        sources={
-            name: replace(source, largest=_largest(source.parameter, unit))
-            for name, source in sources.items()
-        },
-        assumptions=(*notes, *(_ZFE if zfe else _CLOSED), *_ALWAYS),
-    )
+    feedback = feedback_of(read, kind.unit, digital=kind.drive == "digital", notes=notes)
+    loop = _loop(read, kind)
+    parameters = _position_parameters(read, kind, loop, feedback, notes)
+    common = _common(read, kind, notes)
+    common |= {
+        "inposition_band": _not_negative(read, BAND),
+        "position_rate": loop.rate,
+        "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
+        "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
+        "alarms": _alarms(read, kind, parameters),
+        "monitors": [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS],
+    }
+    notes.append({"closed": notes_of.CLOSED, "zfe": notes_of.ZFE, "open": notes_of.OPEN}[kind.loop])
+    build = digital if kind.drive == "digital" else analog
+    return build(read, Parts(kind.unit, feedback, loop, parameters, notes, common))
 
 
-def _largest(parameter_id: str, unit: str) -> float:
-    """Return the upper bound that is printed for a parameter of an axis that moves in ``unit``, in canonical units."""
-    parameter = load_schema("9pc").parameters.get(parameter_id)
-    if parameter is None:
-        return math.inf  # a setting of the model
-    turning = (v.ranges for v in parameter.range_variants if v.when == "rotary_axis" and unit == "deg")
-    ranges = next(turning, parameter.ranges or {})
-    metric = ((printed, high) for printed, (_, high) in ranges.items() if not printed.startswith("in"))
-    printed, high = next(metric, ("", None))
-    return canonical(high, printed) if isinstance(high, float) else math.inf
+def _nothing(_feedrate: float) -> dict[str, object]:
+    return {}
 
 
-def _printed_acceleration() -> float:
-    """Return the printed default of Maximum Servo Acceleration in mm/s2 (Patch AMP values from 37-3 on)."""
-    default = load_schema("9pc").parameters[MAX_ACCELERATION].default
-    assert default is not None
-    return canonical(float(default.value), default.unit)
-
-
-def _kind(read: AxisParameters) -> tuple[str, str, bool]:
-    """Return (unit, loop type, zero following error); raises SimulationError for an unsupported axis."""
+def _kind(read: AxisParameters) -> Kind:
+    """Return the kind; raises SimulationError for an axis without a servo that moves it."""
     axis, kind = read.axis, read.choice("axis.type")
     if kind == "unfitted":
         raise SimulationError(f"Axis {axis} is unfitted. Choose another axis", "axis.type")
     if kind == "spindle":
-        raise SimulationError(
-            f"Axis {axis} is a spindle. Spindles are not simulated",
-            "axis.type",
-        )
-    loop = read.choice(LOOP)
-    if loop == "sercos":
-        raise SimulationError(
-            f"Axis {axis} has a third-party SERCOS drive. This drive closes both loops with settings"
-            " that are not in this file",
-            LOOP,
-        )
-    if loop not in ("digital", "analog") or read.value(HARDWARE) == "none":
+        raise SimulationError(f"Axis {axis} is a spindle. This scenario is for axes", "axis.type")
+    drive = read.choice(LOOP)
+    if drive not in ("digital", "analog", "sercos") or read.value(HARDWARE) == "none":
         raise SimulationError(f"Axis {axis} has no servo. First set its servo hardware and loop type", LOOP)
     position = read.choice(POSITION_LOOP)
-    if position not in ("closed", "zfe"):
-        what = _NO_LOOP.get(position, f"loop type '{position}' has no closed position loop")
+    if position not in ("open", "closed", "zfe"):
+        what = _NO_LOOP.get(position, f"loop type '{position}' has no position loop")
         raise SimulationError(f"Axis {axis} cannot be simulated: {what}", POSITION_LOOP)
-    return ("deg" if kind == "rotary" else "mm"), loop, position == "zfe"
+    return Kind("deg" if kind == "rotary" else "mm", drive, position)
 
 
-def _feedback(read: AxisParameters, unit: str, figures: dict[str, float], notes: list[str]) -> Source:
-    """Set counts and travel of one cycle (7-33, 7-38, 7-40; coded markers of a scale: 7-33, B-2).
-
-    Returns the source of the travel.
-    """
-    device = read.choice(FEEDBACK)
-    if device == "none":
-        raise SimulationError(f"Axis {read.axis} has no position feedback", FEEDBACK)
-    figures["feedback_counts"] = read.number(COUNTS)
-    own = read.optional(OWN_TRAVEL)
-    if device == "dcm":
-        figures["travel"] = read.number(PERIOD) if own is None else own
-        return Source(PERIOD, page="7-44") if own is None else Source(OWN_TRAVEL)
-    figures["gear_teeth"] = read.number("servo.position_gear_teeth")
-    figures["screw_teeth"] = read.number("servo.position_screw_teeth")
-    notes.append("One electrical cycle of the feedback device is taken as one turn: one marker (7-33).")
-    if own is not None or unit == "deg":
-        figures["travel"] = 360.0 if own is None else own
-    if own is None and unit == "deg":
-        notes.append(
-            "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the"
-            f" gears of this rotary axis is assumed to be 360 deg; set {OWN_TRAVEL} for another value."
-        )
-    if "travel" in figures:
-        return Source(OWN_TRAVEL)
-    figures["travel"] = read.number(PITCH)
-    return Source(PITCH, page="7-17")
-
-
-def _digital(
-    read: AxisParameters,
-    unit: str,
-    figures: dict[str, float],
-    notes: list[str],
-    motor_gains: MotorGains | None,
-) -> None:
-    """Set the figures of a velocity loop that is closed by the 1394 drive."""
-    proportional, integral = read.number(PROPORTIONAL), read.number(INTEGRAL)
-    motor = read.value(MOTOR)
-    by_hand = read.given(PROPORTIONAL) or read.given(INTEGRAL)
-    if read.value(TABLES, everywhere=True) is True and motor not in (None, "nonstandard") and not by_hand:
-        gains = motor_gains(str(motor), str(read.value(INERTIA))) if motor_gains else None
-        if gains:
-            proportional, integral = gains
-            notes.append(
-                f"Standard Motor Table Values is Yes: {shown(proportional, digits=6)} and {shown(integral, digits=6)} of Tables 7.B and 7.C"
-                " replace the velocity loop gains of the file (7-6)."
+def _loop(read: AxisParameters, kind: Kind) -> Loop:
+    """Return the position loop; with ZFE the gain break is not used (7-22, 7-27)."""
+    gain = read.number(GAIN)
+    if not 0.0 < gain < math.inf:
+        raise SimulationError(f"{GAIN}@{read.axis} is {gain:g}; it must be above 0", GAIN)
+    if kind.loop == "zfe":
+        share = _not_negative(read, FEED_FORWARD)
+        if share > 100.0:
+            raise SimulationError(
+                f"{FEED_FORWARD}@{read.axis} is {share:g}; it must be 100 % or less", FEED_FORWARD
             )
-        else:
-            notes.append(
-                "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its"
-                " tables (7-6); the gains of the file are simulated instead."
-            )
-        notes.append("The control may replace the torque limits for a standard motor (7-61).")
-    figures["velocity_rate"], figures["integral_rate"] = proportional * RATE, integral * RATE
-    for name in ("integrator_discharge", "torque_limit_positive", "torque_limit_negative"):
-        figures[name] = read.number(_DIGITAL[name].parameter)
-    notes.append(
-        "Velocity Proportional Gain and Velocity Integral Gain act as value / 65536 per ms: an inference from"
-        " the bounds of 7-54 and 7-56; the manual prints no unit."
-    )
-    own = read.optional(OWN_ACCELERATION)
-    figures["acceleration_at_rated"] = _printed_acceleration() if own is None else own
-    if own is None:
-        notes.append(
-            f"ASSUMED: {shown(_printed_acceleration(), digits=6)} {unit}/s2 at 100 % of rated torque. It is the printed default"
-            " of Maximum Servo Acceleration (Patch AMP values, 37-3), a figure for peak current (7-67) that a"
-            f" digital axis does not have; all torque results depend on it. Set {OWN_ACCELERATION}:"
-            " rated torque / inertia, at the axis."
+        return Loop(gain, math.inf, 1.0, share / 100.0)
+    ratio = _not_negative(read, BREAK_RATIO)
+    if ratio > 1.0:
+        raise SimulationError(f"{BREAK_RATIO}@{read.axis} is {ratio:g}; it must be 1 or less", BREAK_RATIO)
+    return Loop(gain, _not_negative(read, BREAK_POINT), ratio, 0.0)
+
+
+def _position_parameters(
+    read: AxisParameters, kind: Kind, loop: Loop, feedback: Feedback, notes: list[str]
+) -> list[float]:
+    """Return the figures of the position loop in an array for `law_samples.py`."""
+    p = [0.0] * samples.SIZE
+    p[samples.GAIN], p[samples.FEED_FORWARD] = loop.rate, loop.feed_forward
+    p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.break_point, loop.break_ratio
+    p[samples.OPEN] = 1.0 if kind.loop == "open" else 0.0
+    p[samples.EXCESS], p[samples.SUPPRESSION] = _not_negative(read, EXCESS), _not_negative(read, SUPPRESSION)
+    p[samples.COUNT] = feedback.position_count
+    p[samples.CUTTING] = (read.optional(CUTTING) or 0.0) / 60.0
+    reversal = read.optional(REVERSAL) or 0.0
+    if reversal and feedback.on_load:
+        notes.append(notes_of.REVERSAL_ON_SCALE)
+    elif reversal:
+        p[samples.REVERSAL], p[samples.FIRST] = abs(reversal), math.copysign(1.0, reversal)
+        notes.append(notes_of.REVERSAL)
+    return p
+
+
+def _common(read: AxisParameters, kind: Kind, notes: list[str] | None = None) -> dict[str, object]:
+    """Return what every kind of axis has, as fields of AxisLaw."""
+    said = notes if notes is not None else []
+    cycle = read.number(CYCLE, everywhere=True)
+    if not 0.0 < cycle < math.inf:
+        raise SimulationError(f"{CYCLE} is {cycle:g}; it must be above 0", CYCLE)
+    ramps: dict[str, Ramp] = ramps_of(read, kind.unit, said)
+    rapid = read.optional(RAPID)
+    said += [notes_of.SAMPLED, notes_of.RAMPS]
+    return {
+        "axis": read.axis,
+        "unit": kind.unit,
+        "servo_period": cycle / 1000.0,
+        "feedrate": rapid / 60.0 if rapid and 0.0 < rapid < math.inf else None,
+        "ramps": ramps,
+        "sources": {name: _bounded(source, kind.unit) for name, source in SOURCES.items()},
+    }
+
+
+def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[str, float]:
+    limits = {
+        "excess error": parameters[samples.EXCESS],
+        "feedrate suppression": parameters[samples.SUPPRESSION],
+        "inposition band": _not_negative(read, BAND),
+    }
+    if loop.break_ratio < 1.0:
+        limits["gain break point"] = loop.break_point
+    return limits
+
+
+def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[int, AlarmText]:
+    def text(code: str, what: str, limit: float, parameter: str) -> AlarmText:
+        return AlarmText(
+            code,
+            f"{what} above {shown(limit, kind.unit)} ({parameter}@{read.axis}): the control goes into E-STOP",
         )
 
-
-def _analog(read: AxisParameters, figures: dict[str, float], notes: list[str]) -> None:
-    """Set the figures of a velocity loop that is closed in an analog drive, with settings that are not in the file (7-2)."""
-    figures["velocity_rate"] = ANALOG_RATIO * figures["position_gain"] * 1000.0 / 60.0
-    notes.append(
-        "ASSUMED: the drive closes the velocity loop itself (7-2), ten times as fast as the position loop and"
-        " without an integral part, the upper end of the bounds of 7-54."
-    )
-    peak = _peak(read)
-    figures["torque_limit_positive"] = figures["torque_limit_negative"] = peak
-    own = read.optional(OWN_ACCELERATION)
-    if own is None:
-        figures["acceleration_at_rated"] = read.number(MAX_ACCELERATION) * 100.0 / peak
-        notes.append(
-            "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of"
-            " RMS (7-60) converts it to rated torque and is the torque limit."
-        )
-    else:
-        figures["acceleration_at_rated"] = own
+    return {
+        int(samples.EXCESS_ERROR_ALARM): text(
+            "EXCESS FOLLOWING ERROR", "Following error", parameters[samples.EXCESS], EXCESS
+        ),
+        int(samples.EXCESS_SKEW_ALARM): text(
+            "EXCESS SKEW", "Skew", parameters[samples.SKEW_LIMIT], "deskew.skew_limit"
+        ),
+    }
 
 
-def _peak(read: AxisParameters) -> float:
-    choice = read.choice(PEAK)
-    digits = choice.lstrip("p")
-    if not digits.isdigit() or int(digits) == 0:
-        raise SimulationError(f"{PEAK} of axis {read.axis} is '{choice}', not a percentage", PEAK)
-    return float(digits)
+def _not_negative(read: AxisParameters, name: str) -> float:
+    value = read.number(name)
+    if not 0.0 <= value < math.inf:
+        raise SimulationError(f"{name}@{read.axis} is {value:g}; it must not be negative", name)
+    return value
 
 
-def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, float | None]:
-    """Return (time constant in ms, system scan time in ms) of exponential positioning, None if not set."""
-    delay, fine = read.optional(DELAY, everywhere=True), read.optional(SCAN, everywhere=True)
-    scans = read.optional(SCANS, everywhere=True)
-    if delay is None or fine is None:
-        return None, None
-    scan = fine * (1.0 if scans is None else scans)
-    notes.append(
-        "One coarse iteration of Programmed Delay Constant (10-17) is assumed to be Fine Foreground Scan Time"
-        f" times Fine Scans per Logic Scan (33-19), {scan:g} ms."
-    )
-    if not (math.isfinite(scan) and scan > 0.0):
-        raise SimulationError(f"{SCAN} times {SCANS} is {scan:g} ms; it must be above 0", SCAN)
-    return delay * scan, scan
+def _bounded(source: Source, unit: str) -> Source:
+    """Return the source with the bound that is printed for an axis that moves in ``unit``, in canonical units."""
+    parameter = load_schema("9pc").parameters[source.parameter]
+    turning = (v.ranges for v in parameter.range_variants if v.when == "rotary_axis" and unit == "deg")
+    ranges = next(turning, parameter.ranges or {})
+    metric = ((printed, high) for printed, (_, high) in ranges.items() if not printed.startswith("in"))
+    printed, high = next(metric, ("", None))
+    largest = canonical(high, printed) if isinstance(high, float) else math.inf
+    return Source(source.parameter, source.scale, source.unit, source.whole, largest, source.page)
 
 
-_CLOSED = (
-    (
-        "The velocity command is proportional to the following error (7-14, 7-25); the part beyond the gain"
-        " break point counts only gain break ratio times (7-22, 7-27), without a step (the"
-        " figure of 7-23 was not legible)."
-    ),
-)
-_ZFE = (
-    (
-        "Feed Forward Percent of the command velocity is added to the velocity command (7-15,"
-        " 7-28); the gain break is not used (7-22, 7-27)."
-    ),
-)
-_ALWAYS = (
-    "The position loop runs at the SERCOS cycle, the servo update rate (7-4).",
-    (
-        "The PI velocity loop forms an acceleration command (7-54, 7-56); its integral discharges Discharge Rate"
-        " times faster than it charges (7-58)."
-    ),
-    "Max % rated torque (+) and (-) limit the torque by its sign, not by the direction of travel (7-61, 7-62).",
-    (
-        "Torque filter, torque offset, friction compensation, reversal error and S-curve ramps are not"
-        " simulated."
-    ),
-    (
-        "A linear ramp of 0 means no ramp (10-8), a deceleration of 0 means the acceleration (10-10);"
-        " Velocity Step for Acc/Dec is not used."
-    ),
-    "Excess error and feedrate suppression are checked once in each servo cycle (7-20, 7-21).",
-)
-
-
-def standard_gains(tables: Mapping[str, Table]) -> MotorGains | None:
-    """Return a look-up in Tables 7.B and 7.C (pages 7-55, 7-56) by motor and inertia ratio keys."""
-    proportional, integral = tables.get("7.B"), tables.get("7.C")
-    if proportional is None or integral is None:
-        return None
-
-    def gains(motor: str, ratio: str) -> tuple[float, float] | None:
-        row = int(ratio.removeprefix("r"))
-        columns = proportional.column(motor.upper()), integral.column(motor.upper())
-        if columns[0] is None or columns[1] is None:
-            return None
-        return float(columns[0][row]), float(columns[1][row])
-
-    return gains
-
-
-LAW = Law(axis_servo, MODEL_SETTINGS, standard_gains)
+LAW = Law(bind, settings=SETTINGS, advise=advise)

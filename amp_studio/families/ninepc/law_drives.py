@@ -1,0 +1,311 @@
+"""The three kinds of drive of a 9/PC axis: digital 1394, analog output, third-party SERCOS (7-2, 7-10)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.machine import Machine
+from amp_studio.sim.rounding import shown
+
+from . import law_notes as notes_of
+from . import law_samples as samples
+from .law_feedback import Feedback
+from .law_figures import Loop, predictions
+from .law_units import (
+    CURRENT_LOOP,
+    DELAY,
+    LAG,
+    NOMINAL,
+    VELOCITY_PERIOD,
+    Inertia,
+    acceleration_for,
+    inertia_of,
+    standard_gains,
+    torque_for,
+)
+
+PROPORTIONAL, INTEGRAL = "servo.velocity_proportional_gain", "servo.velocity_integral_gain"
+DISCHARGE, FILTER = "servo.integrator_discharge", "servo.torque_filter"
+LIMIT_POSITIVE, LIMIT_NEGATIVE = "servo.max_torque_positive", "servo.max_torque_negative"
+OFFSET, OFFSET_DIRECTION, PEAK = "servo.torque_offset", "servo.torque_offset_direction", "servo.peak_current"
+TABLES, MOTOR, RATIO = "servo.standard_motor_values", "servo.motor_type", "servo.load_inertia_ratio"
+MOTOR_SPEED, RAPID = "servo.max_motor_speed", "feedrate.rapid"
+FRICTION = {
+    "servo.friction_threshold": samples.THRESHOLD,
+    "servo.stiction_torque": samples.STICTION,
+    "servo.friction_positive": samples.FRICTION_POSITIVE,
+    "servo.friction_negative": samples.FRICTION_NEGATIVE,
+}
+VOLTS_POSITIVE, VOLTS_NEGATIVE = "servo.analog_positive_voltage", "servo.analog_negative_voltage"
+MAX_ACCELERATION = "servo.max_acceleration"
+OWN_ACCELERATION, OWN_GAIN = "model.acceleration_per_output", "model.position_gain"
+
+FILTER_OFF = 10000.0
+"""Hz: as high as possible is off (7-69)."""
+VOLTS = 10.0
+"""V: the end of the analog output (7-41)."""
+DRIVE_RATIO = 10.0
+"""Velocity loop of an analog drive / position loop: the upper bound of 7-54 (10923 / 65536 per ms to gain / 60 per ms)."""
+USUAL_GAIN = 1.0
+"""Initial Gain of most machines (7-25)."""
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What every drive has: unit, devices, position loop, its array of parameters, what is said, and fields of AxisLaw."""
+
+    unit: str
+    feedback: Feedback
+    loop: Loop
+    p: list[float]
+    notes: list[str]
+    common: dict[str, Any]
+
+
+def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
+    """Return an axis whose velocity loop the 1394 closes: torque in % of rated torque."""
+    feedback, loop, p, notes, common = parts.feedback, parts.loop, parts.p, parts.notes, parts.common
+    motor = str(read.value(MOTOR) or "nonstandard")
+    ratio = int(str(read.value(RATIO) or "r0").removeprefix("r"))
+    proportional, integral = _gains(read, motor, ratio, notes)
+    inertia = inertia_of(motor, ratio, read.tables)
+    own = read.optional(OWN_ACCELERATION)
+    travel = feedback.motor_turn
+    if own is not None and 0.0 < own < math.inf:
+        inertia = Inertia(100.0 * own * 2.0 * math.pi / travel, "")
+    p[samples.PROPORTIONAL], p[samples.INTEGRAL] = (
+        torque_for(proportional, travel),
+        torque_for(integral, travel),
+    )
+    p[samples.TORQUE_UNIT] = torque_for(1.0, travel)
+    p[samples.PERIOD] = common["servo_period"] / max(1, round(common["servo_period"] / VELOCITY_PERIOD))
+    lag = LAG + _torque(read, p, notes)
+    linear = list(p)
+    linear[samples.COUNT] = 0.0
+    rate = 0.0 if p[samples.OPEN] else loop.rate
+    notes += [notes_of.GAINS, notes_of.VELOCITY_LOOP, notes_of.LIMITS]
+    notes += notes_of.gain_notes(proportional, integral, inertia.acceleration, rate, lag, motor)
+    _speed(read, common, travel, notes)
+    machine = Machine(
+        acceleration_per_output=acceleration_for(inertia.acceleration, travel),
+        inertia_ratio=float(ratio),
+        bandwidth=CURRENT_LOOP,
+        delay=DELAY,
+        motor_count=feedback.motor_count,
+        position_count=feedback.position_count,
+        load_sensor=feedback.on_load,
+        motor_friction=1.0,
+    )
+    assumed = {
+        "acceleration_per_output": inertia.why + " All torques depend on it.",
+        "bandwidth": "No current loop is printed; with the delay it ends appendix A as told (A-9, A-10).",
+        "delay": "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10).",
+    }
+    return AxisLaw(
+        **common,
+        title="9/PC axis: position loop, velocity loop of the 1394, torque to the motor",
+        position_sample=samples.position_sample,
+        velocity_sample=samples.velocity_sample,
+        parameters=p,
+        linear_parameters=linear,
+        state_size=samples.STATE_SIZE,
+        velocity_period=p[samples.PERIOD],
+        machine=machine,
+        output_unit="%",
+        assumptions=tuple(notes),
+        assumed=assumed,
+    )
+
+
+def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tuple[float, float]:
+    """Return the gains that the control uses: those of its tables for a standard motor, unless one is set by hand (7-6)."""
+    by_hand = read.given(PROPORTIONAL) or read.given(INTEGRAL)
+    if read.value(TABLES, everywhere=True) is True and motor != "nonstandard" and not by_hand:
+        notes.append("The control may replace the torque limits for a standard motor (7-61).")
+        cells = standard_gains(read.tables, motor, ratio)
+        if cells is not None:
+            notes.append(
+                f"Standard Motor Table Values is Yes: {shown(cells[0], digits=6)} and {shown(cells[1], digits=6)} of Tables 7.B and 7.C replace"
+                " the velocity loop gains of the file (7-6)."
+            )
+            return cells
+        notes.append(
+            "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its tables (7-6), where this motor is not"
+            " printed; the gains of the file are simulated instead."
+        )
+    gains = read.number(PROPORTIONAL), read.number(INTEGRAL)
+    for name, gain in zip((PROPORTIONAL, INTEGRAL), gains, strict=True):
+        _demand(read, name, gain, 0.0 <= gain < math.inf, "must not be negative")
+    return gains
+
+
+def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
+    """Set discharge, limits, offset, filter and friction compensation; return the lag in s that the filter adds."""
+    p[samples.DISCHARGE] = read.number(DISCHARGE)
+    _demand(
+        read, DISCHARGE, p[samples.DISCHARGE], 1.0 <= p[samples.DISCHARGE] < math.inf, "must be 1 or more"
+    )
+    for name, place in ((LIMIT_POSITIVE, samples.LIMIT_POSITIVE), (LIMIT_NEGATIVE, samples.LIMIT_NEGATIVE)):
+        p[place] = read.number(name)
+        _demand(read, name, p[place], 0.0 <= p[place] < math.inf, "must not be negative")
+    offset = read.optional(OFFSET) or 0.0
+    if offset:
+        sign = 1.0 if read.value(OFFSET_DIRECTION) == "plus" else -1.0
+        p[samples.OFFSET] = sign * offset * _peak(read) / 100.0
+        notes.append(notes_of.OFFSET.format(shown(p[samples.OFFSET])))
+    for name, place in FRICTION.items():
+        p[place] = read.optional(name) or 0.0
+        _demand(read, name, p[place], 0.0 <= p[place] < math.inf, "must not be negative")
+    if any(p[place] for place in FRICTION.values()):
+        notes.append(notes_of.FRICTION)
+    cutoff = read.optional(FILTER)
+    p[samples.FILTER] = 1.0
+    if cutoff is None or cutoff >= FILTER_OFF:
+        return 0.0
+    _demand(read, FILTER, cutoff, cutoff > 0.0, "must be above 0")
+    p[samples.FILTER] = -math.expm1(-2.0 * math.pi * cutoff * p[samples.PERIOD])
+    notes.append(notes_of.FILTER)
+    return 1.0 / (2.0 * math.pi * cutoff)
+
+
+def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: list[str]) -> None:
+    """Say it where the rapid feedrate needs more than Maximum Motor Speed (7-74)."""
+    most, rapid = read.optional(MOTOR_SPEED), common["feedrate"]
+    if most is None or rapid is None or rapid * 60.0 / travel <= most:
+        return
+    notes.append(
+        f"The rapid feedrate needs {shown(rapid * 60.0 / travel, 'rpm')} of the motor, more than Maximum Motor Speed {shown(most, 'rpm')} (7-74);"
+        " the simulation does not limit the speed."
+    )
+
+
+def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
+    """Return an axis whose drive takes a voltage as velocity command (7-41 to 7-43)."""
+    feedback, loop, p, notes, common = parts.feedback, parts.loop, parts.p, parts.notes, parts.common
+    rapid = common["feedrate"]
+    if rapid is None:
+        raise SimulationError(
+            f"{RAPID} is not set for axis {read.axis}. An analog servo is scaled by it (7-41): set a value",
+            RAPID,
+        )
+    positive, negative = _volts(read, VOLTS_POSITIVE, 1.0), _volts(read, VOLTS_NEGATIVE, -1.0)
+    p[samples.VOLTS_POSITIVE], p[samples.VOLTS_NEGATIVE] = positive / rapid, negative / rapid
+    p[samples.VOLTS_LIMIT] = VOLTS
+    peak = _peak(read)
+    acceleration, why = _analog_acceleration(read, parts.unit, feedback, peak)
+    notes.append(notes_of.ANALOG)
+    machine = Machine(
+        acceleration_per_output=acceleration,
+        velocity_per_output=rapid / positive,
+        velocity_bandwidth=DRIVE_RATIO * loop.rate / (2.0 * math.pi),
+        output_limit=VOLTS,
+        torque_limit_positive=peak,
+        torque_limit_negative=peak,
+        position_count=feedback.position_count,
+        load_sensor=feedback.on_load,
+    )
+    assumed = {
+        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as the position loop, the upper bound of 7-54."
+    }
+    if why:
+        assumed["acceleration_per_output"] = why
+    else:
+        notes.append(
+            "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of RMS (7-60) converts it to rated torque"
+            " and is the torque limit."
+        )
+    return AxisLaw(
+        **common,
+        title="9/PC axis: position loop, voltage to a drive that closes the velocity loop",
+        position_sample=samples.analog_sample,
+        velocity_sample=None,
+        parameters=p,
+        state_size=samples.STATE_SIZE,
+        velocity_period=common["servo_period"],
+        machine=machine,
+        output_unit="V",
+        assumptions=tuple(notes),
+        assumed=assumed,
+    )
+
+
+def _analog_acceleration(
+    read: AxisParameters, unit: str, feedback: Feedback, peak: float
+) -> tuple[float, str]:
+    """Return u/s2 for 1 % of rated torque and why it is assumed ("" where the file has it).
+
+    The printed range and default of Maximum Servo Acceleration are in mm and inches (7-67, 37-3), so a rotary axis takes nothing from it.
+    """
+    if unit == "mm":
+        most = read.number(MAX_ACCELERATION)
+        _demand(read, MAX_ACCELERATION, most, 0.0 < most < math.inf, "must be above 0")
+        return most / peak, ""
+    why = (
+        "Maximum Servo Acceleration is printed in mm and inches only (7-67) and not taken for a rotary axis:"
+        f" {NOMINAL:.0f} rad/s2 of the motor at rated torque, one turn of it for one of the table."
+    )
+    return acceleration_for(NOMINAL, feedback.turn), why
+
+
+def _volts(read: AxisParameters, name: str, sign: float) -> float:
+    """Return the size of a voltage at rapid (7-41, 7-43), ``sign`` that of its direction."""
+    volts = read.number(name) * sign
+    side = "above 0" if sign > 0.0 else "below 0"
+    _demand(read, name, volts * sign, 0.0 < volts <= VOLTS, f"must be {side} and 10 V at most")
+    return volts
+
+
+def _peak(read: AxisParameters) -> float:
+    choice = read.choice(PEAK)
+    digits = choice.lstrip("p")
+    if not digits.isdigit() or int(digits) == 0:
+        raise SimulationError(f"{PEAK} of axis {read.axis} is '{choice}', not a percentage", PEAK)
+    return float(digits)
+
+
+def _demand(read: AxisParameters, name: str, value: float, good: bool, what: str) -> None:
+    if not good:
+        raise SimulationError(f"{name}@{read.axis} is {value:g}; it {what}", name)
+
+
+def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> AxisLaw:
+    """Return an axis with a third-party SERCOS drive: as far as the file goes, with the gain of most machines (7-2, 7-25)."""
+    own = read.optional(OWN_GAIN)
+    gain = USUAL_GAIN if own is None else own
+    _demand(read, OWN_GAIN, gain, 0.0 < gain < math.inf, "must be above 0")
+    loop = Loop(gain, math.inf, 1.0, 0.0)
+    p = [0.0] * samples.SIZE
+    p[samples.GAIN], p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.rate, math.inf, 1.0
+    p[samples.EXCESS] = p[samples.SUPPRESSION] = p[samples.VOLTS_LIMIT] = math.inf
+    p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
+    turn = 360.0 if unit == "deg" else read.optional("servo.lead_screw_pitch") or 10.0
+    why = f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set {OWN_GAIN}."
+    assumed = {
+        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as the position loop, the upper bound of 7-54.",
+        "acceleration_per_output": f"Nothing of motor and load is in the file: {NOMINAL:.0f} rad/s2 at rated torque.",
+    }
+    return AxisLaw(
+        **common,
+        title="9/PC axis: third-party SERCOS drive, its loops assumed",
+        position_sample=samples.analog_sample,
+        velocity_sample=None,
+        parameters=p,
+        state_size=samples.STATE_SIZE,
+        velocity_period=common["servo_period"],
+        position_rate=loop.rate,
+        predict=lambda feedrate: predictions(loop, unit, feedrate),
+        monitors=[(name, of.replace("u", unit, 1)) for name, of in samples.MONITORS],
+        machine=Machine(
+            acceleration_per_output=acceleration_for(NOMINAL, turn),
+            velocity_per_output=1.0,
+            velocity_bandwidth=DRIVE_RATIO * loop.rate / (2.0 * math.pi),
+        ),
+        output_unit=f"{unit}/s",
+        assumptions=(notes_of.THIRD_PARTY, *((f"ASSUMED: {why}",) if own is None else ())),
+        assumed=assumed,
+    )

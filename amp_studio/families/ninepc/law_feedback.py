@@ -1,0 +1,87 @@
+"""Travel and counts of the 9/PC's measuring devices (7-33 to 7-53, B-2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+
+DEVICE, COUNTS, PITCH, PERIOD = (
+    "servo.position_feedback_type",
+    "servo.position_counts",
+    "servo.lead_screw_pitch",
+    "servo.dcm_small_period",
+)
+POSITION_TEETH = ("servo.position_gear_teeth", "servo.position_screw_teeth")
+VELOCITY_TEETH = ("servo.velocity_gear_teeth", "servo.velocity_screw_teeth")
+VELOCITY_COUNTS = "servo.velocity_counts"
+OWN_TRAVEL = "model.travel_per_turn"
+SCALES = ("aqb-no-marker", "aqb-one-marker", "dcm")
+"""Linear scales: they measure the load (7-32, B-1)."""
+
+
+@dataclass(frozen=True)
+class Feedback:
+    """Lengths in the unit u of the axis."""
+
+    turn: float
+    """u for a turn of the lead screw or table."""
+    motor_turn: float
+    """u for a turn of the motor."""
+    position_count: float
+    motor_count: float
+    on_load: bool
+    """Whether the position device is a scale at the load."""
+
+
+def feedback_of(read: AxisParameters, unit: str, *, digital: bool, notes: list[str]) -> Feedback:
+    """Return the devices of an axis; raises SimulationError where a parameter is not set or impossible."""
+    device = read.choice(DEVICE)
+    if device == "none":
+        raise SimulationError(f"Axis {read.axis} has no position feedback", DEVICE)
+    turn = _turn(read, unit, device, digital=digital, notes=notes)
+    counts = _above_zero(read, COUNTS)
+    if device == "dcm":
+        count = _above_zero(read, PERIOD) / counts
+    else:
+        gear, screw = (_above_zero(read, name) for name in POSITION_TEETH)
+        count = turn * gear / (counts * screw)
+        notes.append("One electrical cycle of the feedback device is taken as one turn: one marker (7-33).")
+    if not digital:
+        return Feedback(turn, turn, count, 0.0, device in SCALES)
+    gear, screw = (_teeth(read, name) for name in VELOCITY_TEETH)
+    motor_turn = turn * gear / screw
+    velocity_counts = read.optional(VELOCITY_COUNTS)
+    motor_count = motor_turn / velocity_counts if velocity_counts else 0.0
+    return Feedback(turn, motor_turn, count, motor_count, device in SCALES)
+
+
+def _turn(read: AxisParameters, unit: str, device: str, *, digital: bool, notes: list[str]) -> float:
+    own = read.optional(OWN_TRAVEL)
+    if own is not None:
+        if not own > 0.0:
+            raise SimulationError(f"{OWN_TRAVEL} is {own:g}; it must be above 0", OWN_TRAVEL)
+        return own
+    if unit == "deg":
+        notes.append(
+            "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the gears of this rotary"
+            f" axis is assumed to be 360 deg; set {OWN_TRAVEL} for another value."
+        )
+        return 360.0
+    if device == "dcm" and not digital and read.optional(PITCH) is None:
+        return _above_zero(read, PERIOD)  # nothing but the counts needs the pitch there (B-2)
+    return _above_zero(read, PITCH)
+
+
+def _above_zero(read: AxisParameters, name: str) -> float:
+    value = read.number(name)
+    if not value > 0.0:
+        raise SimulationError(f"{name}@{read.axis} is {value:g}; it must be above 0", name)
+    return value
+
+
+def _teeth(read: AxisParameters, name: str) -> float:
+    """Return the teeth of the gear of the motor's device; 1 : 1 where they are not set."""
+    value = read.optional(name)
+    return 1.0 if value is None else _above_zero(read, name)

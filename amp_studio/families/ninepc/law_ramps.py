@@ -1,0 +1,95 @@
+"""The 9/PC's ramps (chapter 10) as figures of `sim`."""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import Ramp
+from amp_studio.sim.rounding import shown
+
+DELAY, SCAN, SCANS = "accdec.programmed_delay", "timing.fine_foreground", "timing.scans_per_logic"
+UP, DOWN, STEP = "accdec.linear_acceleration", "accdec.linear_deceleration", "accdec.velocity_step"
+CURVE_UP, CURVE_DOWN, JERK = "accdec.scurve_acceleration", "accdec.scurve_deceleration", "accdec.jerk"
+MODE = "accdec.positioning_mode"
+SHORTEST, LONGEST = 2, 60
+"""Scans of an S-curve filter (10-19)."""
+
+
+def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ramp]:
+    """Return the ramps of an axis by kind, that of positioning (10-3) first.
+
+    0 as acceleration is no ramp, as deceleration the acceleration (10-8, 10-10, 10-11, 10-13). Raises SimulationError where a figure
+    that the ramp needs is not set or impossible.
+    """
+    step = _not_negative(read, STEP, 0.0)
+    up = _not_negative(read, UP)
+    down = _not_negative(read, DOWN)
+    found = {"linear": Ramp("linear", up, down or up, velocity_step=step)}
+    time, scan = _exponential(read, notes)
+    if time is not None:
+        found["exponential"] = Ramp("exponential", time=time)
+    curve = _curve(read, unit, scan, step, notes)
+    if curve is not None:
+        found["s-curve"] = curve
+    found["none"] = Ramp()
+    own = str(read.value(MODE, everywhere=True) or "linear")
+    if own not in found:
+        notes.append(
+            f"Positioning is exponential (10-3), but {DELAY} or the scan time is not set: linear ramps are used."
+        )
+        own = "linear"
+    return {own: found[own], **found}
+
+
+def jerk_bounds(ramp: float, scan: float) -> tuple[float, float]:
+    """Return the least and the greatest jerk in u/s3 for a ramp in u/s2 and a scan in s: ramp / time of 60 and of 2 scans (10-20)."""
+    return ramp / (LONGEST * scan), ramp / (SHORTEST * scan)
+
+
+def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, float | None]:
+    """Return (time constant, system scan time) in s; None where they are not set (10-14, 10-17)."""
+    delay, fine = read.optional(DELAY, everywhere=True), read.optional(SCAN, everywhere=True)
+    scans = read.optional(SCANS, everywhere=True)
+    if fine is None:
+        return None, None
+    scan = fine * (1.0 if scans is None else scans)
+    if not (math.isfinite(scan) and scan > 0.0):
+        raise SimulationError(f"{SCAN} times {SCANS} is {scan:g} ms; it must be above 0", SCAN)
+    if delay is None:
+        return None, scan / 1000.0
+    if not delay > 0.0:
+        raise SimulationError(f"{DELAY} is {delay:g}; it must be above 0", DELAY)
+    notes.append(
+        "One coarse iteration of Programmed Delay Constant (10-17) is assumed to be Fine Foreground Scan Time"
+        f" times Fine Scans per Logic Scan (33-19), {scan:g} ms."
+    )
+    return delay * scan / 1000.0, scan / 1000.0
+
+
+def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, notes: list[str]) -> Ramp | None:
+    """Return the S-curve: its time is ramp / jerk, between 2 and 60 scans (10-19 to 10-22); None where it is not set."""
+    up, down = read.optional(CURVE_UP), read.optional(CURVE_DOWN)
+    jerk = read.optional(JERK)
+    if up is None or jerk is None or not (up > 0.0 and jerk > 0.0):
+        return None
+    if scan is not None:
+        low, high = jerk_bounds(up, scan)
+        used = min(max(jerk, low), high)
+        if used != jerk:
+            notes.append(
+                f"Axis Jerk {shown(jerk)} {unit}/s3 gives an S-curve of {shown(up / jerk, 's', 3)}, outside of 2 to 60 scans (10-19): the S-curve"
+                f" is simulated with {shown(used)} {unit}/s3."
+            )
+            jerk = used
+    return Ramp("s-curve", up, down or up, jerk=jerk, velocity_step=step)
+
+
+def _not_negative(read: AxisParameters, name: str, missing: float | None = None) -> float:
+    value = read.optional(name) if missing is not None else read.number(name)
+    if value is None:
+        return missing or 0.0
+    if not 0.0 <= value < math.inf:
+        raise SimulationError(f"{name}@{read.axis} is {value:g}; it must not be negative", name)
+    return value

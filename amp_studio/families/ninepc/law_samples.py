@@ -1,0 +1,205 @@
+"""The 9/PC's loops as sample functions over flat arrays: position loop, velocity loop, analog output.
+
+Pages are those of the 9/PC AMP manual. Where it is silent the choice is said here and in the assumptions of every result
+(`law_notes.py`). Lengths are in the unit u of the axis (mm or deg), times in s, torque in % of rated torque. The functions run as
+plain Python and as machine code: flat arrays, indices below.
+"""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.sim.arrays import Vector
+from amp_studio.sim.signals import (
+    COMMAND,
+    COMMAND_VELOCITY,
+    FEED_SHARE,
+    MODE,
+    MONITOR,
+    MOTOR,
+    OUTPUT,
+    OUTPUT_TEST,
+    POSITION,
+    POSITION_LOOP,
+    STOP,
+)
+
+# -- parameters ------------------------------------------------------------------------------------
+GAIN, BREAK_POINT, BREAK_RATIO, FEED_FORWARD, OPEN = 0, 1, 2, 3, 4
+"""1/s; u; share; share of the command velocity; 1 for an open position loop."""
+EXCESS, SUPPRESSION = 5, 6
+"""u: Excess Error and Feedrate Suppression Point."""
+REVERSAL, FIRST = 7, 8
+"""u, without sign; the direction (1 or -1) that the control takes the axis to have come from."""
+COUNT, THRESHOLD, STICTION, FRICTION_POSITIVE, FRICTION_NEGATIVE = 9, 10, 11, 12, 13
+"""u for one count of the position device; counts; %; %; %."""
+PROPORTIONAL, INTEGRAL, DISCHARGE = 14, 15, 16
+"""% for 1 u/s of velocity error; % for 1 u/s of the sum of velocity errors; a multiple."""
+LIMIT_POSITIVE, LIMIT_NEGATIVE = 17, 18
+"""% in the positive and in the negative direction of travel."""
+OFFSET, FILTER = 19, 20
+"""% with its sign; share of a change that passes the torque filter in one sample (1: off)."""
+PERIOD = 21
+"""s between two velocity samples."""
+VOLTS_POSITIVE, VOLTS_NEGATIVE, VOLTS_LIMIT = 22, 23, 24
+"""V for 1 u/s in each direction; V."""
+DESKEW, SKEW_LIMIT, MASTER_SAMPLES = 25, 26, 27
+"""1/u: change of the slave's gain by the skew; u; number of following errors of the master, from MASTER on."""
+CUTTING, TORQUE_UNIT = 28, 29
+"""Not used by the loops: u/s of Maximum Cutting Feedrate; PROPORTIONAL for a gain of 1."""
+MASTER = 30
+SIZE = 30
+
+# -- state -----------------------------------------------------------------------------------------
+CAME_FROM, SHIFT = 0, 1
+"""Direction of the last motion commanded (0 at the start); u that reversal error compensation adds to the command."""
+VELOCITY_COMMAND, FRICTION, ABOVE = 2, 3, 4
+"""u/s; %; 1 while the following error is at or above the threshold for friction compensation."""
+LAST_MOTOR, ERROR_SUM, FILTERED, SAMPLE = 5, 6, 7, 8
+"""u; u/s; %; number of servo samples so far."""
+STATE_SIZE = 9
+
+# -- alarms and monitors ---------------------------------------------------------------------------
+EXCESS_ERROR_ALARM, EXCESS_SKEW_ALARM = 1.0, 2.0
+MONITORS = (
+    ("velocity_command", "u/s"),
+    ("velocity_error", "u/s"),
+    ("integral_torque", "%"),
+    ("control_following_error", "u"),
+    ("skew", "u"),
+    ("feed_share", ""),
+)
+
+
+def position_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """Close the position loop of a digital servo and set its friction compensation, once a servo period."""
+    s[VELOCITY_COMMAND] = position_loop(p, s, io)
+    io[MONITOR], io[MONITOR + 5] = s[VELOCITY_COMMAND], io[FEED_SHARE]
+    s[FRICTION] = friction_compensation(p, s, io[MONITOR + 3], io[COMMAND_VELOCITY])
+
+
+def analog_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """Close the position loop of an analog servo: its output is a voltage in proportion to the velocity (7-41, 7-43)."""
+    if io[MODE] == OUTPUT_TEST:
+        volts = io[COMMAND]
+    else:
+        velocity = position_loop(p, s, io)
+        io[MONITOR], io[MONITOR + 5] = velocity, io[FEED_SHARE]
+        volts = velocity * (p[VOLTS_POSITIVE] if velocity > 0.0 else p[VOLTS_NEGATIVE])
+    io[OUTPUT] = min(max(volts, -p[VOLTS_LIMIT]), p[VOLTS_LIMIT])
+
+
+def position_loop(p: Vector, s: Vector, io: Vector) -> float:
+    """Return the velocity command in u/s; checks the limits of the following error.
+
+    Closed loop: in proportion to the following error (7-14, 7-25); the part beyond the gain break point counts only gain
+    break ratio times (7-22, 7-27). ZFE: a share of the command velocity is added (7-15, 7-28). Open loop: the command
+    velocity itself (7-13); nothing is checked.
+    """
+    if io[MODE] != POSITION_LOOP or p[OPEN] > 0.0:
+        io[FEED_SHARE] = 1.0
+        return io[COMMAND_VELOCITY]
+    reversal_error(p, s, io[COMMAND_VELOCITY])
+    error = io[COMMAND] + s[SHIFT] - io[POSITION]
+    io[MONITOR + 3] = error
+    size = abs(error)
+    if size > p[EXCESS]:
+        io[STOP] = EXCESS_ERROR_ALARM
+    io[FEED_SHARE] = 0.5 if size > p[SUPPRESSION] else 1.0
+    gain = p[GAIN] * slave_gain(p, s, io, error)
+    if size > p[BREAK_POINT]:
+        size = p[BREAK_POINT] + p[BREAK_RATIO] * (size - p[BREAK_POINT])
+    return math.copysign(gain * size, error) + p[FEED_FORWARD] * io[COMMAND_VELOCITY]
+
+
+def reversal_error(p: Vector, s: Vector, velocity: float) -> None:
+    """Add Reversal Error Compensation at the beginning of a motion in the other direction (7-18).
+
+    A negative value is added to the first motion in the positive direction, a positive one to the first in the negative direction.
+    """
+    if p[REVERSAL] == 0.0 or velocity == 0.0:
+        return
+    direction = 1.0 if velocity > 0.0 else -1.0
+    before = s[CAME_FROM]
+    if before == 0.0:
+        before = p[FIRST]
+    if direction != before:
+        s[SHIFT] += direction * p[REVERSAL]
+    s[CAME_FROM] = direction
+
+
+def slave_gain(p: Vector, s: Vector, io: Vector, error: float) -> float:
+    """Return the factor of the gain of the slave of a split axis, 1 for any other axis (32-9); checks the skew (32-10).
+
+    The factor is 1 + Deskew Gain x skew, the skew counted positive where the slave is further behind: the manual prints that the
+    gain changes in proportion to the skew, and no unit.
+    """
+    samples = int(p[MASTER_SAMPLES])
+    if samples == 0:
+        return 1.0
+    k = int(s[SAMPLE])
+    s[SAMPLE] += 1.0
+    master = p[MASTER + min(k, samples - 1)]
+    skew = error - master
+    io[MONITOR + 4] = skew
+    if abs(skew) > p[SKEW_LIMIT]:
+        io[STOP] = EXCESS_SKEW_ALARM
+    return max(0.0, 1.0 + p[DESKEW] * (skew if error > 0.0 else -skew))
+
+
+def friction_compensation(p: Vector, s: Vector, error: float, velocity: float) -> float:
+    """Return the torque added against friction in this servo period, in % (7-84 to 7-89).
+
+    Nothing below the threshold of following error, the friction of the direction from it on, and stiction on top in the one
+    sample that reaches it. The direction is that of the motion commanded, at rest that of the following error.
+    """
+    direction = velocity if velocity != 0.0 else error
+    if abs(error) < p[THRESHOLD] * p[COUNT] * (1.0 - 1e-9) or direction == 0.0:
+        s[ABOVE] = 0.0
+        return 0.0
+    size = p[FRICTION_POSITIVE] if direction > 0.0 else p[FRICTION_NEGATIVE]
+    if s[ABOVE] == 0.0:
+        size += p[STICTION]
+    s[ABOVE] = 1.0
+    return size if direction > 0.0 else -size
+
+
+def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """Close the velocity loop of a digital servo, once a velocity period (7-54 to 7-69).
+
+    Velocity error times Velocity Proportional Gain and the sum of velocity errors times Velocity Integral Gain are added (7-54, 7-56);
+    torque offset (7-63) and friction compensation come on top, then the torque filter (7-69) and the limit of the
+    direction of travel (7-61, 7-62).
+    """
+    velocity = (io[MOTOR] - s[LAST_MOTOR]) / p[PERIOD]
+    s[LAST_MOTOR] = io[MOTOR]
+    limit = travel_limit(p, velocity, s[VELOCITY_COMMAND])
+    if io[MODE] == OUTPUT_TEST:
+        io[OUTPUT] = min(max(io[COMMAND], -limit), limit)
+        return
+    error = s[VELOCITY_COMMAND] - velocity
+    total = summed(s[ERROR_SUM], error, p[DISCHARGE])
+    proportional, added = p[PROPORTIONAL] * error, p[OFFSET] + s[FRICTION]
+    wanted = proportional + p[INTEGRAL] * total + added
+    if abs(wanted) <= limit or wanted * error < 0.0:
+        s[ERROR_SUM] = total
+    s[FILTERED] += p[FILTER] * (proportional + p[INTEGRAL] * s[ERROR_SUM] + added - s[FILTERED])
+    io[OUTPUT] = min(max(s[FILTERED], -limit), limit)
+    io[MONITOR + 1], io[MONITOR + 2] = error, p[INTEGRAL] * s[ERROR_SUM]
+
+
+def summed(total: float, error: float, discharge: float) -> float:
+    """Return the sum of velocity errors with one more: what takes it down counts VE Integrator Discharge Rate times (7-58)."""
+    if total * error >= 0.0:
+        return total + error
+    after = total + discharge * error
+    return after if after * total >= 0.0 else after / discharge
+
+
+def travel_limit(p: Vector, velocity: float, command: float) -> float:
+    """Return the torque limit in %: that of the direction of travel, in which it accelerates and decelerates (7-61, 7-62).
+
+    At rest the direction is the commanded one.
+    """
+    direction = velocity if velocity != 0.0 else command
+    return p[LIMIT_POSITIVE] if direction >= 0.0 else p[LIMIT_NEGATIVE]

@@ -1,0 +1,112 @@
+"""The unit of the velocity gains: an inference, and the evidence of the manual for it (7-54 to 7-57)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from amp_studio.families.ninepc import law_units as units
+from amp_studio.schema import load_schema
+from amp_studio.sim.motion import Until, run_axis
+from amp_studio.sim.profiles import POLYNOMIAL
+
+from .conftest import Axis
+
+TABLES = load_schema("9pc").tables
+MOTORS = ["b410g", "b420e", "b430e", "b515e", "b520e", "b520f", "b530e"]
+"""Motors of both tables, without the 7xx."""
+
+
+def test_65536_is_1_per_ms_in_the_three_printed_bounds() -> None:
+    # Pages 7-54, 7-56; in inverse ms the position gain is 60 / gain (7-25).
+    assert [units.FULL / bound for bound in (3277.0, 10923.0, 1092.0)] == pytest.approx(
+        [20.0, 6.0, 60.0], rel=3e-4
+    )
+
+
+def test_the_bounds_are_about_an_axis_of_1000_rad_a_second_squared() -> None:
+    # On it the velocity loop is 3 to 10 times as fast as the position loop at every gain.
+    for gain in (0.5, 1.0, 2.0):
+        position = gain * 1000.0 / 60.0
+        loops = [units.loop_rate(bound * gain, units.NOMINAL) / position for bound in (3277.0, 10923.0)]
+        assert loops == pytest.approx([3.0, 10.0], rel=3e-4)
+
+
+def test_both_upper_bounds_together_are_a_damping_of_0_65_at_gain_1() -> None:
+    rate, integral_time = units.loop_rate(10923.0, units.NOMINAL), 10923.0 / 1092.0 * units.VELOCITY_PERIOD
+    assert 0.5 * math.sqrt(rate * integral_time) == pytest.approx(0.645, abs=0.001)
+
+
+@pytest.mark.parametrize("motor", MOTORS)
+def test_the_table_gives_the_same_loop_at_every_inertia_ratio(motor: str) -> None:
+    # Pages 7-55, 7-56: gain is torque for velocity error, the inertia is that of the axis. One cell of 36 is 0.09 % off.
+    loops = []
+    for ratio in range(4):
+        cells = units.standard_gains(TABLES, motor, ratio)
+        assert cells is not None
+        inertia = units.inertia_of(motor, ratio, TABLES).acceleration
+        loops.append([units.loop_rate(cell, inertia) for cell in cells])
+    for loop in loops:
+        assert loop == pytest.approx(loops[0], rel=1e-3)
+
+
+def test_the_table_gives_the_same_motion_at_every_inertia_ratio(axis: Axis) -> None:
+    # A rigid load, and a step of the velocity command in the velocity loop alone.
+    def velocity(ratio: int) -> np.ndarray:
+        law = axis(
+            {"servo.standard_motor_values": True, "servo.load_inertia_ratio": f"r{ratio}"}, motor_count=0.0
+        )
+        step = [0.0, math.inf, 0.0, 1.0, 0.0, 0.0, POLYNOMIAL, 0.0]
+        return run_axis(law, step, Until(0.06), mode=1.0, engine="plain", thin=True).columns["velocity"]
+
+    alone = velocity(0)
+    assert alone.max() > 1.0
+    for ratio in (1, 2, 3):
+        assert np.abs(velocity(ratio) - alone).max() < 1e-12
+
+
+def test_the_gains_of_a_motor_keep_their_ratio_but_for_the_7xx() -> None:
+    # Where the tool says that its results are rough.
+    ratios = {}
+    for motor in [*MOTORS, "b720e", "b730e"]:
+        cells = units.standard_gains(TABLES, motor, 0)
+        assert cells is not None
+        ratios[motor] = cells[0] / cells[1]
+    assert all(14.0 < ratio < 25.1 for motor, ratio in ratios.items() if motor in MOTORS)
+    assert min(ratios["b720e"], ratios["b730e"]) >= 120.0
+
+
+def test_with_the_default_torque_filter_the_tables_are_stable_at_rated_torque_and_not_at_twice_it() -> None:
+    # Gain margin of the 420, whose data are known; 200 Hz is the filter as delivered (37-3).
+    cells = units.standard_gains(TABLES, "b420e", 0)
+    assert cells is not None
+    lag = units.LAG + 1.0 / (2.0 * math.pi * 200.0)
+    highest = units.highest_rate(lag, cells[0] / cells[1] * units.VELOCITY_PERIOD)
+    loop = units.loop_rate(cells[0], units.frame_acceleration("b420"))
+    assert 1.5 < highest / loop < 2.0
+
+
+def test_the_lag_of_the_loop_is_three_to_five_samples() -> None:
+    assert 3.0 < units.LAG / units.VELOCITY_PERIOD < 5.0
+
+
+def test_no_proportional_gain_is_stable_where_the_integral_time_is_shorter_than_the_lag() -> None:
+    # Page A-10.
+    assert units.highest_rate(integral_time=units.LAG) == 0.0
+    assert units.highest_rate(integral_time=1.5 * units.LAG) > 0.0
+    assert units.highest_rate() == pytest.approx(0.5 * math.pi / units.LAG)
+
+
+def test_an_axis_says_where_its_inertia_is_from(axis: Axis) -> None:
+    known, other = axis(), axis({"servo.motor_type": "b530e", "servo.load_inertia_ratio": "r2"})
+    unknown = axis({"servo.motor_type": "nonstandard"})
+    assert "data sheet" in known.assumed["acceleration_per_output"]
+    assert "no data of a 1326AB-B530E" in other.assumed["acceleration_per_output"]
+    assert "1000 rad/s2" in unknown.assumed["acceleration_per_output"]
+    # 2.7 N m on 0.004 lb in s2, 10 mm for a turn.
+    assert known.machine.acceleration_per_output == pytest.approx(
+        5974.3 * 10.0 / (2.0 * math.pi) / 100.0, rel=1e-4
+    )
+    assert unknown.machine.acceleration_per_output == pytest.approx(15.915, rel=1e-4)
