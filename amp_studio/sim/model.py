@@ -34,6 +34,11 @@ _FIGURES: dict[str, tuple[str, float, str]] = {
         1.0,
         "bandwidth of the velocity loop in the drive (Hz)",
     ),
+    "model.velocity_integral": (
+        "velocity_integral",
+        1.0,
+        "reciprocal of the integral time of the velocity loop in the drive (1/s); 0 for none",
+    ),
     "model.delay": ("delay", 1e-3, "time from a sample to its effect on the drive (ms)"),
 }
 """Setting -> figure of the machine, factor to it, what it is; {torque} is the unit of the torque."""
@@ -51,9 +56,10 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
         value = read.optional(name)
         if value is not None:
             changes[figure] = value * factor
-    if "velocity_bandwidth" in changes and axis.machine.velocity_per_output == 0.0:
-        name = "model.velocity_bandwidth"
-        raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
+    for own in ("velocity_bandwidth", "velocity_integral"):
+        if own in changes and axis.machine.velocity_per_output == 0.0:
+            name = f"model.{own}"
+            raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
     assumed = {figure: why for figure, why in axis.assumed.items() if figure not in changes}
     machine = replace(axis.machine, **changes)  # type: ignore[arg-type]  # none of them is the flag
     return replace(axis, machine=machine, assumed=assumed)

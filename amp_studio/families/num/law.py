@@ -29,7 +29,8 @@ SETTINGS = {
     FILTER: "1 where E11012 has the filter of P55 work, 0 where not; 1 unless set",
 }
 
-BANDWIDTH, TORQUE_LIMIT = 50.0, 200.0
+BANDWIDTH, INTEGRAL, TORQUE_LIMIT = 50.0, 60.0, 200.0
+"""Hz, 1/s, % of rated torque: the assumed drive."""
 
 
 def axes(file: ParameterFile) -> tuple[str, ...]:
@@ -138,6 +139,7 @@ def _machine(read: AxisParameters, words: Words) -> tuple[Machine, dict[str, str
         acceleration_per_output=read.number("servo.acceleration_fast") / 100.0,
         velocity_per_output=words.top / words.voltage,
         velocity_bandwidth=BANDWIDTH,
+        velocity_integral=INTEGRAL,
         output_limit=10.0,
         torque_limit_positive=TORQUE_LIMIT,
         torque_limit_negative=TORQUE_LIMIT,

@@ -31,10 +31,8 @@ from .formulas import (
 
 STANDARD_BLU = 0.001
 """mm or deg (1.2.6)."""
-DRIVE_SAMPLES = 8
-"""Samples of the drive in one interpolation time; an assumption."""
-BANDWIDTH, TORQUE_LIMIT = 50.0, 200.0
-"""Hz and % of rated torque; assumptions."""
+BANDWIDTH, INTEGRAL, TORQUE_LIMIT = 50.0, 60.0, 200.0
+"""Hz, 1/s, % of rated torque: the assumed drive."""
 
 _NEEDED = (
     "axis.type",
@@ -90,7 +88,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     except ValueError as error:  # of a formula
         raise SimulationError(f"Axis {read.axis}: {error}") from None
     acceleration = _acceleration(read, axis, notes)
-    parameters = _parameters(read, axis)
+    parameters = _parameters(axis)
     linear = list(parameters)
     linear[sample.WHOLE] = 0.0
     linear[sample.MOST_PULSES] = linear[sample.LIMIT] = linear[sample.FATAL_LIMIT] = math.inf
@@ -100,11 +98,11 @@ def bind(read: AxisParameters) -> AxisLaw:
         unit=axis.unit,
         title="Syntec: whole pulses in every interpolation time, position loop with loop gain, velocity drive",
         position_sample=sample.position_sample,
-        velocity_sample=sample.velocity_sample,
+        velocity_sample=None,
         parameters=parameters,
         state_size=sample.STATES,
-        servo_period=axis.period,
-        velocity_period=axis.period / DRIVE_SAMPLES,
+        servo_period=axis.period / sample.PARTS,
+        velocity_period=axis.period / sample.PARTS,
         machine=_machine(axis, acceleration),
         output_unit=f"{axis.unit}/min",
         position_rate=axis.gain,
@@ -240,25 +238,23 @@ def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
     return axis.rapid / (own / 1000.0)
 
 
-def _parameters(read: AxisParameters, axis: _Axis) -> list[float]:
+def _parameters(axis: _Axis) -> list[float]:
     p = [0.0] * sample.PARAMETERS
     p[sample.PULSE], p[sample.GAIN], p[sample.MOST_PULSES] = axis.pulse, axis.gain, axis.most_pulses
     p[sample.LIMIT], p[sample.FATAL_LIMIT] = axis.limits
-    p[sample.PARTS], p[sample.WHOLE] = float(DRIVE_SAMPLES), 1.0
-    p[sample.BY_SCALE] = float(axis.encoder == "linear" and read.value("axis.servo_mode") == "voltage")
+    p[sample.WHOLE] = 1.0
     return p
 
 
 def _machine(axis: _Axis, acceleration: float) -> Machine:
-    counted = axis.encoder != "none"
     return Machine(
         acceleration_per_output=acceleration / 100.0,
         velocity_per_output=1.0 / 60.0,
         velocity_bandwidth=BANDWIDTH,
+        velocity_integral=INTEGRAL,
         torque_limit_positive=TORQUE_LIMIT,
         torque_limit_negative=TORQUE_LIMIT,
-        motor_count=0.0 if axis.encoder == "linear" else axis.pulse,
-        position_count=axis.pulse if counted else 0.0,
+        position_count=axis.pulse,
         load_sensor=axis.encoder == "linear",
     )
 
@@ -287,7 +283,7 @@ ALWAYS = (
     ),
     (
         "Following error = speed / loop gain (1.5.3): the loop is proportional. ASSUMED: it is closed 8 times in one interpolation"
-        " time, by the drive (pulse modes) or by the card (voltage mode)."
+        " time, by drive or card, over the device that the control reads; a drive over its own where there is none."
     ),
     "The run ends at the first alarm, so MOT-023 follows MOT-019 only where one interpolation time passes both limits.",
     (
@@ -299,7 +295,8 @@ ALWAYS = (
 ASSUMED: Mapping[str, str] = {
     "acceleration_per_output": "The file says nothing of inertia and torque: 100 % of rated torque is taken to give the ramp of"
     " the axis, and the drive to end at 200 %.",
-    "velocity_bandwidth": "The drive is not in the file: the bandwidth of its velocity loop is taken.",
+    "velocity_bandwidth": "The drive is not in the file: the bandwidth of its velocity loop.",
+    "velocity_integral": "An integral part of that drive, without which friction and weight would leave a speed error.",
     "inertia_ratio": "Load and motor are one rigid mass unless model.resonance or model.backlash is set.",
 }
 

@@ -129,7 +129,7 @@ def test_speed_anticipation_leaves_the_rest_of_the_following_error(percent: floa
 def test_a_circle_of_50_mm_at_2_236_m_a_minute_is_50_um_too_small() -> None:
     # 6-32: 0.037 m/s and 60 ms. The equation is that of a loop without samples and of a drive without lag: both take
     # their share of the time constant away, here 2 ms and twice the 0.8 ms of 200 Hz
-    law = bound(model__velocity_bandwidth=200.0, misc__sampling_period=2.0)
+    law = bound(model__velocity_bandwidth=200.0, model__velocity_integral=0.0, misc__sampling_period=2.0)
     speed, radius = 2236.0 / 60.0, 50.0
     circle = [0.0, math.inf, 0.0, radius, speed / radius, 0.0, SINE, 0.0]
     motion = run_axis(law, circle, Until(2.6), engine="plain")
@@ -140,7 +140,9 @@ def test_a_circle_of_50_mm_at_2_236_m_a_minute_is_50_um_too_small() -> None:
 
 def test_an_axis_takes_the_approach_speed_with_the_acceleration_of_p32() -> None:
     # 6-36: 1000 mm/s² x 60 ms are 3600 mm/min: a step of that speed accelerates the axis by 1000 mm/s²
-    motion = moved(bound(model__velocity_bandwidth=1000.0), 3600.0 / 60.0, 0.1, "none")
+    motion = moved(
+        bound(model__velocity_bandwidth=1000.0, model__velocity_integral=0.0), 3600.0 / 60.0, 0.1, "none"
+    )
     speeds = motion.columns["velocity"][:: motion.rows_per_servo_period]
     assert float(np.diff(speeds).max()) / 0.005 == pytest.approx(1000.0, rel=0.01)
 
