@@ -46,7 +46,7 @@ def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
     settings: dict[str, float | str] = {}
     own = []
     for param, text in assignments(texts):
-        if param.partition(".")[0] not in ("move", "model"):
+        if param.partition(".")[0] not in ("move", "model", "tune", "gear", "cam"):
             own.append(f"{param}={text}")
             continue
         try:

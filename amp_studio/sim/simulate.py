@@ -28,19 +28,20 @@ def simulate(
     ``settings`` are settings of the scenario and of the model (``move.feedrate``), in canonical units.
     Raises SimulationError with the parameter that is missing or impossible.
     """
-    if scenario not in SCENARIOS:
-        raise SimulationError(unknown_name("scenario", scenario, SCENARIOS))
     given: Mapping[str, ParameterValue] = settings or {}
     family = file.schema.family.family
     own = {name: value for name, value in given.items() if not name.startswith("model.")}
     law = law_of(family)
-    if scenario not in law.scenarios:
+    if scenario not in {**SCENARIOS, **law.own}:
+        raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
+    if scenario not in (*law.scenarios, *law.own):
         raise SimulationError(
             f"{file.schema.family.name} has no scenario '{scenario}': {', '.join(law.scenarios)}"
         )
     model = {name: value for name, value in given.items() if name not in own}
     bound = bind_axis(file, law, axis, model)
-    trace = SCENARIOS[scenario].run(bound, own)
+    run = law.own[scenario] if scenario in law.own else SCENARIOS[scenario].run
+    trace = run(bound, own)
     return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
 
 
