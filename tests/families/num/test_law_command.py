@@ -1,0 +1,119 @@
+"""`simulate` on files of NUM and Syntec controls, from an empty file to a moving axis."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from amp_studio.cli import run
+
+NUM_WORDS = "P2N0=1 P3N0=1 P9N0=0x00 P4N2=3 P50N0=5000 P11N0=1 P11N1=2 P30N0=6000 P32N1=1000 P21N0=4915 P22N0=20 P23N0=6600"
+SYNTEC_VALUES = (
+    "Pr61=2500 Pr81=4 Pr201=0 Pr121=1 Pr122=1 Pr161=10000 Pr461=24000 servo.loop_gain@1=30 control.series=super"
+    " Pr3203=2000 Pr541=100"
+)
+
+
+def settings(words: str) -> list[str]:
+    return [part for word in words.split() for part in ("--set", word)]
+
+
+def new(tmp_path: Path, *family: str) -> str:
+    path = str(tmp_path / "new.amp")
+    assert run(["new", family[0], path, *family[1:]]) == 0
+    return path
+
+
+def simulated(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
+    capsys.readouterr()
+    assert run(["simulate", *arguments, "--json"]) == 0
+    told: dict[str, Any] = json.loads(capsys.readouterr().out)
+    return told
+
+
+def test_a_new_num_file_says_how_an_axis_is_declared(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["simulate", new(tmp_path, "num"), "step"]) == 2
+    assert "No axis is servo-controlled. Declare one in P2N0 and P3N0" in capsys.readouterr().err
+
+
+def test_a_new_num_file_says_in_one_sentence_what_its_axis_needs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = settings("P2N0=1 P3N0=1 P9N0=0x00 P4N2=3")
+    assert run(["simulate", new(tmp_path, "num"), "step", *words]) == 2
+    assert (
+        "needs values that are not set: misc.sampling_period, measure.multi@0, measure.divi@0, servo.max_speed@0,"
+        " servo.acceleration_fast@0, servo.loop_gain@0, servo.in_position_window@0, servo.max_following_error@0"
+    ) in capsys.readouterr().err
+
+
+def test_a_new_num_file_moves_with_the_words_of_the_manual(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = simulated(capsys, new(tmp_path, "num"), "step", "--axis", "X", *settings(NUM_WORDS))
+    assert told["axis"] == "0"
+    assert told["result"]["steady_following_error"]["value"] == pytest.approx(6.0, abs=0.002)
+    assert told["alarms"] == []
+    assert "P53N0 is not set: 0 is taken, the sin² ramps of older software (6-38)." in told["assumptions"]
+
+
+def test_words_and_model_of_a_num_axis_can_be_set_for_one_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = new(tmp_path, "num")
+    half = settings(NUM_WORDS.replace("P21N0=4915", "P21N0=9830"))
+    assert simulated(capsys, path, "step", *half)["result"]["steady_following_error"][
+        "value"
+    ] == pytest.approx(3.0, abs=0.002)
+    other = NUM_WORDS + " model.drive_voltage=4.5 model.velocity_bandwidth=80"
+    told = simulated(capsys, path, "step", *settings(other))
+    assert told["result"]["steady_following_error"]["value"] == pytest.approx(3.0, abs=0.002)
+    assert told["result"]["peak_output"]["value"] == pytest.approx(4.5, abs=0.002)
+    assert not any("model.velocity_bandwidth" in each for each in told["assumptions"])
+
+
+def test_a_model_setting_that_num_does_not_have_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = new(tmp_path, "num")
+    assert run(["simulate", path, "step", *settings(NUM_WORDS + " model.voltage=9")]) == 2
+    assert "model.voltage" in capsys.readouterr().err
+
+
+def test_the_sine_squared_ramp_of_p7n1_keeps_its_acceleration(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = new(tmp_path, "num")
+    sine = simulated(capsys, path, "step", *settings(NUM_WORDS + " P7N1=0x20"))
+    assert sine["result"]["steady_following_error"]["value"] == pytest.approx(6.0, abs=0.002)
+    assert sine["alarms"] == []
+
+
+def test_a_new_syntec_file_says_in_one_sentence_what_its_axis_needs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["simulate", new(tmp_path, "syntec", "--axes", "X,Z"), "step"]) == 2
+    told = capsys.readouterr().err
+    assert "The simulation of axis 1 needs values that are not set: resolution.encoder@1" in told
+    assert "control.series, dda.interpolation_time, motion.axis_acceleration@1" in told
+
+
+def test_a_new_syntec_file_moves_with_the_values_of_the_slides(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = new(tmp_path, "syntec", "--axes", "X,Z")
+    told = simulated(capsys, path, "step", *settings(SYNTEC_VALUES))
+    assert told["result"]["steady_following_error"]["value"] == pytest.approx(13.333, abs=0.003)
+
+
+def test_too_fast_a_syntec_axis_brings_mot_005(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = new(tmp_path, "syntec", "--axes", "X")
+    fast = settings(SYNTEC_VALUES.replace("Pr461=24000", "Pr461=62503"))
+    capsys.readouterr()
+    assert run(["simulate", path, "step", *fast, "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["alarms"][0]["code"] == "MOT-005"
