@@ -33,7 +33,7 @@ class AxisParameters:
         self.tables = tables or {}
         """The printed tables of the family by name."""
         self.machine, self.application = machine, application
-        """What the file is for, as its head says."""
+        """Machine type and application of the file."""
         self._used: set[str] = set()
 
     def given(self, parameter: str) -> bool:

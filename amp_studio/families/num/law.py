@@ -108,7 +108,7 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
 
 
 def _ramps(read: AxisParameters, notes: list[str]) -> dict[str, Ramp]:
-    """Return the ramps: in S (sin²) where bit 5 of P7N1 says so (9-6), else straight, with the fast acceleration of P32."""
+    """Return the ramps: in S (sin²) where bit 5 of P7N1 is set (9-6), else straight, with the fast acceleration of P32."""
     acceleration = read.number("servo.acceleration_fast")
     above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
     functions = read.optional("misc.functions_more", everywhere=True)

@@ -98,8 +98,8 @@ def _synchronised(read: AxisParameters, words: Words, notes: list[str]) -> tuple
     if leader in (None, "none") or not enabled:
         if leader not in (None, "none"):
             notes.append(
-                f"The axis copies the reference of {leader} (P27) without a correction (P28): a move is simulated as"
-                " one of its own (4-30)."
+                f"The axis copies the reference of {leader} (P27) without a correction (P28): a move is simulated without"
+                " its drive axis (4-30)."
             )
         return 0.0, 0.0, math.inf
     at = str(leader).removeprefix("axis-")

@@ -27,7 +27,7 @@ NOT_SIMULATED = (
 
 DRIVE = {
     "acceleration_per_output": (
-        "The file says nothing of inertia and torque: 100 % of rated torque is taken to give the fast acceleration of P32 (6-43"
+        "The file contains neither inertia nor torque: 100 % of rated torque is taken to give the fast acceleration of P32 (6-43"
         " takes it from the speed buildup of the axis), and the drive to end at 200 %."
     ),
     "velocity_bandwidth": (

@@ -86,7 +86,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
     above(constant, "servo.group_time_constant", "The time constant of P56 (or P66)")
     top, gain = read.number("servo.max_speed") / 60.0, read.number("servo.loop_gain")
     above(top, "servo.max_speed", f"Maximum Axis Traverse Rate (P30N{read.axis})")
-    above(gain, "servo.loop_gain", f"KVAR (P21N{read.axis}), which a DISC NT drive holds itself,")
+    above(gain, "servo.loop_gain", f"KVAR (P21N{read.axis}), which is in the drive with DISC NT,")
     voltage = read.optional(VOLTAGE)
     voltage = 9.0 if voltage is None else voltage
     if not 0.0 < voltage <= 10.0:
@@ -137,7 +137,7 @@ def above(figure: float, parameter: str, what: str) -> None:
 
 
 def _period(read: AxisParameters, notes: list[str]) -> float:
-    """Return the sampling period in force in s (9-10)."""
+    """Return the active sampling period in s (9-10)."""
     given = round(read.number("misc.sampling_period", everywhere=True) * 1000.0, 6)
     taken = sampling_period_in_force(given, read.application == UC_SII)
     if taken != given:
@@ -171,8 +171,7 @@ def _anticipation(read: AxisParameters, group: str | None, notes: list[str]) -> 
         " to 0 where it does not. With it the speed anticipation is 100 % (6-34)."
     )
     notes.append(
-        "ASSUMED: the filtered reference stands for the reference in the position loop as well. Page 6-26 speaks of the speed"
-        " reference; but the usual acceleration anticipation of 400 us (6-34) leaves no room for a delay of the one against"
-        " the other."
+        "ASSUMED: the position loop uses the filtered reference too. Page 6-26 names the speed reference only; but the usual"
+        " acceleration anticipation of 400 us (6-34) leaves no room for a delay of the one against the other."
     )
     return int(terms), 1.0

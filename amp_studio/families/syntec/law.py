@@ -293,7 +293,7 @@ ALWAYS = (
 )
 
 ASSUMED: Mapping[str, str] = {
-    "acceleration_per_output": "The file says nothing of inertia and torque: 100 % of rated torque is taken to give the ramp of"
+    "acceleration_per_output": "The file contains neither inertia nor torque: 100 % of rated torque is taken to give the ramp of"
     " the axis, and the drive to end at 200 %.",
     "velocity_bandwidth": "The drive is not in the file: the bandwidth of its velocity loop.",
     "velocity_integral": "An integral part of that drive, without which friction and weight would leave a speed error.",

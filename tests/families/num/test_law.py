@@ -191,7 +191,7 @@ def test_all_words_that_are_missing_are_named_in_one_sentence() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"servo__loop_gain_at_0": 0.0}, "KVAR (P21N0), which a DISC NT drive holds itself, is 0"),
+        ({"servo__loop_gain_at_0": 0.0}, "KVAR (P21N0), which is in the drive with DISC NT, is 0"),
         ({"servo__max_speed_at_0": 0.0}, "Maximum Axis Traverse Rate (P30N0) is 0"),
         ({"servo__group_time_constant_at_1": 0.0}, "The time constant of P56 (or P66) is 0"),
         ({"axes__assignment_at_0": 255.0}, "The time constant of P56 (or P66) is 0"),

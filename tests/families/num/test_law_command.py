@@ -85,15 +85,6 @@ def test_a_model_setting_that_num_does_not_have_is_refused(
     assert "model.voltage" in capsys.readouterr().err
 
 
-def test_the_sine_squared_ramp_of_p7n1_keeps_its_acceleration(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = new(tmp_path, "num")
-    sine = simulated(capsys, path, "step", *settings(NUM_WORDS + " P7N1=0x20"))
-    assert sine["result"]["steady_following_error"]["value"] == pytest.approx(6.0, abs=0.002)
-    assert sine["alarms"] == []
-
-
 def test_a_new_syntec_file_says_in_one_sentence_what_its_axis_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
