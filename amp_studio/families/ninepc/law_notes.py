@@ -37,7 +37,7 @@ GAINS = (
 )
 VELOCITY_LOOP = (
     "ASSUMED: the velocity loop takes a sample each millisecond, its velocity is the difference of two positions, and the sum stops at the torque"
-    " limit; the manual prints none of it."
+    " limit; the manual prints none of it (7-9 has the block diagram only)."
 )
 LIMITS = "Max % rated torque (+) and (-) limit the torque, accelerating and braking, in the positive and negative direction of travel (7-61, 7-62)."
 FILTER = "ASSUMED: the torque filter is of first order and acts on the whole torque command (7-69 prints its cutoff only)."
