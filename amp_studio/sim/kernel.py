@@ -157,7 +157,7 @@ def run(
         )
         io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
         position_sample(p, s, io)
-        if over(x, timing, profile, abs(io[COMMAND] - io[POSITION])):
+        if over(x, timing, profile, abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])):
             return row
         sampled, velocity = io[COMMAND], io[COMMAND_VELOCITY]
         feed(x, timing, io[FEED_SHARE])

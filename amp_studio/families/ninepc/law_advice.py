@@ -109,9 +109,10 @@ def _order(m: Move) -> Iterator[Recommendation]:
     why = f"Lower the feedrate suppression point together with the excess error: {limits}."
     yield from m.advise("feedrate_suppression", highest, m.axis.unit, why)
     point = m.axis.limits.get("gain break point", math.inf)
-    wanted = max(0.5 * m.feedrate / m.loop.rate, 2.0 * m.axis.inposition_band)
+    cutting = m.p[samples.CUTTING] or 0.5 * m.feedrate
+    wanted = max(cutting / m.loop.rate, 2.0 * m.axis.inposition_band)
     if highest <= point < math.inf and wanted < highest:
-        why = f"Lower the gain break point too, to the following error at half the feedrate: {limits}."
+        why = f"Lower the gain break point too, to the following error at the cutting feedrate: {limits}."
         yield from m.advise("gain_break_point", wanted, m.axis.unit, why)
 
 

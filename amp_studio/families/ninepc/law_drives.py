@@ -85,8 +85,6 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     p[samples.TORQUE_UNIT] = torque_for(1.0, travel)
     p[samples.PERIOD] = common["servo_period"] / max(1, round(common["servo_period"] / VELOCITY_PERIOD))
     lag = LAG + _torque(read, p, notes)
-    linear = list(p)
-    linear[samples.COUNT] = 0.0
     rate = 0.0 if p[samples.OPEN] else loop.rate
     notes += [notes_of.GAINS, notes_of.VELOCITY_LOOP, notes_of.LIMITS]
     notes += notes_of.gain_notes(proportional, integral, inertia.acceleration, rate, lag, motor)
@@ -94,6 +92,9 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     machine = Machine(
         acceleration_per_output=acceleration_for(inertia.acceleration, travel),
         inertia_ratio=float(ratio),
+        gravity=p[samples.OFFSET],
+        coulomb_friction=_dry(p),
+        static_friction=_dry(p) + p[samples.STICTION],
         bandwidth=CURRENT_LOOP,
         delay=DELAY,
         motor_count=feedback.motor_count,
@@ -106,13 +107,21 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         "bandwidth": "No current loop is printed; with the delay it ends appendix A as told (A-9, A-10).",
         "delay": "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10).",
     }
+    if p[samples.OFFSET]:
+        assumed["gravity"] = "The weight is taken as what Torque Offset Percentage balances (7-63)."
+    if _dry(p) + p[samples.STICTION]:
+        assumed["coulomb_friction"] = (
+            "The friction is taken as what friction compensation is set to (7-87 to 7-89)."
+        )
+        assumed["static_friction"] = "The same with Stiction Comp Torque Percent (7-87)."
     return AxisLaw(
         **common,
         title="9/PC axis: position loop, velocity loop of the 1394, torque to the motor",
         position_sample=samples.position_sample,
         velocity_sample=samples.velocity_sample,
         parameters=p,
-        linear_parameters=linear,
+        sweep_parameters=_without_faults(p),
+        linear_parameters=_linear(p),
         state_size=samples.STATE_SIZE,
         velocity_period=p[samples.PERIOD],
         machine=machine,
@@ -120,6 +129,23 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         assumptions=tuple(notes),
         assumed=assumed,
     )
+
+
+def _without_faults(p: list[float]) -> list[float]:
+    """Return the array without limits of the following error and without reversal error compensation."""
+    free = list(p)
+    free[samples.EXCESS] = free[samples.SUPPRESSION] = math.inf
+    free[samples.REVERSAL] = 0.0
+    return free
+
+
+def _linear(p: list[float]) -> list[float]:
+    """Return the array of the loop near rest: without limits, gain break, discharge rate, offset and friction compensation."""
+    linear = _without_faults(p)
+    linear[samples.BREAK_POINT] = linear[samples.LIMIT_POSITIVE] = linear[samples.LIMIT_NEGATIVE] = math.inf
+    linear[samples.VOLTS_LIMIT], linear[samples.DISCHARGE], linear[samples.OFFSET] = math.inf, 1.0, 0.0
+    linear[samples.STICTION] = linear[samples.FRICTION_POSITIVE] = linear[samples.FRICTION_NEGATIVE] = 0.0
+    return linear
 
 
 def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tuple[float, float]:
@@ -171,6 +197,11 @@ def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
     p[samples.FILTER] = -math.expm1(-2.0 * math.pi * cutoff * p[samples.PERIOD])
     notes.append(notes_of.FILTER)
     return 1.0 / (2.0 * math.pi * cutoff)
+
+
+def _dry(p: list[float]) -> float:
+    """Return the friction in % that friction compensation is set to, the mean of both directions."""
+    return 0.5 * (p[samples.FRICTION_POSITIVE] + p[samples.FRICTION_NEGATIVE])
 
 
 def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: list[str]) -> None:
@@ -225,6 +256,8 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
         position_sample=samples.analog_sample,
         velocity_sample=None,
         parameters=p,
+        sweep_parameters=_without_faults(p),
+        linear_parameters=_linear(p),
         state_size=samples.STATE_SIZE,
         velocity_period=common["servo_period"],
         machine=machine,

@@ -21,6 +21,7 @@ from amp_studio.sim.signals import (
     OUTPUT_TEST,
     POSITION,
     POSITION_LOOP,
+    REFERENCE_LAG,
     STOP,
 )
 
@@ -100,6 +101,7 @@ def position_loop(p: Vector, s: Vector, io: Vector) -> float:
         io[FEED_SHARE] = 1.0
         return io[COMMAND_VELOCITY]
     reversal_error(p, s, io[COMMAND_VELOCITY])
+    io[REFERENCE_LAG] = -s[SHIFT]
     error = io[COMMAND] + s[SHIFT] - io[POSITION]
     io[MONITOR + 3] = error
     size = abs(error)

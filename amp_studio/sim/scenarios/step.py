@@ -188,7 +188,9 @@ def _settled(axis: AxisLaw, motion: Motion, distance: float, end: float) -> tupl
     """Return (time in s from the start of the move, time in s from the end of the command) of reaching the position."""
     every = motion.rows_per_servo_period
     time = motion.columns["time_s"][::every]
-    off = np.abs(distance - motion.columns["measured_position"][::every])
+    # Where the control takes the axis to be: what it adds to the command for itself (REFERENCE_LAG) is no error.
+    taken = motion.columns["command_position"][::every] - motion.columns["following_error"][::every]
+    off = np.abs(distance - taken)
     outside = np.flatnonzero(off > max(axis.inposition_band, 1e-9 * abs(distance)))
     first = int(outside[-1]) + 1 if outside.size else 0
     if first >= time.size:
