@@ -26,10 +26,10 @@ _REMEMBERED = 20_000
 """Verdicts kept before all are forgotten: some megabytes."""
 
 
-class Verdicts(dict[Hashable, bool]):
-    """What an expression came to for values it has met."""
+class Verdicts(dict[Hashable, bool | None]):
+    """What an expression came to for values it has met; None where it made no sense of them."""
 
-    def __setitem__(self, key: Hashable, verdict: bool) -> None:
+    def __setitem__(self, key: Hashable, verdict: bool | None) -> None:
         if len(self) >= _REMEMBERED:
             self.clear()
         super().__setitem__(key, verdict)
@@ -73,16 +73,22 @@ class Decision:
 
         It is not where it makes no sense of them: neither CEL nor the functions make any of a value that is not set.
         """
+        return self.verdict(key, names, values, circumstances) is True
+
+    def verdict(
+        self, key: Hashable, names: Sequence[str], values: Sequence[Any], circumstances: Circumstances
+    ) -> bool | None:
+        """Return the same, and None where it makes no sense of the values."""
         if self.always:
             key = key, *[circumstances.value(name) for name in self.always]
-        found = self._verdicts.get(key)
-        if found is None:
-            context = context_of(self.functions, self.always, names, values, circumstances)
-            try:
-                found = self.program.execute(context) is True
-            except EVALUATION_ERRORS:
-                found = False
-            self._verdicts[key] = found
+        if key in self._verdicts:
+            return self._verdicts[key]
+        context = context_of(self.functions, self.always, names, values, circumstances)
+        try:
+            found = self.program.execute(context) is True
+        except EVALUATION_ERRORS:
+            found = None
+        self._verdicts[key] = found
         return found
 
 

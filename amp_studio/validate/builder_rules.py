@@ -40,15 +40,13 @@ from amp_studio.schema.yaml_reader import KeyPath, YamlError, read_yaml
 
 from .expression_tree import shown
 from .expressions import RuleError
-from .finding import Finding
+from .finding import OWN_FAULT, Finding
 from .plan import checks_of
 from .rule_entry import entry_model
 from .rule_review import MOST_STEPS, review
 
 RULES_FILE = "rules.yaml"
 _SUPPRESSIONS = "suppressions"
-OWN_FAULT = "rules.unusable"
-"""The rule that findings about the rules themselves belong to."""
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown")
 """Findings of every family that are of no separate rule."""
 MOST_RULES = 2000

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
 from amp_studio.schema.cel_engine import Context
@@ -15,11 +17,12 @@ from .rules import RuleChecks
 class Checks:
     """The checks of one file on one machine type."""
 
-    def __init__(self, file: ParameterFile) -> None:
+    def __init__(self, file: ParameterFile, places: Mapping[str, str]) -> None:
+        """``places`` are those of a builder's rules: id -> file and line."""
         self._file = file
         self.machine, self.application = file.machine, file.header.application
         self._values = ValueChecks(file, self.machine)
-        self._rules = RuleChecks(file, self.machine)
+        self._rules = RuleChecks(file, self.machine, places)
 
     @property
     def fit(self) -> bool:

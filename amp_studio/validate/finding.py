@@ -8,6 +8,8 @@ from amp_studio.schema import Address, Value
 from amp_studio.schema.model import Severity
 
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "advice")
+OWN_FAULT = "rules.unusable"
+"""The rule that findings about a builder's rules themselves belong to."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,8 @@ from amp_studio.schema.model import BoundRef
 
 from .finding import Finding, Setting
 
+_NEAR = 0.1
+"""Part of a bound by which a value may miss it for the bound to be a fix: more than rounding and the step from a power of two."""
 _FORMAT = re.compile(r"[0-9]+\.[0-9]+")
 
 
@@ -108,15 +110,19 @@ class ValueChecks:
         said = fault(self._file.evaluation, address, value)
         if said is None:
             return None
-        mended = self._file.default(address) if facts.keys else self._nearest(address, value)
-        return self._finding(address, value, said, mended)
+        # Of a code that nobody has printed the control alone knows what it does: no choice is the nearest to it.
+        return self._finding(address, value, said, None if facts.keys else self._nearest(address, value))
 
     def _nearest(self, address: Address, value: Value) -> Value | None:
-        """Return the nearest allowed value; None where a bound that another parameter sets may be what is wrong.
+        """Return the nearest allowed value; None where nobody can say that it is the one that is meant.
 
-        0 is never the nearest to another number: a speed or a limit of 0 means something else. Of a positive and a negative limit that are reversed, neither belongs at the edge of the other: that leaves an
-        axis without travel. Nor does a bound that leaves a single value show which value is meant.
+        What lies far beyond a printed bound is a slip of the hand or has another unit, and the bound is often the highest
+        gain or speed that there is. 0 is never the nearest to another number: a speed or a limit of 0 means something else.
+        A bound that another parameter sets may be what is wrong: of a positive and a negative limit that are reversed,
+        neither belongs at the edge of the other, which leaves an axis without travel, nor does a bound that leaves a single
+        value say which value is meant.
         """
+        other = None
         allowed = limits(self._file.evaluation, address, value.unit)
         if allowed is not None and not isinstance(value.value, str):
             low = allowed.low is not None and value.value < allowed.low
@@ -128,7 +134,9 @@ class ValueChecks:
         nearest = _rounded_inwards(
             self._facts[address[0]].parameter, clip(self._file.evaluation, address, value), allowed
         )
-        return nearest if nearest.value != 0 or value.value == 0 else None
+        if nearest.value == 0 and value.value != 0:
+            return None
+        return nearest if other is not None or _is_near(value, nearest) else None
 
     def _turns(self, address: Address) -> bool:
         return self._angular is not None and self._file.evaluation.holds(self._angular, address[1], "axis")
@@ -166,6 +174,13 @@ class ValueChecks:
             parameter.page,
             compared=bounding(self._file.evaluation, address, value),
         )
+
+
+def _is_near(value: Value, bound: Value) -> bool:
+    """Return whether a number misses a printed bound by so little that the bound is what was meant."""
+    if isinstance(value.value, str) or isinstance(bound.value, str) or not math.isfinite(value.value):
+        return False
+    return abs(value.value - bound.value) <= _NEAR * abs(bound.value)
 
 
 def _rounded_inwards(parameter: Parameter, value: Value, allowed: Limits | None) -> Value:

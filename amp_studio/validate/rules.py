@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from operator import is_
 from typing import Any
@@ -34,9 +34,12 @@ from amp_studio.schema.units import angular
 
 from .blame import about
 from .expression_worth import LONGEST_TEXT
-from .finding import Finding, Setting
+from .finding import OWN_FAULT, Finding, Setting
 from .formulas import rule_functions
 from .plan import Listed, RuleCheck
+
+_SHOWN = 4
+"""Values that a message about a rule shows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,10 +53,10 @@ class _Given:
 class RuleChecks:
     """The rules of one plan over the values of one file."""
 
-    def __init__(self, file: ParameterFile, machine: str) -> None:
-        self._file, self._machine = file, machine
+    def __init__(self, file: ParameterFile, machine: str, places: Mapping[str, str]) -> None:
+        self._file, self._machine, self._places = file, machine, places
         self._functions = rule_functions(file.schema.family.family)
-        self._given: dict[int, tuple[list[Any], bool]] = {}
+        self._given: dict[int, tuple[list[Any], bool | None]] = {}
         """Place of a check -> the values it was given, and whether it was broken by them."""
         self._by_instance: dict[str, Circumstances] = {}
         self._seen: dict[Address, Canonical] = {}
@@ -80,21 +83,28 @@ class RuleChecks:
         else:
             broken = self._broken_by(check, values)
             self._given[check.place] = (values, broken)
+        if broken is None:
+            return self._unusable(check)
         return self._finding(check, values) if broken else None
 
     def is_broken(self, check: RuleCheck) -> bool:
         """Return whether there is a ``finding``, without its words."""
         values = self._values(check)
-        return values is not None and self._broken_by(check, values)
+        return values is not None and self._broken_by(check, values) is not False
 
-    def _broken_by(self, check: RuleCheck, values: list[Any]) -> bool:
-        """Return whether a rule is broken by values; what it came to for equal ones before is remembered."""
-        if isinstance(check.rule, BuilderRule) and _too_long(values):
+    def _broken_by(self, check: RuleCheck, values: list[Any]) -> bool | None:
+        """Return whether a rule is broken by values; what it came to for equal ones before is remembered.
+
+        None where a builder's rule makes no sense of values that are all there. Our own are tried with all that there are.
+        """
+        is_own = isinstance(check.rule, BuilderRule)
+        if is_own and _too_long(values):
             return False
         key = same_values(values[: len(check.singles)])
         if check.lists:
             key = key, *[self._list_key(listed) for _, listed in check.lists]
-        return check.expressions.broken.holds(key, check.names, values, self._circumstances(check))
+        found = check.expressions.broken.verdict(key, check.names, values, self._circumstances(check))
+        return None if found is None and is_own and not _is_any_missing(values) else found is True
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see now."""
@@ -161,6 +171,18 @@ class RuleChecks:
         return found
 
     # -- the finding -----------------------------------------------------------
+
+    def _unusable(self, check: RuleCheck) -> Finding:
+        """Return the finding about a rule that ends in an error with the values of a file."""
+        rule, is_secret = check.rule, self._reads_secret(check)
+        given = [f"{s.name} = {MASKED if is_secret else self._shown(s.address)}" for s in check.singles]
+        said = (
+            f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be worked out"
+            f"{f' with {_listed(given)}' if given else ''}: a number is too large, divided by zero or no number."
+        )
+        return Finding(
+            OWN_FAULT, "error", (), said, compared=check.addresses, instance=f"{rule.id} {check.instance}"
+        )
 
     def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
         rule, evaluation = check.rule, self._file.evaluation
@@ -277,6 +299,17 @@ class RuleChecks:
         if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
             number = round(number, parameter.decimals)
         return Value(int(number) if parameter.type in ("integer", "bits") else number, unit)
+
+
+def _is_any_missing(values: Iterable[Any]) -> bool:
+    """Return whether a value, or one of a list, is not set or inactive."""
+    return any(value is None or (type(value) is list and None in value) for value in values)
+
+
+def _listed(given: list[str]) -> str:
+    """Return the values that an expression was given, the first of them where there are many."""
+    more = f" and {len(given) - _SHOWN} more" if len(given) > _SHOWN else ""
+    return ", ".join(given[:_SHOWN]) + more
 
 
 def _too_long(values: Iterable[Any]) -> bool:

@@ -99,7 +99,7 @@ class Trials:
         file = self._file
         if file is None:
             file = self._file = self._original.copy()
-            self._checks = Checks(file)
+            self._checks = Checks(file, self._own.places)
         forced = dict(file.forced)
         try:
             changes = file.set_many({setting.address: setting.value for setting in finding.fix})
@@ -171,7 +171,7 @@ class Trials:
     ) -> bool:
         """Judge a fix that makes another machine type of it, where other checks are asked."""
         assert self._file is not None
-        checks = Checks(self._file)
+        checks = Checks(self._file, self._own.places)
         plan = make_plan(self._file.schema, checks.machine, self._own.rules)
         found = (*map(checks.of_value, plan.addresses), *map(checks.of_rule, plan.checks))
         after = {finding.key: finding for finding in found if finding is not None}

@@ -44,7 +44,7 @@ class Validator:
 
     def _prepare(self) -> None:
         self._plan: Plan = make_plan(self.file.schema, self.file.machine, self.own.rules)
-        self._checks = Checks(self.file)
+        self._checks = Checks(self.file, self.own.places)
         self._trials = Trials(self.file, self._plan, self.own)
 
     def run(self) -> tuple[Finding, ...]:

@@ -135,7 +135,7 @@ def test_an_edit_elsewhere_takes_an_offer_away_and_gives_it_back(mill) -> None:
 
 
 def test_a_trial_leaves_the_file_and_whoever_listens_alone(mill) -> None:
-    mill.set_many({RAPID: mm(300000.0)}, force="by a test")
+    mill.set_many({RAPID: mm(250000.0)}, force="by a test")
     told: list[object] = []
     mill.listen(told.append)
     values, forced = dict(mill.values), dict(mill.forced)
