@@ -41,7 +41,7 @@ READERS = {
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",
     "schema/regular_file.py": "",  # the gate itself: gives bytes
-    "sim/engine.py": "",  # one switch of numba, compared with "0"
+    "sim/compiled.py": "",  # one switch of numba, compared with "0"
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/parameters.py": "damaged digests",
     "transfer/client/verification.py": "damaged control image",
