@@ -27,6 +27,10 @@ from amp_studio.sim.model import with_model
 
 from . import law_plant as plant
 from . import law_sample as loop
+from .law_axis import ModuleAxis
+from .law_commands import COMMANDS
+from .law_commands import SETTINGS as COMMAND_SETTINGS
+from .law_tune import Scales
 
 AXES = ("X", "Y")
 PROPORTIONAL, INTEGRAL, VELOCITY = "gain.proportional", "gain.integral", "gain.velocity"
@@ -36,6 +40,18 @@ BAND = "setup.in_position_tolerance"
 SPEED, ACCELERATION, DECELERATION = "command.velocity", "command.acceleration", "command.deceleration"
 NEEDED = (PROPORTIONAL, INTEGRAL, VELOCITY, FEED_FORWARD, DEADBAND, CLAMP, SPEED, ACCELERATION, DECELERATION)
 
+COMMAND_DATA = (
+    "command.position",
+    "setup.overtravel_positive",
+    "setup.overtravel_negative",
+    "command.gear_ratio",
+    "output.backlash",
+    "cam.points",
+    "cam.time",
+    "cam.position_increment",
+)
+"""What tune commands, gearing, cams and backlash compensation read besides."""
+
 PER_VOLT = "model.velocity_per_output"
 _SCALES = {
     "model.proportional_scale": (65536.0, "Proportional Gain that wants 1 count a scan for 1 count of error"),
@@ -44,7 +60,8 @@ _SCALES = {
     "model.velocity_scale": (1.0, "Velocity Gain that puts out 1 word (10 V / 1984) for 1 count a scan"),
 }
 SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
-    PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)"
+    PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)",
+    **COMMAND_SETTINGS,
 }
 
 _LOST = (
@@ -88,7 +105,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     assumed = dict(plant.CURRENT if current else plant.VELOCITY)
     if per_volt is not None:
         assumed.pop("velocity_per_output", None)
-    axis = AxisLaw(
+    axis = ModuleAxis(
         axis=read.axis,
         unit="counts",
         title=f"57C422B: scan of 1.25 ms, drive with {'current' if current else 'velocity'} reference",
@@ -112,6 +129,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         assumed=assumed,
         sweep_parameters=_without_faults(p),
         linear_parameters=_linear(p),
+        read=read,
+        names={parameter: _named(parameter, read.axis) for parameter in COMMAND_DATA},
+        scales=Scales(*(_scale(read, name) for name in _SCALES)),
     )
     whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
     return replace(axis, predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)})
@@ -270,4 +290,4 @@ def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     )
 
 
-LAW = Law(bind=bind, axes=axes, settings=SETTINGS, advise=advise)
+LAW = Law(bind=bind, axes=axes, settings=SETTINGS, advise=advise, own=COMMANDS)

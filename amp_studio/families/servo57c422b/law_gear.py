@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from amp_studio.sim import SimulationError
+from amp_studio.sim.ramps import Piece
 
 from .formulas.motion import GEAR_SCALE
 from .law_sample import SCAN
@@ -54,3 +56,27 @@ def engage_time(speed: float, acceleration: float) -> float:
     if acceleration <= 0.0:
         return 0.0
     return math.ceil(abs(speed) / acceleration / SCAN - 1e-9) * SCAN
+
+
+def followed(master: Sequence[int], upper: int, lower: int, acceleration: float) -> list[float]:
+    """Return the commanded position of an axis that is geared at rest to a moving master, scan by scan, in counts.
+
+    ``acceleration`` in counts/s² of ramp velocity control, 0 without it: the axis is at the speed of its master at once.
+    """
+    wanted = list(geared(master, upper, lower))
+    step = acceleration * SCAN * SCAN
+    position, travel, together = 0.0, 0.0, step <= 0.0
+    positions = [0.0]
+    for before, now in pairwise(wanted):
+        asked = float(now - before)
+        if not together:
+            travel = min(max(asked, travel - step), travel + step)
+            together = travel == asked
+        position += asked if together else travel
+        positions.append(position)
+    return positions
+
+
+def pieces_of(positions: Sequence[float]) -> list[Piece]:
+    """Return the pieces of a profile that goes from each position to the next in one scan."""
+    return [Piece(SCAN, (after - before) / SCAN) for before, after in pairwise(positions)]

@@ -1,0 +1,332 @@
+"""The commands that only the 57C422B has, as scenarios: tune, gear, cam, backlash."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from amp_studio.sim import AxisLaw, ParameterValue, Recommendation, SimulationError, Trace
+from amp_studio.sim.model import assumptions
+from amp_studio.sim.motion import Until, run_axis
+from amp_studio.sim.ramps import end_of, move, profile_of
+from amp_studio.sim.scenarios.scenario import above_zero, number, refuse_unknown
+from amp_studio.sim.scenarios.step import SCENARIO as STEP
+from amp_studio.sim.scenarios.step import alarms_of, column_units, per_minute
+from amp_studio.sim.trace import Figure
+
+from . import law_tune as tune
+from .formulas.cam import word_bytes
+from .formulas.motion import backlash_moves
+from .law_axis import ModuleAxis
+from .law_cam import position_cam, time_cam, time_cam_order
+from .law_gear import followed, gear_fraction, pieces_of
+from .law_sample import SCAN
+
+Settings = Mapping[str, ParameterValue]
+
+TUNE = {"tune.command": "tune command: gains, dynamics or feedforward; default: gains"}
+GEAR = {
+    "gear.speed": "speed of the gearing reference (counts/s); default: Command Velocity over the ratio",
+    "gear.time": "time that the axis is geared (s); default: 1",
+}
+CAM = {
+    "cam.cycles": "how often the profile is run; default: 1, in continuous mode 2",
+    "cam.speed": "speed of the master of a position cam (counts/s); default: Command Velocity",
+    "cam.reverse": "table direction of a time cam, yes or no; its bit is lost",
+    "cam.mirror": "mirror image of a time cam, yes or no; its bit is lost",
+    "cam.negative": "motion direction of a time cam, yes or no; its bit is lost",
+}
+BACKLASH = {"move.distance": "commanded distance (counts), with its sign; default: Command Position"}
+SETTINGS = {**TUNE, **GEAR, **CAM}
+
+_SEARCH = {
+    "gains": (
+        "How the module searches is not printed (page 4-29). ASSUMED: a gain is doubled until the shaft vibrates and a third"
+        " of the edge is left; the integral is the aperiodic limit of the proportional gain."
+    ),
+    "dynamics": (
+        "How the module searches is not printed (page 4-29). ASSUMED: the greatest figures up to registers 19 to 24 at which"
+        " no move raises a fault or reaches the clamp of register 31."
+    ),
+    "feedforward": (
+        "How the module searches is not printed (page 4-29). ASSUMED: the gain at which the following error of both ways is"
+        " 0 or just above, without the integral."
+    ),
+}
+_PAUSE = 0.1
+"""s of rest after each move."""
+_LONGEST = 60.0
+"""Most seconds of a cam or a geared run."""
+
+
+def run_tune(axis: AxisLaw, settings: Settings) -> Trace:
+    """Run one of the three tune commands (pages 4-29 to 4-31) and a move with what it leaves."""
+    refuse_unknown(settings, TUNE)
+    module = _module(axis)
+    which = str(settings.get("tune.command", "gains"))
+    if which not in _TUNES:
+        raise SimulationError(f"Unknown tune command '{which}'. Known: {', '.join(_TUNES)}", "tune.command")
+    left, move_settings = _TUNES[which](module)
+    trace = STEP.run(left.axis, move_settings)
+    found: dict[str, Figure] = {
+        _figure(parameter): (value, _unit(parameter)) for parameter, value in left.registers.items()
+    }
+    wanted = tuple(
+        Recommendation(parameter, value, _unit(parameter), f"left by tune {which} (page 4-29)")
+        for parameter, value in left.registers.items()
+    )
+    return replace(
+        trace,
+        scenario="tune",
+        result={**found, **trace.result},
+        recommendations=wanted,
+        assumptions=(_SEARCH[which], *trace.assumptions),
+    )
+
+
+def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
+    increment = abs(
+        axis.needed("command.position", "tune gains moves by it, .25 to .5 turns of the motor (page 4-30)")
+    )
+    if increment < 1.0:
+        raise SimulationError("Tune gains needs an increment of at least 1 count", "command.position")
+    return tune.gains(axis, axis.scales, increment), {"move.distance": increment}
+
+
+def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
+    travel = axis.needed("setup.overtravel_positive", "tune dynamics takes its travel from it (page 4-30)")
+    if travel < 1.0:
+        raise SimulationError("Tune dynamics needs a travel of at least 1 count", "setup.overtravel_positive")
+    ramp = axis.ramps["linear"]
+    left = tune.dynamics(axis, travel, axis.feedrate or 0.0, ramp.acceleration, ramp.deceleration)
+    return left, {"move.distance": travel}
+
+
+def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
+    ends = [
+        axis.needed(f"setup.overtravel_{side}", "tune feedforward takes its travel from it (page 4-31)")
+        for side in ("positive", "negative")
+    ]
+    if not ends[1] < 0.0 < ends[0]:
+        raise SimulationError(
+            "Tune feedforward moves both ways from 0: the travel limits must be on both sides of it",
+            "setup.overtravel_negative",
+        )
+    return tune.feed_forward(axis, axis.scales, ends[0], ends[1], axis.feedrate or 0.0), {
+        "move.distance": ends[0]
+    }
+
+
+_TUNES: Mapping[str, Callable[[ModuleAxis], tuple[tune.Left, Settings]]] = {
+    "gains": _tune_gains,
+    "dynamics": _tune_dynamics,
+    "feedforward": _tune_feed_forward,
+}
+
+
+def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
+    """Gear the axis to a reference that is already moving (pages 4-15, 4-20, 4-24)."""
+    refuse_unknown(settings, GEAR)
+    module = _module(axis)
+    if module.bit("gearing.modes", 2):
+        upper, lower = gear_fraction(
+            None, module.register("command.gear_numerator"), module.register("command.gear_denominator")
+        )
+    else:
+        upper, lower = gear_fraction(
+            module.needed("command.gear_ratio", "gearing needs it (page 4-15)"), None, None
+        )
+    ratio = upper / lower
+    speed = above_zero(settings, "gear.speed") or (axis.feedrate or 0.0) / abs(ratio)
+    time = above_zero(settings, "gear.time") or 1.0
+    ramped = module.bit("gearing.modes", 3)
+    sign = -1 if module.bit("control.mode", 4) else 1
+    master = [round(speed * SCAN * k) for k in range(_scans(time))]
+    positions = followed(master, sign * upper, lower, axis.ramps["linear"].acceleration if ramped else 0.0)
+    lost = abs(master[-1] * ratio) - abs(positions[-1])
+    return _followed(
+        axis,
+        "gear",
+        positions,
+        {
+            "gear_ratio": (sign * ratio, ""),
+            "speed": (sign * ratio * speed * 60.0, "counts/min"),
+            "lost_in_ramp": (lost, "counts"),
+        },
+        "With ramp velocity control the axis comes to the speed of its master and what it lost in the ramp stays lost: the"
+        " manual says nothing of catching up (page 4-21)."
+        if ramped
+        else "Without ramp velocity control the axis accelerates in current limit (page 4-24).",
+        rest=-SCAN,  # the master runs on
+    )
+
+
+def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
+    """Run the cam profile of registers 125 to 2046 (pages 4-49 to 4-56)."""
+    refuse_unknown(settings, CAM)
+    module = _module(axis)
+    points = int(module.needed("cam.points", "it counts the points of the cam (page 4-54)"))
+    cycles = int(number(settings, "cam.cycles") or (2 if module.bit("cam.mode", 3) else 1))
+    if points < 1 or cycles < 1:
+        raise SimulationError("A cam needs at least one point and one cycle", "cam.points")
+    if module.bit("cam.mode", 8):
+        positions, note = (
+            _position_cam(module, settings, points),
+            "Straight lines between the points (page 4-51).",
+        )
+    else:
+        positions = _time_cam(module, settings, points, cycles)
+        note = "A constant speed in each interval of the cam: what the module does between points is not printed."
+    return _followed(axis, "cam", positions, {"points": (float(points), "")}, note)
+
+
+def _time_cam(axis: ModuleAxis, settings: Settings, points: int, cycles: int) -> list[float]:
+    if axis.bit("cam.mode", 0):
+        values = _table(axis, "cam.time_points", points)
+    else:
+        words = _table(axis, "cam.byte_points", (points + 1) // 2)
+        values = [value for word in words for value in word_bytes(word)][:points]
+    scans = round(axis.needed("cam.time", "the time between two points (page 4-54)") / 1000.0 / SCAN)
+    continuous, mirror = axis.bit("cam.mode", 3), _yes(settings, "cam.mirror")
+    order = time_cam_order(
+        points,
+        reverse=_yes(settings, "cam.reverse"),
+        mirror=mirror,
+        continuous=continuous,
+        loop_back=int(axis.register("cam.loop_back") or 0) if continuous else 0,
+    )
+    intervals = points * cycles * (2 if mirror and not continuous else 1)
+    _scans(intervals * scans * SCAN)
+    return time_cam(values, scans, order, intervals, negative=_yes(settings, "cam.negative"))
+
+
+def _position_cam(axis: ModuleAxis, settings: Settings, points: int) -> list[float]:
+    table = _table(axis, "cam.position_points", points)
+    increment = int(
+        axis.needed("cam.position_increment", "travel of the master from point to point (page 4-53)")
+    )
+    speed = above_zero(settings, "cam.speed") or axis.feedrate or 0.0
+    scans = _scans((points - 1) * increment / speed)
+    return [position_cam(table, increment, speed * SCAN * k) for k in range(scans + 1)]
+
+
+def _table(axis: ModuleAxis, parameter: str, points: int) -> list[int]:
+    values = [axis.register(parameter, k) for k in range(points)]
+    if None in values:
+        raise SimulationError(
+            f"Point {values.index(None)} of the cam is not set, and {axis.names['cam.points']} counts {points}",
+            parameter,
+        )
+    return [int(value) for value in values if value is not None]
+
+
+def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
+    """Make a move with automatic backlash compensation: against its sign it overruns and comes back (page 4-21)."""
+    refuse_unknown(settings, BACKLASH)
+    module = _module(axis)
+    asked = number(settings, "move.distance")
+    distance = module.needed("command.position", "the distance of the move") if asked is None else asked
+    play = module.needed("output.backlash", "the compensation (page 4-21)")
+    moves = backlash_moves(round(distance), round(play))
+    rows: list[float] = []
+    start = position = 0.0
+    for way in moves:
+        part = move(way, axis.feedrate or 0.0, axis.ramps["linear"])
+        rows += _shifted(part, start, position)
+        start, position = start + end_of(part) + _PAUSE, position + way
+        rows[-7] = _PAUSE
+    rows[-7] = math.inf
+    found: dict[str, Figure] = {f"move_{k}": (float(way), "counts") for k, way in enumerate(moves, 1)}
+    return _run(
+        axis, "backlash", rows, start, found, "A stop of 0.1 s between the moves: its length is not printed."
+    )
+
+
+def _shifted(profile: Sequence[float], start: float, position: float) -> list[float]:
+    rows = list(profile)
+    for row in range(0, len(rows), 8):
+        rows[row] += start
+        rows[row + 2] += position
+    return rows
+
+
+def _followed(
+    axis: AxisLaw,
+    scenario: str,
+    positions: Sequence[float],
+    found: dict[str, Figure],
+    note: str,
+    rest: float = _PAUSE,
+) -> Trace:
+    profile = profile_of(pieces_of(positions), positions[-1] if positions else 0.0)
+    return _run(axis, scenario, profile, end_of(profile), found, note, rest)
+
+
+def _run(
+    axis: AxisLaw,
+    scenario: str,
+    profile: list[float],
+    end: float,
+    found: dict[str, Figure],
+    note: str,
+    rest: float = _PAUSE,
+) -> Trace:
+    motion = run_axis(axis, profile, Until(end + rest))
+    columns = motion.columns
+    peak = float(np.abs(columns["following_error"][:: motion.rows_per_servo_period]).max())
+    result: dict[str, Figure] = {
+        **found,
+        "time": (end, "s"),
+        "peak_following_error": (peak, "counts"),
+        "peak_output": (float(np.abs(columns["output"]).max()), "V"),
+        "stop_position": (float(columns["position"][-1]), "counts"),
+    }
+    return Trace(
+        scenario=scenario,
+        axis=axis.axis,
+        model=axis.title,
+        columns=per_minute(columns),
+        units=column_units(axis),
+        result=result,
+        alarms=alarms_of(axis, motion),
+        recommendations=(),
+        assumptions=(note, *assumptions(axis)),
+        limits={name: (level, axis.unit) for name, level in axis.limits.items()},
+    )
+
+
+def _module(axis: AxisLaw) -> ModuleAxis:
+    assert isinstance(axis, ModuleAxis)
+    return axis
+
+
+def _scans(time: float) -> int:
+    if time > _LONGEST:
+        raise SimulationError(f"The motion takes {time:.6g} s; at most {_LONGEST:g} s are simulated")
+    return max(2, round(time / SCAN))
+
+
+def _yes(settings: Settings, name: str) -> bool:
+    value = settings.get(name, "no")
+    if value not in ("yes", "no"):
+        raise SimulationError(f"{name} is {value!r}; it must be yes or no", name)
+    return value == "yes"
+
+
+def _figure(parameter: str) -> str:
+    kind, _, name = parameter.partition(".")
+    return f"command_{name}" if kind == "command" else f"{name}_gain" if name != "deadband" else name
+
+
+def _unit(parameter: str) -> str:
+    return {
+        "command.velocity": "counts/s",
+        "command.acceleration": "counts/s2",
+        "command.deceleration": "counts/s2",
+    }.get(parameter, "")
+
+
+COMMANDS = {"tune": run_tune, "gear": run_gear, "cam": run_cam, "backlash": run_backlash}
