@@ -56,7 +56,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         raise
     except ValueError as error:  # of a formula
         raise SimulationError(f"Axis {read.axis}: {error}") from None
-    ramps = _ramps(read, notes)
+    ramps = _ramps(read, words.acceleration, notes)
     linear = list(parameters)
     linear[sample.WHOLE], linear[sample.FRICTION], linear[sample.TOLERANCE] = 0.0, 0.0, -1.0
     linear[sample.EMAX] = linear[sample.SYNC_LIMIT] = math.inf
@@ -107,10 +107,8 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
     }
 
 
-def _ramps(read: AxisParameters, notes: list[str]) -> dict[str, Ramp]:
+def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[str, Ramp]:
     """Return the ramps: in S (sin²) where bit 5 of P7N1 is set (9-6), else straight, with the fast acceleration of P32."""
-    acceleration = read.number("servo.acceleration_fast")
-    above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
     functions = read.optional("misc.functions_more", everywhere=True)
     least = read.optional("servo.acceleration_least_time", everywhere=True)
     if functions is None:
@@ -136,7 +134,7 @@ def _machine(read: AxisParameters, words: Words) -> tuple[Machine, dict[str, str
     above(step, "measure.multi", f"MULTI / DIVI (P11) of axis {read.axis}")
     ruled = int(sensor) >> 25 & 3 == 3
     machine = Machine(
-        acceleration_per_output=read.number("servo.acceleration_fast") / 100.0,
+        acceleration_per_output=words.acceleration / 100.0,
         velocity_per_output=words.top / words.voltage,
         velocity_bandwidth=BANDWIDTH,
         velocity_integral=INTEGRAL,

@@ -56,6 +56,8 @@ class Words:
     share: float
     terms: int
     voltage: float
+    acceleration: float
+    """u/s2: the fast one."""
 
     @property
     def rate(self) -> float:
@@ -83,7 +85,14 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
     own = read.optional("servo.axis_time_constant")
     of_group = None if named is None else read.optional("servo.group_time_constant", at=named)
     constant = axis_time_constant(own or 0.0, of_group or 0.0) / 1000.0
+    if named is None and not constant:
+        raise SimulationError(
+            f"P9N{read.axis} gives the axis no group, and so no time constant of P56 (or P66)",
+            "axes.assignment",
+        )
     above(constant, "servo.group_time_constant", "The time constant of P56 (or P66)")
+    acceleration = read.number("servo.acceleration_fast")
+    above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
     top, gain = read.number("servo.max_speed") / 60.0, read.number("servo.loop_gain")
     above(top, "servo.max_speed", f"Maximum Axis Traverse Rate (P30N{read.axis})")
     above(gain, "servo.loop_gain", f"KVAR (P21N{read.axis}), which is in the drive with DISC NT,")
@@ -104,6 +113,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
         share=share,
         terms=terms,
         voltage=voltage,
+        acceleration=acceleration,
     )
 
 

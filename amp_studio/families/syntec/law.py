@@ -31,6 +31,8 @@ from .formulas import (
 
 STANDARD_BLU = 0.001
 """mm or deg (1.2.6)."""
+SHORTEST, LONGEST = 1e-4, 0.1
+"""s: interpolation times that are simulated."""
 BANDWIDTH, INTEGRAL, TORQUE_LIMIT = 50.0, 60.0, 200.0
 """Hz, 1/s, % of rated torque: the assumed drive."""
 
@@ -39,6 +41,14 @@ _NEEDED = (
     "resolution.encoder",
     "resolution.multiplication",
     "resolution.encoder_type",
+    "resolution.screw_teeth",
+    "resolution.motor_teeth",
+    "resolution.pitch",
+    "feed.rapid",
+    "servo.loop_gain",
+)
+_ABOVE_ZERO = (
+    "resolution.encoder",
     "resolution.screw_teeth",
     "resolution.motor_teeth",
     "resolution.pitch",
@@ -155,17 +165,22 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
             "The length of the BLU is printed for its default alone (1.2.6); this file has another one",
             "control.blu",
         )
+    for name, everywhere in (*((name, False) for name in _ABOVE_ZERO), ("dda.interpolation_time", True)):
+        figure = read.number(name, everywhere=everywhere)
+        if not (math.isfinite(figure) and figure > 0.0):
+            raise SimulationError(f"{name} of axis {read.axis} is {figure:g}; it must be above 0", name)
     series = read.choice("control.series", everywhere=True)
     basic = hardware_basic_time_us(series)
     if not is_basic_time_printed(series):
         notes.append(f"ASSUMED: hardware basic time {basic:g} us; for this series none is printed (1.4.1).")
     setting = read.number("dda.interpolation_time", everywhere=True)
-    gain, rapid = read.number("servo.loop_gain"), read.number("feed.rapid") / 60.0
-    for figure, parameter in ((gain, "servo.loop_gain"), (rapid, "feed.rapid")):
-        if not (math.isfinite(figure) and figure > 0.0):
-            raise SimulationError(
-                f"{parameter} of axis {read.axis} is {figure:g}; it must be above 0", parameter
-            )
+    period = interpolation_time_us(setting, basic) * 1e-6
+    if not SHORTEST <= period <= LONGEST:
+        raise SimulationError(
+            f"dda.interpolation_time is {setting:g}, an interpolation time of {period * 1e3:g} ms; simulated are"
+            f" {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
+            "dda.interpolation_time",
+        )
     home = read.optional("home.first_speed")
     if home is None:
         notes.append(
@@ -174,10 +189,10 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
     return _Axis(
         unit=unit,
         pulse=_pulse(read, unit, notes),
-        gain=gain,
-        rapid=rapid,
+        gain=read.number("servo.loop_gain"),
+        rapid=read.number("feed.rapid") / 60.0,
         home=(home or 0.0) / 60.0,
-        period=interpolation_time_us(setting, basic) * 1e-6,
+        period=period,
         most_pulses=_most_pulses(read, notes),
         encoder=read.choice("resolution.encoder_type"),
     )

@@ -146,7 +146,8 @@ def test_all_values_that_are_missing_are_named_in_one_sentence() -> None:
         ({"feed__rapid_at_1": 0.0}, "feed.rapid of axis 1 is 0"),
         ({"resolution__encoder_at_1": 0.0}, "encoder"),
         ({"resolution__pitch_at_1": 0.0}, "pitch"),
-        ({"dda__interpolation_time": 0.0}, "setting"),
+        ({"dda__interpolation_time": 0.0}, "dda.interpolation_time of axis 1 is 0; it must be above 0"),
+        ({"dda__interpolation_time": 1.0}, "simulated are 0.1 to 100 ms"),
         ({"motion__axis_acceleration_at_1": 0.0}, "a simulated axis needs a time above 0"),
         ({"control__blu": "raw:2"}, "The length of the BLU is printed for its default alone"),
         (
