@@ -30,6 +30,8 @@ class Recommendation:
     value: float
     unit: str
     why: str
+    price: str = ""
+    """What it costs, in a sentence."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ from amp_studio.sim.machine import Machine
 
 from . import law_sample as sample
 from .formulas import increments_per_sample, measured_step
+from .law_advice import advise
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
 from .law_words import FILTER, VOLTAGE, Words, above, read_words
@@ -85,7 +86,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         alarms=alarms,
         predict=lambda feedrate: predicted(words, feedrate),
         limits=limits,
-        sources=SOURCES,
+        sources=_sources(read, words),
         assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
         assumed=assumed,
         linear_parameters=linear,
@@ -147,19 +148,26 @@ def _machine(read: AxisParameters, words: Words) -> tuple[Machine, dict[str, str
     return machine, DRIVE
 
 
-SOURCES = {
-    "position_gain": Source("servo.loop_gain", page="6-14", whole=True),
-    "servo_period": Source("misc.sampling_period", 1e6, "us", True, page="9-10"),
-    "excess_error": Source("servo.max_following_error", unit="iu", whole=True, page="6-22"),
-    "inposition_band": Source("servo.in_position_window", unit="iu", whole=True, page="6-20"),
-    "feedrate": Source("servo.max_speed", 60.0, whole=True, page="6-6"),
-    "acceleration": Source("servo.acceleration_fast", whole=True, page="6-10"),
-    "feed_forward": Source("servo.speed_anticipation", 100.0, "%", True, page="6-26"),
-}
+def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
+    """Return the words behind the figures, with the factor to the value in the file."""
+    iu = 1.0 / words.length
+    return {
+        "position_gain": Source(
+            "servo.loop_gain", read.number("servo.loop_gain") / words.rate, "", True, page="6-14"
+        ),
+        "servo_period": Source("misc.sampling_period", 1e6, "us", True, page="9-10"),
+        "excess_error": Source("servo.max_following_error", iu, "iu", True, page="6-22"),
+        "inposition_band": Source("servo.in_position_window", iu, "iu", True, page="6-20"),
+        "dynamic_check": Source("servo.movement_tolerance", 1000.0, "um/sample", True, page="6-24"),
+        "feedrate": Source("servo.max_speed", 60.0, None, True, page="6-6"),
+        "acceleration": Source("servo.acceleration_fast", 1.0, None, True, page="6-10"),
+    }
+
 
 LAW = Law(
     bind,
     axes,
     "No axis is servo-controlled. Declare one in P2N0 and P3N0, with its name and group in P9",
     SETTINGS,
+    advise=advise,
 )

@@ -28,6 +28,7 @@ from .formulas import (
     pulse_length,
     pulses_per_turn,
 )
+from .law_advice import advise
 
 STANDARD_BLU = 0.001
 """mm or deg (1.2.6)."""
@@ -123,7 +124,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         alarms=_alarms(axis),
         predict=lambda feedrate: predicted(axis, feedrate),
         limits=limits,
-        sources=SOURCES,
+        sources=_sources(read, axis),
         assumptions=(*notes, *ALWAYS),
         assumed=ASSUMED,
         linear_parameters=linear,
@@ -315,11 +316,25 @@ ASSUMED: Mapping[str, str] = {
     "inertia_ratio": "Load and motor are one rigid mass unless model.resonance or model.backlash is set.",
 }
 
-SOURCES: Mapping[str, Source] = {
-    "position_gain": Source("servo.loop_gain", whole=True, page="1.5.3"),
-    "servo_period": Source("dda.interpolation_time", whole=True, page="1.4.1"),
-    "feedrate": Source("feed.rapid", 60.0, whole=True, page="1.5.1"),
-    "acceleration": Source("motion.axis_acceleration", whole=True, page="1.5.4"),
-}
 
-LAW = Law(bind, axes, "No axis has a port. Give one its port (Pr21) and its type (Pr221)")
+def _sources(read: AxisParameters, axis: _Axis) -> dict[str, Source]:
+    """Return the parameters behind the figures, with the factor to the value in the file."""
+    setting = read.number("dda.interpolation_time", everywhere=True)
+    own = read.value("motion.axis_acceleration") is not None
+    ramp = ("motion.axis_acceleration", "1.5.4") if own else ("motion.acceleration_time", "1.5.3")
+    return {
+        "position_gain": Source("servo.loop_gain", whole=True, page="1.5.3"),
+        "servo_period": Source(
+            "dda.interpolation_time", setting * sample.PARTS / axis.period, "", True, page="1.4.1"
+        ),
+        "feedrate": Source("feed.rapid", 60.0, None, True, page="1.5.1"),
+        "acceleration": Source(ramp[0], 1.0, "", True, page=ramp[1]),
+    }
+
+
+LAW = Law(
+    bind,
+    axes,
+    "No axis has a port. Give one its port (Pr21) and its type (Pr221)",
+    advise=advise,
+)

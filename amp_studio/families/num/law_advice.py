@@ -1,0 +1,131 @@
+"""Recommendations after a move of a NUM axis: KVAR, EMAX, window, dynamic check and acceleration, with page and price."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from amp_studio.sim.law import AxisLaw, Source
+from amp_studio.sim.rounding import rounded_down, shown
+from amp_studio.sim.trace import Recommendation, Trace
+
+from . import law_sample as sample
+
+MARGIN = 1.1
+"""EMAX over the following error at the highest speed (6-22)."""
+LOOSE = 2.0
+"""Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
+APART = 0.03
+"""Relative difference of gain and time constant from which KVAR is recommended anew. A choice of this program."""
+RESERVE = 0.8
+"""Share of the available acceleration that a ramp may use. A choice of this program."""
+
+
+def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
+    """Return the recommendations after the scenario `step`, the most urgent first; none after others."""
+    if trace.scenario != "step":
+        return ()
+    parts = (_gain, _largest_error, _acceleration, _window, _tolerance)
+    return tuple(each for part in parts for each in part(axis, trace))
+
+
+def _gain(axis: AxisLaw, _trace: Trace) -> Iterator[Recommendation]:
+    """Yield the KVAR that fits the time constant (6-14), with which anticipation and dynamic check are reckoned."""
+    constant, source = axis.parameters[sample.CONSTANT], axis.sources["position_gain"]
+    off = axis.position_rate * constant - 1.0
+    if abs(off) <= APART:
+        return
+    before, after = (axis.feedrate or 0.0) / axis.position_rate, (axis.feedrate or 0.0) * constant
+    yield Recommendation(
+        source.parameter,
+        float(math.floor(source.scale / constant)),
+        "",
+        f"KVAR gives a time constant of {shown(1000.0 / axis.position_rate, 'ms', 3)}, but P56 or P66 is"
+        f" {shown(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control use (pages 6-14, 6-40).",
+        f"The following error at the highest speed goes from {shown(before, axis.unit, 3)} to {shown(after, axis.unit, 3)};"
+        " EMAX follows it.",
+    )
+
+
+def _largest_error(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
+    """Yield EMAX = 1.1 x VMAX x T (6-22) where it is below VMAX x T or far above."""
+    limit, constant = axis.parameters[sample.EMAX], axis.parameters[sample.CONSTANT]
+    wanted = MARGIN * (axis.feedrate or 0.0) * constant
+    anticipated = axis.parameters[sample.SHARE] > 0.0
+    peak = trace.result["peak_following_error"][0] or 0.0
+    low = limit < (peak if anticipated else wanted / MARGIN)
+    if not low and limit <= LOOSE * wanted:
+        return
+    why = f"Maximum Following Error is {shown(limit, axis.unit)}; 1.1 x highest speed x time constant is {shown(wanted, axis.unit)}"
+    price = (
+        f"A blocked axis is noticed after {shown(wanted, axis.unit, 3)} instead of {shown(limit, axis.unit, 3)}."
+        if low
+        else "Less room for a drive that lags behind."
+    )
+    yield _counted(axis.sources["excess_error"], wanted, f"{why} (page 6-22).", price)
+
+
+def _acceleration(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
+    """Yield a lower P32 where the torque was at its limit; only with a machine whose acceleration was given."""
+    limit = min(axis.machine.torque_limit_positive, axis.machine.torque_limit_negative)
+    available = RESERVE * axis.machine.acceleration_per_output * (limit - axis.machine.coulomb_friction)
+    now = next(iter(axis.ramps.values())).acceleration
+    limited = (trace.result["peak_torque"][0] or 0.0) >= limit
+    if "acceleration_per_output" in axis.assumed or not limited or not 0.0 < available < now:
+        return
+    source = axis.sources["acceleration"]
+    value = float(math.floor(rounded_down(available)))
+    if value >= 1.0:
+        yield Recommendation(
+            source.parameter,
+            value,
+            f"{axis.unit}/s2",
+            f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)} (page {source.page}).",
+            f"A change to the highest speed takes {shown(now / value, digits=3)} times as long.",
+        )
+
+
+def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
+    """Yield twice the standing error (11-7) where the axis never comes into its window, or the window is below a count."""
+    count, band = axis.machine.position_count, axis.inposition_band
+    left = abs(float(trace.columns["following_error"][-1]))
+    arrived = trace.result["in_position_time"][0] is not None
+    if trace.alarms or (arrived and band > count) or left > 0.01 * abs(trace.result["distance"][0] or 0.0):
+        return
+    why = (
+        f"The window of {shown(band, axis.unit)} must be above one increment, {shown(count, axis.unit)}"
+        if arrived
+        else f"The axis stands {shown(left, axis.unit, 3)} from its end, outside the window of {shown(band, axis.unit)}"
+    )
+    wanted = max(2.0 * left, 2.0 * count)
+    yield _counted(
+        axis.sources["inposition_band"],
+        wanted,
+        f"{why}; twice the error at rest (page 11-7).",
+        "The next block begins farther from the end.",
+    )
+
+
+def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
+    """Yield a tolerance of the dynamic check (11-8: 2 to 4 windows) where there is none, no less than this move needs."""
+    if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms:
+        return
+    theory, real = trace.columns["theoretical_speed"], trace.columns["measured_speed"]
+    slow, fast = np.minimum(0.875 * theory, 1.125 * theory), np.maximum(0.875 * theory, 1.125 * theory)
+    outside = float(np.maximum(slow - real, real - fast).max(initial=0.0)) * axis.servo_period
+    wanted = max(3.0 * axis.inposition_band, 1.5 * outside)
+    yield _counted(
+        axis.sources["dynamic_check"],
+        wanted,
+        "Dynamic movement control is off, so that a broken encoder or drive is noticed at the maximum following error only;"
+        f" 3 in-position windows, and this move is {shown(outside * 1000.0, 'um/sample', 2)} outside the band (pages 6-24, 11-8).",
+        "Errors 40 to 71 on a sound axis whose time constant in P56 or P66 does not fit.",
+    )
+
+
+def _counted(source: Source, figure: float, why: str, price: str) -> Recommendation:
+    """Return a recommendation in whole units of the file, rounded up."""
+    value = float(math.ceil(round(figure * source.scale, 6)))
+    return Recommendation(source.parameter, value, source.unit or "", why, price)
