@@ -36,6 +36,10 @@ class AxisParameters:
         """Machine type and application of the file."""
         self._used: set[str] = set()
 
+    def of(self, axis: str) -> AxisParameters:
+        """Return the values of another axis of the same file."""
+        return AxisParameters(self._value, axis, {}, self.tables, self.machine, self.application)
+
     def given(self, parameter: str) -> bool:
         """Return whether a value is overridden."""
         return self._overrides.get(parameter) is not None

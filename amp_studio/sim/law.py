@@ -34,6 +34,9 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+import numpy.typing as npt
+
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 
@@ -42,6 +45,8 @@ from .compiled import Sample
 from .errors import SimulationError
 from .machine import Machine
 from .trace import Recommendation, Trace
+
+Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
 RAMPS = ("none", "linear", "exponential", "s-curve", "sine-squared")
 
@@ -146,6 +151,9 @@ class AxisLaw:
     """What is assumed about the control, each a sentence with its page."""
     assumed: Mapping[str, str] = field(default_factory=dict)
     """Figure of the machine that no parameter gives -> why it has its value; dropped when it is set by ``model.*``."""
+    after: Callable[[AxisLaw, Leader], AxisLaw] | None = None
+    """after(axis, run) -> the axis, for one that goes by the motion of another: run(other) moves that one first under the same
+    command, and returns its columns at the servo samples."""
     sweep_parameters: Sequence[float] | None = None
     """The ``p`` of a swept sine, without the faults that its start would raise; None for the same."""
     linear_parameters: Sequence[float] | None = None

@@ -70,6 +70,15 @@ def run_axis(
     physics step; ``thin`` keeps one row for each velocity sample; without ``feed_forward`` the law
     sees the commanded position only. Raises SimulationError where the run would take too long.
     """
+    if axis.after is not None:
+
+        def lead(other: AxisLaw) -> dict[str, npt.NDArray[np.float64]]:
+            first = run_axis(
+                other, profile, until, mode=mode, share_rate=share_rate, engine=engine, refine=refine
+            )
+            return {name: column[:: first.rows_per_servo_period] for name, column in first.columns.items()}
+
+        axis = axis.after(axis, lead)
     samples, substeps = steps(axis, refine)
     step = axis.servo_period / samples / substeps
     stride = substeps if thin else 1

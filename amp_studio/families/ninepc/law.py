@@ -7,7 +7,7 @@ Pages are those of the 9/PC AMP manual. `law_samples.py` is the control at work,
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from amp_studio.schema import canonical, load_schema
@@ -18,6 +18,7 @@ from amp_studio.sim.rounding import shown
 
 from . import law_notes as notes_of
 from . import law_samples as samples
+from . import law_split as split
 from .law_advice import advise
 from .law_drives import Parts, analog, digital, third_party
 from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
@@ -80,7 +81,22 @@ class Kind:
 
 
 def bind(read: AxisParameters) -> AxisLaw:
-    """Return one axis; raises SimulationError for an axis that no loop moves, a value that is not set or impossible."""
+    """Return one axis; raises SimulationError for an axis that no loop moves, a value that is not set or impossible.
+
+    The slave of a split axis goes with its master (chapter 32).
+    """
+    slave = split.slave_of(read)
+    if slave is None or _kind(read).drive == "sercos":
+        return _alone(read)
+    master = read.of(slave.master)
+    if split.slave_of(master) is not None:
+        raise SimulationError(f"The master of axis {read.axis} is a slave itself", split.SETS[0][0])
+    law, said = _alone(read, master), split.SLAVE.format(slave.master, _kind(read).unit)
+    return split.coupled(replace(law, assumptions=(*law.assumptions, said)), slave, _alone(master))
+
+
+def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLaw:
+    """Return one axis without its partner; ramps and feedrates are those of its master, if it has one (32-4)."""
     kind = _kind(read)
     if kind.drive == "sercos":
         return third_party(read, kind.unit, _common(read, kind))
@@ -88,7 +104,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     feedback = feedback_of(read, kind.unit, digital=kind.drive == "digital", notes=notes)
     loop = _loop(read, kind)
     parameters = _position_parameters(read, kind, loop, feedback, notes)
-    common = _common(read, kind, notes)
+    common = _common(read, kind, notes, master)
     common |= {
         "inposition_band": _not_negative(read, BAND),
         "position_rate": loop.rate,
@@ -97,6 +113,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         "alarms": _alarms(read, kind, parameters),
         "monitors": [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS],
     }
+    partner = split.slave_named(read)
+    if partner is not None:
+        notes.append(split.MASTER.format(partner))
     notes.append({"closed": notes_of.CLOSED, "zfe": notes_of.ZFE, "open": notes_of.OPEN}[kind.loop])
     build = digital if kind.drive == "digital" else analog
     return build(read, Parts(kind.unit, feedback, loop, parameters, notes, common))
@@ -161,14 +180,16 @@ def _position_parameters(
     return p
 
 
-def _common(read: AxisParameters, kind: Kind, notes: list[str] | None = None) -> dict[str, object]:
+def _common(
+    read: AxisParameters, kind: Kind, notes: list[str] | None = None, master: AxisParameters | None = None
+) -> dict[str, object]:
     """Return what every kind of axis has, as fields of AxisLaw."""
     said = notes if notes is not None else []
     cycle = read.number(CYCLE, everywhere=True)
     if not 0.0 < cycle < math.inf:
         raise SimulationError(f"{CYCLE} is {cycle:g}; it must be above 0", CYCLE)
-    ramps: dict[str, Ramp] = ramps_of(read, kind.unit, said)
-    rapid = read.optional(RAPID)
+    ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, said)
+    rapid = (master or read).optional(RAPID)
     said += [notes_of.SAMPLED, notes_of.RAMPS]
     return {
         "axis": read.axis,
@@ -192,20 +213,9 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
 
 
 def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[int, AlarmText]:
-    def text(code: str, what: str, limit: float, parameter: str) -> AlarmText:
-        return AlarmText(
-            code,
-            f"{what} above {shown(limit, kind.unit)} ({parameter}@{read.axis}): the control goes into E-STOP",
-        )
-
-    return {
-        int(samples.EXCESS_ERROR_ALARM): text(
-            "EXCESS FOLLOWING ERROR", "Following error", parameters[samples.EXCESS], EXCESS
-        ),
-        int(samples.EXCESS_SKEW_ALARM): text(
-            "EXCESS SKEW", "Skew", parameters[samples.SKEW_LIMIT], "deskew.skew_limit"
-        ),
-    }
+    limit = shown(parameters[samples.EXCESS], kind.unit)
+    text = f"Following error above {limit} ({EXCESS}@{read.axis}): the control goes into E-STOP"
+    return {int(samples.EXCESS_ERROR_ALARM): AlarmText("EXCESS FOLLOWING ERROR", text)}
 
 
 def _not_negative(read: AxisParameters, name: str) -> float:

@@ -72,6 +72,8 @@ def axis() -> Axis:
         merged = {**VALUES, **(values or {})}
 
         def value(parameter: str, instance: str) -> ParameterValue:
+            if parameter.startswith("deskew.") or parameter == "axis.name":
+                return None
             known = ("",) if parameter in EVERYWHERE else ("1",)
             assert instance in known, f"{parameter} was asked for at '{instance}'"
             return merged.get(parameter)
