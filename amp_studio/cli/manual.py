@@ -13,7 +13,7 @@ from amp_studio import __version__
 
 from .examples import EXAMPLES
 
-SCENARIOS = ("step",)
+SCENARIOS = ("step", "frequency", "circle")
 """Scenarios of ``simulate``; the room of the simulator knows them, and loading it takes a second."""
 
 EXIT_CODES = (

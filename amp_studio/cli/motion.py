@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from amp_studio.files import axis_instances, open_file
 from amp_studio.schema import InvalidValueError, axis_meant, canonical, unit_named
 from amp_studio.schema.values import read_number
-from amp_studio.sim import simulate, simulated_axes, trace_summary, trace_text, write_trace
+from amp_studio.sim import named_parameter, simulate, simulated_axes, trace_summary, trace_text, write_trace
 
 from .console import assignments, note, print_json
 from .files import wanted
@@ -35,7 +35,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
     if options.output:
         write_trace(trace, options.output, note)
     if options.json:
-        print_json(trace_summary(trace))
+        print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0

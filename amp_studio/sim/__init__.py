@@ -17,6 +17,7 @@ from .scenarios import SCENARIOS, Scenario
 from .simulate import bind_axis, simulate, simulated_axes
 from .svg import plot_svg
 from .trace import Alarm, Figure, Recommendation, Trace
+from .trial import address_of, named_parameter
 from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
 
 __all__ = [
@@ -37,9 +38,11 @@ __all__ = [
     "SimulationError",
     "Source",
     "Trace",
+    "address_of",
     "bind_axis",
     "law_of",
     "model_settings",
+    "named_parameter",
     "plot_png",
     "plot_svg",
     "simulate",

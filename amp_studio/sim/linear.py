@@ -22,8 +22,12 @@ Response = npt.NDArray[np.complex128]
 
 _POINTS = 2400
 """Points of the grid on which crossings are sought before they are refined."""
+HALVINGS, COARSE = 48, 12
+"""Halvings of the space between two points around a crossing, for a figure and for a value that is tried."""
 _LOWEST = 1e-4
 """Lowest frequency of the grid as a share of the sampling frequency."""
+_NOTHING = 1e-300
+"""Keeps the logarithm of a response of 0 finite."""
 HALF_POWER = math.sqrt(0.5)
 """Share of the amplitude at the bandwidth: -3 dB."""
 
@@ -43,11 +47,11 @@ class Margins:
 
 
 class LinearModel(SampledLoop):
-    """What a sampled loop says about its axis."""
+    """Stability, margins and response of a sampled loop."""
 
     @property
     def nyquist(self) -> float:
-        """Highest frequency in Hz that the samples can tell apart."""
+        """Highest frequency in Hz that the samples can distinguish."""
         return 0.5 / self.period
 
     def poles(self) -> Response:
@@ -59,9 +63,9 @@ class LinearModel(SampledLoop):
         """Return whether the loop is stable where it is cut: what is inside of it does not run away by itself."""
         return bool(np.all(np.abs(np.linalg.eigvals(self.open)) < 1.0 + 1e-7))
 
-    def is_stable(self) -> bool:
-        """Return whether every motion of the closed loop dies away."""
-        return bool(np.all(np.abs(self.poles()) < 1.0 - 1e-9))
+    def is_stable(self, *, drift: bool = False) -> bool:
+        """Return whether every motion of the closed loop dies away; with ``drift`` a position may stay where it is."""
+        return bool(np.all(np.abs(self.poles()) < (1.0 + 1e-7 if drift else 1.0 - 1e-9)))
 
     def loop(self, frequencies: Matrix) -> Response:
         """Return the open position loop at frequencies in Hz: from position error to position."""
@@ -88,22 +92,23 @@ class LinearModel(SampledLoop):
         loop = self.loop(frequencies)
         return np.asarray(loop / (1.0 + loop))
 
-    def grid(self, lowest: float | None = None) -> Matrix:
+    def grid(self, points: int = _POINTS) -> Matrix:
         """Return frequencies in Hz up to Nyquist, close together where a pole is."""
-        low = lowest or _LOWEST / self.period
-        even = np.geomspace(low, self.nyquist, _POINTS)
+        low = _LOWEST / self.period
+        even = np.geomspace(low, self.nyquist, points)
         found = np.concatenate([self.poles(), np.linalg.eigvals(self.open)])
         peaks = np.abs(np.angle(found[np.abs(found) > 1e-6])) / (2.0 * math.pi * self.period)
         near = (peaks[:, None] * np.geomspace(0.8, 1.25, 41)[None, :]).ravel()
         every = np.concatenate([even, near[(near > low) & (near < self.nyquist)]])
         return np.unique(every)
 
-    def margins(self) -> Margins:
-        """Return the least phase and gain margin of the position loop."""
-        grid = self.grid()
-        size = _crossings(lambda f: np.log(np.abs(self.loop(f))), grid)
+    def margins(self, points: int = _POINTS) -> Margins:
+        """Return the least phase and gain margin of the loop, sought on a grid of ``points`` frequencies and more at poles."""
+        grid = self.grid(points)
+        halvings = HALVINGS if points >= _POINTS else COARSE
+        size = _crossings(lambda f: np.log(np.abs(self.loop(f)) + _NOTHING), grid, halvings)
         phase = _least([(_phase_margin(self._at(f)), f) for f in size])
-        real = _crossings(lambda f: self.loop(f).imag, grid)
+        real = _crossings(lambda f: self.loop(f).imag, grid, halvings)
         gains = [(-20.0 * math.log10(abs(at)), f) for f in [*real, self.nyquist] if (at := self._at(f)).real < 0.0
                  and abs(at.imag) < 1e-3 * abs(at)]  # fmt: skip
         gain = _least(gains)
@@ -112,15 +117,19 @@ class LinearModel(SampledLoop):
     def bandwidth(self) -> float | None:
         """Return the frequency in Hz from which the axis follows less than -3 dB; None if it always does."""
         grid = self.grid()
-        fall = _crossings(lambda f: np.log(np.abs(self.follows(f)) / HALF_POWER), grid)
+        fall = _crossings(lambda f: np.log(np.abs(self.follows(f)) / HALF_POWER + _NOTHING), grid)
         return fall[0] if fall else None
 
-    def slowest_damping(self) -> float:
-        """Return the least damping ratio of the closed loop's oscillating poles; 1 if none oscillates."""
+    def oscillations(self) -> list[tuple[float, float]]:
+        """Return (rate in 1/s, damping ratio) of every oscillation of the closed loop."""
         poles = self.poles()
         rates = np.log(poles[np.abs(poles) > 1e-9]) / self.period
-        swinging = rates[np.abs(rates.imag) > 1e-6 * np.abs(rates)]
-        return float(np.min(-swinging.real / np.abs(swinging))) if swinging.size else 1.0
+        swinging = rates[rates.imag > 1e-6 * np.abs(rates)]
+        return [(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging]
+
+    def least_damping(self) -> float:
+        """Return the least damping ratio of the closed loop's oscillations; 1 if there is none."""
+        return min((damping for _, damping in self.oscillations()), default=1.0)
 
     def _z(self, frequencies: Matrix) -> Response:
         return np.asarray(np.exp(2j * math.pi * np.asarray(frequencies) * self.period))
@@ -137,6 +146,26 @@ def linear_model(axis: AxisLaw) -> LinearModel:
     places = _places(axis)
     loop = sampled(plant, position, velocity, places, axis.servo_period, axis.velocity_period)
     return LinearModel(**vars(loop))
+
+
+@dataclass(frozen=True)
+class AxisModel:
+    """The linear models of one axis."""
+
+    whole: LinearModel
+    """From the command to the position."""
+    cut: LinearModel
+    """The position loop, cut where the position is measured."""
+    inner: LinearModel | None
+    """The velocity loop alone; None for a law without one."""
+
+
+def axis_model(axis: AxisLaw) -> AxisModel:
+    """Return the models of an axis; a law that closes its position loop with the motor's device is cut there."""
+    whole, inner = linear_model(axis), velocity_model(axis)
+    if inner is not None and not np.any(whole.measured):
+        return AxisModel(whole, inner, None)
+    return AxisModel(whole, whole, inner)
 
 
 def velocity_model(axis: AxisLaw) -> LinearModel | None:
@@ -184,12 +213,12 @@ def _response(a: Matrix, b: Matrix, c: Matrix, z: Response) -> Response:
     return np.asarray((c @ np.linalg.solve(system, np.broadcast_to(b, (len(z), *b.shape))))[:, 0, 0])
 
 
-def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix) -> list[float]:
+def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix, halvings: int = HALVINGS) -> list[float]:
     """Return where a function of the frequency changes its sign, refined by halving."""
     values = function(grid)
     changes = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
     low, high, sign = grid[changes], grid[changes + 1], values[changes] > 0.0
-    for _ in range(48):
+    for _ in range(halvings):
         middle = 0.5 * (low + high)
         same = (function(middle) > 0.0) == sign if middle.size else sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)

@@ -78,7 +78,7 @@ class Picture:
     panels: tuple[Panel, ...]
     x_log: bool = False
     close: Panel | None = None
-    """The settling, over a time axis of its own."""
+    """The settling, over a separate time axis."""
     rings: tuple[Ring, ...] = ()
     ring_unit: str = ""
     alarms: tuple[tuple[str, float], ...] = ()
@@ -119,7 +119,7 @@ def thinned(x: Series, y: Series, columns: int) -> tuple[Series, Series]:
 
 
 def unheld(x: Series, y: Series) -> tuple[Series, Series]:
-    """Return a value that is held between samples as the line through its samples, without the stairs.
+    """Return a value that is constant between samples as the line through its samples, without the stairs.
 
     A sample that stays much longer than the others keeps its end, so that a pause stays level.
     """

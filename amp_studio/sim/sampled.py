@@ -1,6 +1,6 @@
 """A law and its machine as one matrix a servo period: the loop as the control samples it.
 
-The machine is discretised exactly over each velocity period with its output held, delay included (K. J. Åström, B. Wittenmark,
+The machine is discretised exactly over each velocity period with a constant output, delay included (K. J. Åström, B. Wittenmark,
 Computer-Controlled Systems, 1997, chapter 3); the law is the matrices of its two sample functions.
 """
 
@@ -190,7 +190,7 @@ def exponential(matrix: Matrix) -> Matrix:
 
 
 def held(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
-    """Return (phi, gamma) of dx/dt = a x + b u over a time in s with u held."""
+    """Return (phi, gamma) of dx/dt = a x + b u over a time in s with a constant u."""
     n, m = b.shape
     joined = np.zeros((n + m, n + m))
     joined[:n, :n], joined[:n, n:] = a, b

@@ -9,12 +9,15 @@ from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.registration import load_part, registration_of
 
+from .advice import recommendations
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .errors import SimulationError
 from .law import AxisLaw, Law, law_of
 from .model import with_model
 from .scenarios import SCENARIOS
+from .scenarios.circle import SECOND
 from .trace import Trace
+from .trial import Trial
 
 
 def simulate(
@@ -40,9 +43,33 @@ def simulate(
         )
     model = {name: value for name, value in given.items() if name not in own}
     bound = bind_axis(file, law, axis, model)
-    run = law.own[scenario] if scenario in law.own else SCENARIOS[scenario].run
-    trace = run(bound, own)
-    return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
+    if scenario in law.own:
+        trace = law.own[scenario](bound, own)
+        return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
+    chosen = SCENARIOS[scenario]
+    second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
+    trace = chosen.run(bound, own, *second)
+    trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
+    advice = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
+    return replace(trace, recommendations=advice)
+
+
+def _second(
+    file: ParameterFile, law: Law, first: AxisLaw, name: ParameterValue, model: Mapping[str, ParameterValue]
+) -> AxisLaw | None:
+    """Return the second axis: the one of that name, else the next one that can be simulated and moves in the same unit."""
+    if name is not None:
+        return bind_axis(file, law, str(name), model)
+    axes = tuple(law.axes(file))
+    place = axes.index(first.axis)
+    for other in (*axes[place + 1 :], *axes[:place]):
+        try:
+            second = bind_axis(file, law, other, model)
+        except SimulationError:
+            continue
+        if second.unit == first.unit:
+            return second
+    return None
 
 
 def simulated_axes(file: ParameterFile) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ COLOURS = {
     "output": "#b25a00",
     "before": "#a3a9b3",
 }
-"""Colours that colour-blind readers can tell apart; the command is dashed as well."""
+"""Colours that colour-blind readers can distinguish; the command is dashed as well."""
 DASH = "6 4"
 LABEL = 13.0
 """Height of a label; closer labels share one line."""

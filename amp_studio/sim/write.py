@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +67,10 @@ def trace_text(trace: Trace) -> str:
     for heading, entries in (
         (
             "Recommendations",
-            [f"{a.parameter} = {shown(a.value, a.unit, 9)}: {a.why}" for a in trace.recommendations],
+            [
+                f"{a.parameter} = {shown(a.value, a.unit, 9)}: {a.why}{f' Price: {a.price}' if a.price else ''}"
+                for a in trace.recommendations
+            ],
         ),
         ("Assumptions", list(trace.assumptions)),
     ):
@@ -94,8 +98,8 @@ def write_trace(trace: Trace, path: Path, notify: Notify = lambda _note: None) -
     write_atomic(path, content, keep_backup=False, notify=notify)
 
 
-def trace_summary(trace: Trace) -> dict[str, Any]:
-    """Return the result without the curves, in the form of ``simulate --json``."""
+def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, Any]:
+    """Return the result without the curves, in the form of ``simulate --json``; ``named`` names a parameter by its id."""
     return {
         "scenario": trace.scenario,
         "axis": trace.axis,
@@ -103,7 +107,12 @@ def trace_summary(trace: Trace) -> dict[str, Any]:
         "result": {name: {"value": value, "unit": unit} for name, (value, unit) in trace.result.items()},
         "alarms": [{"code": a.code, "time_s": a.time_s, "message": a.message} for a in trace.alarms],
         "advice": [
-            {"param": a.parameter, "value": f"{a.value!r} {a.unit}".rstrip(), "why": a.why}
+            {
+                "param": named(a.parameter),
+                "value": f"{a.value!r} {a.unit}".rstrip(),
+                "why": a.why,
+                "price": a.price,
+            }
             for a in trace.recommendations
         ],
         "assumptions": list(trace.assumptions),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from . import frequency, step
+from . import circle, frequency, step
 from .scenario import Scenario
 
-SCENARIOS: dict[str, Scenario] = {each.name: each for each in (step.SCENARIO, frequency.SCENARIO)}
+SCENARIOS: dict[str, Scenario] = {
+    each.name: each for each in (step.SCENARIO, frequency.SCENARIO, circle.SCENARIO)
+}
 
 __all__ = ["SCENARIOS", "Scenario"]

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import LinearModel, Margins, linear_model, velocity_model
+from amp_studio.sim.linear import LinearModel, Margins, axis_model
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -38,10 +38,13 @@ Response = npt.NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class _Loop:
-    """An axis and what its linear model says."""
+    """An axis and the figures of its linear model."""
 
     axis: AxisLaw
     model: LinearModel
+    """From the command to the position."""
+    cut: LinearModel
+    """The position loop, cut where the position is measured."""
     inner: LinearModel | None
     """The velocity loop."""
     stable: bool
@@ -66,8 +69,9 @@ _LINEAR = (
 def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     """Sweep an axis; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
-    model = linear_model(axis)
-    loop = _Loop(axis, model, velocity_model(axis), model.is_stable(), model.margins(), model.bandwidth())
+    models = axis_model(axis)
+    model, cut = models.whole, models.cut
+    loop = _Loop(axis, model, cut, models.inner, model.is_stable(), cut.margins(), model.bandwidth())
     low, high, points = _span(loop, settings)
     curve = np.unique(np.concatenate([np.geomspace(low, high, CURVE), _known(loop, low, high)]))
     notes, alarms = [_LINEAR], tuple[Alarm, ...]()
@@ -83,7 +87,7 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
         scenario="frequency",
         axis=axis.axis,
         model=axis.title,
-        columns=_columns(model, curve, swept),
+        columns=_columns(loop, curve, swept),
         units=_UNITS,
         result=_figures(loop, curve, swept),
         alarms=alarms,
@@ -152,11 +156,13 @@ def _measured(
     tones = tones_of(axis, model, curve[places].tolist(), above_zero(settings, "move.amplitude"))
     first = last = sweep(axis, tones)
     note, sensed = "", first.measured
-    if model.forwards_position():
+    if np.any(model.measured) and model.forwards_position():
         note = (
             "The open loop was not swept: the law takes its feed-forward from the commanded position itself."
         )
         sensed = np.full(len(tones), np.nan, dtype=np.complex128)
+    elif not np.any(model.measured):
+        note, sensed = _faster(loop, curve[places], sensed)
     elif model.forwards_velocity():
         note = "The open loop was swept with velocity and acceleration feed-forward off."
         last = sweep(axis, tones, feed_forward=False)
@@ -168,9 +174,22 @@ def _measured(
     return _Swept(closed, opened), alarms_of(axis, first.motion) or alarms_of(axis, last.motion), note
 
 
-def _columns(model: LinearModel, curve: Series, swept: _Swept) -> dict[str, Series]:
+def _faster(loop: _Loop, frequencies: Series, sensed: Response) -> tuple[str, Response]:
+    """Return the swept answer of a loop in the motor's device, where the command goes to it as it is; else nothing."""
+    if np.allclose(loop.model.follows(frequencies), loop.cut.feedback(frequencies), rtol=2e-2):
+        return "", sensed
+    return (
+        "The open loop was not swept: the law closes it with the motor's device and delays or smooths the command before it.",
+        np.full(len(frequencies), np.nan, dtype=np.complex128),
+    )
+
+
+def _columns(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Series]:
     columns: dict[str, Series] = {"frequency_hz": curve}
-    pairs = (("closed", model.follows(curve), swept.closed), ("open", model.loop(curve), swept.opened))
+    pairs = (
+        ("closed", loop.model.follows(curve), swept.closed),
+        ("open", loop.cut.loop(curve), swept.opened),
+    )
     for name, linear, found in pairs:
         phase = np.degrees(np.unwrap(np.angle(linear)))
         phase -= 360.0 * round((phase[0] + 90.0) / 360.0)
@@ -200,7 +219,7 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "gain_margin_frequency": (margins.gain_frequency, "Hz"),
         "swept_gain_margin": (_swept_gain(swept.opened), "dB"),
         "resonance_peak": (peak if loop.stable else None, "dB"),
-        "damping_ratio": (loop.model.slowest_damping(), ""),
+        "damping_ratio": (loop.model.least_damping(), ""),
         "velocity_loop_phase_margin": (inside.phase if inside else None, "deg"),
         "velocity_loop_gain_margin": (inside.gain if inside else None, "dB"),
         "velocity_loop_bandwidth": (inside.phase_frequency if inside else None, "Hz"),

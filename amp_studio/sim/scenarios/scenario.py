@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.trace import Trace
 
 Settings = Mapping[str, ParameterValue]
@@ -23,8 +22,10 @@ class Scenario:
     title: str
     settings: Mapping[str, str]
     """Settings of the scenario -> what they are."""
-    run: Callable[[AxisLaw, Settings], Trace]
-    """run(axis, settings in canonical units) -> Trace; raises SimulationError."""
+    run: Callable[..., Trace]
+    """run(axis, settings in canonical units) -> Trace, with the second axis after them if there is one; raises SimulationError."""
+    second: bool = False
+    """Whether a second axis takes part: the one of ``move.second_axis``, else the next that can be simulated."""
 
 
 def number(settings: Settings, name: str) -> float | None:

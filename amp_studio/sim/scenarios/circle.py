@@ -1,0 +1,223 @@
+"""Scenario `circle`: two axes on a circle, as a ball-bar measures it: radius error and what every reversal leaves.
+
+The circle is run with a rising feedrate for half a turn, then until what the start left has died away, then measured for one turn.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.linear import LinearModel, linear_model
+from amp_studio.sim.model import assumptions
+from amp_studio.sim.motion import Motion, Until, run_axis
+from amp_studio.sim.profiles import SINE
+from amp_studio.sim.rounding import shown
+from amp_studio.sim.trace import Alarm, Figure, Trace
+
+from .scenario import Scenario, Settings, above_zero, refuse_unknown
+from .step import alarms_of
+from .sweep import DIES
+
+SECOND = "move.second_axis"
+SETTINGS = {
+    "move.radius": "radius (mm or deg); default: 20",
+    "move.feedrate": "feedrate on the circle (mm/min or deg/min); default: 3000, at most half the rapid feedrate",
+    SECOND: "the other axis of the plane; default: the next one",
+}
+RADIUS, FEEDRATE = 20.0, 50.0
+"""u, u/s: 20 mm at 3 m/min."""
+MOST_TURNS = 200
+RISE = math.pi
+"""rad: the part of a turn in which the feedrate rises."""
+AWAY = (-6.0, 40.0)
+"""deg before and after a reversal that belong to its spike."""
+
+Series = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Circle:
+    """Radius in u, final rate in rad/s, time of the rise in s, whole turns until it is measured."""
+
+    radius: float
+    rate: float
+    rise: float
+    turns: int
+
+    def profile(self, phase: float) -> list[float]:
+        """Return the command of one axis; it begins at ``phase`` rad of the sine, at position 0."""
+        centre = -self.radius * math.sin(phase)
+        faster = [0.0, self.rise, centre, self.radius, 0.0, self.rate / self.rise, SINE, phase]
+        even = [self.rise, math.inf, centre, self.radius, self.rate, 0.0, SINE, phase + RISE]
+        return faster + even
+
+    @property
+    def end(self) -> float:
+        """When the measured turn is over, with a quarter of a turn more for the following error."""
+        return self.rise + (2.0 * math.pi * (self.turns + 1.5) - RISE) / self.rate
+
+
+def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None) -> Trace:
+    """Run two axes on a circle; ``second`` None takes the same axis twice. Raises SimulationError for impossible settings."""
+    refuse_unknown(settings, SETTINGS)
+    other = second or axis
+    if other.unit != axis.unit:
+        raise SimulationError(
+            f"Axis {axis.axis} moves in {axis.unit}, axis {other.axis} in {other.unit}. A circle needs two axes with the same unit",
+            SECOND,
+        )
+    models = (linear_model(axis), linear_model(other))
+    circle = _circle(axis, other, models, settings)
+    motions = [
+        run_axis(each, circle.profile(phase), Until(circle.end), thin=True)
+        for each, phase in ((axis, math.pi / 2.0), (other, 0.0))
+    ]
+    alarms = tuple(
+        alarm
+        for each, motion in zip((axis, other), motions, strict=True)
+        for alarm in alarms_of(each, motion)
+    )
+    alarms = _unstable(axis, other, models) or alarms
+    columns = _columns(circle, *motions)
+    return Trace(
+        scenario="circle",
+        axis=axis.axis,
+        model=f"{axis.title}; circle of axes {axis.axis} and {other.axis}",
+        columns=columns,
+        units=_units(axis),
+        result=_figures(axis, other, models, circle, columns, bool(alarms)),
+        alarms=alarms,
+        recommendations=(),
+        assumptions=_assumptions(axis, other, second),
+        limits={},
+    )
+
+
+def _circle(
+    axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel], settings: Settings
+) -> _Circle:
+    radius = above_zero(settings, "move.radius") or RADIUS
+    given = above_zero(settings, "move.feedrate")
+    known = [each.feedrate / 2.0 for each in (axis, other) if each.feedrate]
+    feedrate = given / 60.0 if given else min([FEEDRATE, *known])
+    rate = feedrate / radius
+    slowest = max(float(np.max(np.abs(model.poles()), initial=0.0)) for model in models)
+    dies = DIES * axis.servo_period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
+    turns = max(1, math.ceil(dies * rate / (2.0 * math.pi) + 0.5))
+    if turns > MOST_TURNS:
+        raise SimulationError(
+            f"A circle of {shown(radius, axis.unit)} at {shown(feedrate * 60.0, axis.unit)}/min needs {turns} turns until the axes"
+            f" follow evenly; {MOST_TURNS} are simulated at most. Give a larger radius or a lower feedrate",
+            "move.radius",
+        )
+    return _Circle(radius, rate, 2.0 * RISE / rate, turns)
+
+
+def _columns(circle: _Circle, first: Motion, second: Motion) -> dict[str, Series]:
+    """Return the measured turn by the angle at which the axes are; the whole run where they do not come so far."""
+    rows = min(len(first.columns["time_s"]), len(second.columns["time_s"]))
+    one, two = ({name: column[:rows] for name, column in m.columns.items()} for m in (first, second))
+    x, y = circle.radius + one["position"], two["position"]
+    angle = np.unwrap(np.arctan2(y, x))
+    begin = 2.0 * math.pi * circle.turns
+    inside = (angle >= begin) & (angle <= begin + 2.0 * math.pi)
+    if inside.sum() < 8:
+        inside = np.ones(rows, dtype=bool)
+    every = {
+        "time_s": one["time_s"],
+        "angle_deg": np.degrees(angle - begin if inside.sum() < rows else angle),
+        "radius_deviation": np.hypot(x, y) - circle.radius,
+        "position": x,
+        "second_position": y,
+        "following_error": one["following_error"],
+        "second_following_error": two["following_error"],
+        "velocity": one["velocity"] * 60.0,
+        "second_velocity": two["velocity"] * 60.0,
+        "output": one["output"],
+        "second_output": two["output"],
+    }
+    return {name: np.ascontiguousarray(column[inside]) for name, column in every.items()}
+
+
+def _units(axis: AxisLaw) -> dict[str, str]:
+    u = axis.unit
+    own = {"time_s": "s", "angle_deg": "deg", "radius_deviation": u}
+    kinds = (("position", u), ("following_error", u), ("velocity", f"{u}/min"), ("output", axis.output_unit))
+    return own | {f"{place}{name}": unit for name, unit in kinds for place in ("", "second_")}
+
+
+def _figures(
+    axis: AxisLaw,
+    other: AxisLaw,
+    models: tuple[LinearModel, LinearModel],
+    circle: _Circle,
+    columns: dict[str, Series],
+    stopped: bool,
+) -> dict[str, Figure]:
+    """Return the named figures; a radius error above 0 is a circle that is too small."""
+    u, deviation = axis.unit, columns["radius_deviation"]
+    feedrate = circle.rate * circle.radius
+    answers = [complex(model.follows(np.array([circle.rate / (2.0 * math.pi)]))[0]) for model in models]
+    predicted = circle.radius * (1.0 - math.sqrt(sum(abs(a) ** 2 for a in answers) / 2.0))
+    lag = [circle.radius * (circle.rate / each.position_rate) ** 2 / 2.0 for each in (axis, other)]
+    stable = all(model.is_stable() for model in models)
+    spike, where = _spike(columns["angle_deg"], deviation) if not stopped else (None, None)
+    return {
+        "radius": (circle.radius, u),
+        "feedrate": (feedrate * 60.0, f"{u}/min"),
+        "radius_error": (None if stopped else -float(deviation.mean()), u),
+        "predicted_radius_error": (predicted if stable else None, u),
+        "first_order_radius_error": (sum(lag) / 2.0, u),
+        "circularity": (None if stopped else float(deviation.max() - deviation.min()), u),
+        "reversal_spike": (spike, u),
+        "reversal_spike_angle": (where, "deg"),
+        "time": (2.0 * math.pi / circle.rate, "s"),
+    }
+
+
+def _spike(angle: Series, deviation: Series) -> tuple[float | None, float | None]:
+    """Return the largest departure near a reversal from the even path (offset and ellipse), and where it is in deg."""
+    after = (angle - AWAY[0]) % 90.0
+    near = after < AWAY[1] - AWAY[0]
+    turn = np.radians(angle)
+    base = np.column_stack([np.ones_like(turn), *(f(n * turn) for n in (1, 2) for f in (np.cos, np.sin))])
+    if (~near).sum() < 2 * base.shape[1] or not near.any():
+        return None, None
+    even = np.linalg.lstsq(base[~near], deviation[~near], rcond=None)[0]
+    apart = np.where(near, np.abs(deviation - base @ even), 0.0)
+    place = int(np.argmax(apart))
+    return float(apart[place]), float(angle[place] % 360.0)
+
+
+def _unstable(axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel]) -> tuple[Alarm, ...]:
+    for each, model in zip((axis, other), models, strict=True):
+        if not model.is_stable():
+            gain = model.margins().gain
+            by = f": the gain is {shown(-gain, 'dB', 3)} too high" if gain and gain < 0.0 else ""
+            return (Alarm("UNSTABLE", 0.0, f"The position loop of axis {each.axis} is not stable{by}."),)
+    return ()
+
+
+def _assumptions(axis: AxisLaw, other: AxisLaw, second: AxisLaw | None) -> tuple[str, ...]:
+    """Return the assumptions of both axes, those of both once."""
+    every = dict.fromkeys([*assumptions(axis), *assumptions(other)])
+    notes = [
+        (
+            "A radius error above 0 is a circle that is too small. Predicted is the linear model of both axes at this rate; the"
+            " first-order figure is v² / (2 R Kv²) of two lags of first order without feed-forward."
+        )
+    ]
+    if second is None:
+        notes.append(f"ASSUMED: the second axis of the circle is like axis {axis.axis}.")
+    return (*every, *notes)
+
+
+SCENARIO = Scenario(
+    "circle", "Two axes on a circle: radius error and reversal spikes", SETTINGS, run_circle, second=True
+)
