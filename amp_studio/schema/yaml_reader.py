@@ -75,8 +75,11 @@ class YamlDocument:
         return found
 
 
-_UNREADABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff")
-_BREAK = "\n\r\x85\u2028\u2029"
+# U+0085, U+2028 and U+2029 end a line for some readers of YAML and for no editor: they are written as escapes.
+_UNREADABLE = re.compile(
+    "[^\t\n\r\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff"
+)
+_BREAK = "\n\r"
 _BLANK = re.compile(rf"(?:[ \t]*(?:#[^{_BREAK}]*)?(?:[{_BREAK}]|$))*")
 
 
