@@ -67,6 +67,16 @@ class AxisParameters:
         figure = self.value(parameter, everywhere=everywhere, at=at)
         return None if figure is None else self._float(parameter, figure)
 
+    def within(self, parameter: str, least: float, most: float, *, everywhere: bool = False) -> float:
+        """Return a number from ``least`` to ``most``; raises SimulationError for one that no motion could be computed with."""
+        figure = self.number(parameter, everywhere=everywhere)
+        if not least <= figure <= most:
+            raise SimulationError(
+                f"{parameter} of axis {self.axis} is {figure:g}; it can be simulated from {least:g} to {most:g}",
+                parameter,
+            )
+        return figure
+
     def choice(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> str:
         """Return the key of a choice; raises SimulationError if it is not set."""
         key = self.value(parameter, everywhere=everywhere, at=at)

@@ -33,6 +33,7 @@ AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
 COUNT = "view.number_of_axes"
 PULSES, PERIOD = "axes.pulses_per_unit", "tuning.servo_period"
 P_GAIN, I_DELAY, D_TIME = "servo.p_gain", "servo.i_delay", "servo.d_time"
+LIMIT = "servo.torque_limits"
 VEL_FFWD, FBVEL, DAC_GAIN = "servo.vel_ffwd", "tuning.fbvel", "tuning.dac_gain"
 EXCESS, BAND = "axes.excess_error_band", "axes.inposition_band"
 RAPID, HIGHEST, RAMP = "speeds.rapid", "speeds.max_machine", "speeds.rapid_acc_dec"
@@ -48,9 +49,9 @@ _GAINS = {
     loop.VEL_FFWD: VEL_FFWD,
     loop.ACC_FFWD: "servo.acc_ffwd",
     loop.FBVEL: FBVEL,
-    loop.TORQUE_LIMIT: "servo.torque_limits",
 }
 _MILLISECONDS = 1e-3
+_SMALLEST_GAIN, _LARGEST_GAIN = 1e-9, 1e6
 
 _TEST_MOTOR = (
     "The control does not know its motor: taken is the bare test motor of appendix C (from page 115 on)"
@@ -85,10 +86,11 @@ def axes(file: ParameterFile) -> Sequence[str]:
 
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError naming the parameter that is missing or impossible."""
-    pulses, period = _above_zero(read, PULSES), _above_zero(read, PERIOD, everywhere=True) * _MILLISECONDS
+    pulses = read.within(PULSES, 0.001, 1e9)
+    period = read.within(PERIOD, 0.01, 100.0, everywhere=True) * _MILLISECONDS
     notes = list(_NOTES)
     p = _parameters(read, pulses, period, notes)
-    excess, band = read.optional(EXCESS) or 0.0, read.optional(BAND) or 0.0
+    excess, band = _or(read, EXCESS, 1e9), _or(read, BAND, 1e9)
     p[loop.EXCESS] = excess * pulses
     if excess <= 0.0:
         notes.append(
@@ -104,9 +106,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         position_count=1.0 / pulses,
         load_sensor=p[loop.FBVEL] != 0.0,
     )
-    rapid = read.optional(RAPID, everywhere=True)
-    feedrate = rapid or read.optional(HIGHEST, everywhere=True)
-    ramp = read.optional(RAMP, everywhere=True) or 0.0
+    rapid = _or(read, RAPID, 1e9, everywhere=True)
+    feedrate = rapid or _or(read, HIGHEST, 1e9, everywhere=True)
+    ramp = _or(read, RAMP, 1e12, everywhere=True)
     axis = AxisLaw(
         axis=read.axis,
         unit="mm",
@@ -144,34 +146,46 @@ def _excess(band: float) -> str:
     return f"The following error exceeds ExcessErr Band, {band:.6g} mm: the bit for not excess error goes off (page 114)"
 
 
-def _above_zero(read: AxisParameters, parameter: str, *, everywhere: bool = False) -> float:
-    value = read.number(parameter, everywhere=everywhere)
-    if not value > 0.0:
-        raise SimulationError(f"{parameter} is {value:g}; it must be above 0 to simulate the axis", parameter)
-    return value
+def _or(read: AxisParameters, parameter: str, most: float, *, everywhere: bool = False) -> float:
+    """Return a figure from 0 to ``most``, 0 where it is not set."""
+    if read.value(parameter, everywhere=everywhere) is None:
+        return 0.0
+    return read.within(parameter, 0.0, most, everywhere=everywhere)
 
 
 def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[str]) -> list[float]:
     p = [0.0] * loop.PARAMETERS
     for place, parameter in _GAINS.items():
-        p[place] = read.number(parameter)
-    if p[loop.P_GAIN] == 0.0:
+        p[place] = read.within(parameter, -_LARGEST_GAIN, _LARGEST_GAIN)
+    if abs(p[loop.P_GAIN]) < _SMALLEST_GAIN:
         raise SimulationError(
-            f"{P_GAIN} of axis {read.axis} is 0: the loop is open and the axis would not follow (page 115)",
+            f"{P_GAIN} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and the axis would not follow (page 115)",
             P_GAIN,
         )
     p[loop.PULSES], p[loop.PERIOD] = pulses, period
-    p[loop.I_DELAY] = read.number(I_DELAY) * _MILLISECONDS
+    p[loop.TORQUE_LIMIT] = read.within(LIMIT, 0.001, 1000.0)
+    p[loop.I_DELAY] = read.within(I_DELAY, 0.0, 1e9) * _MILLISECONDS
     if p[loop.I_LIMIT] <= 0.0:  # no room to work in (page 59)
         p[loop.I_LIMIT] = p[loop.I_GAIN] = 0.0
-    p[loop.D_PERIODS] = max(1.0, round(read.number(D_TIME) * _MILLISECONDS / period))
-    p[loop.DAC_SHARE] = abs(read.number(DAC_GAIN)) / NORMAL_DAC_GAIN
+    p[loop.D_PERIODS] = max(1.0, round(read.within(D_TIME, 0.0, 1e6) * _MILLISECONDS / period))
+    p[loop.DAC_SHARE] = _dac_share(read)
     p[loop.DAC_WORDS] = NORMAL_DAC_GAIN
     sections = _filters(read, 1.0 / period)
     if sections != (PASS, PASS):
         notes.append(_FILTER_NOTE)
     p[loop.FILTERS :] = [figure for section in sections for figure in section]
     return p
+
+
+def _dac_share(read: AxisParameters) -> float:
+    """Return the volts put out for 1 V."""
+    gain = read.number(DAC_GAIN)
+    if not 1.0 <= abs(gain) <= 1e6:
+        raise SimulationError(
+            f"{DAC_GAIN} of axis {read.axis} is {gain:g}: the output has no use. 3276.8 is normal (page 114)",
+            DAC_GAIN,
+        )
+    return abs(gain) / NORMAL_DAC_GAIN
 
 
 def _filters(read: AxisParameters, servo_hz: float) -> tuple[Biquad, Biquad]:
@@ -258,4 +272,9 @@ def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     )
 
 
-LAW = Law(bind=bind, axes=axes, advise=advise)
+LAW = Law(
+    bind=bind,
+    axes=axes,
+    without_axes="Number of Axes (view.number_of_axes) is 0: set it to simulate an axis",
+    advise=advise,
+)

@@ -64,6 +64,9 @@ SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
     **COMMAND_SETTINGS,
 }
 
+_WORD = (-32768.0, 32767.0)
+"""Range of a register of 16 bits."""
+
 _LOST = (
     "ASSUMED: a cascade with model.proportional_scale = {0:g}, model.integral_scale = {1:g},"
     " model.feedforward_scale = {2:g}, model.velocity_scale = {3:g}; the diagram of the loop and the"
@@ -99,7 +102,7 @@ def bind(read: AxisParameters) -> AxisLaw:
             PROPORTIONAL,
         )
     current = read.number(VELOCITY) != 0.0
-    per_volt = read.optional(PER_VOLT)
+    per_volt = None if read.value(PER_VOLT) is None else read.within(PER_VOLT, 1.0, 1e9)
     machine = plant.machine(current_reference=current, velocity_per_volt=per_volt)
     p, notes = _parameters(read, machine, current)
     assumed = dict(plant.CURRENT if current else plant.VELOCITY)
@@ -118,8 +121,8 @@ def bind(read: AxisParameters) -> AxisLaw:
         machine=machine,
         output_unit="V",
         position_rate=p[loop.PROPORTIONAL] / loop.SCAN,
-        feedrate=read.number(SPEED),
-        inposition_band=read.optional(BAND) or 0.0,
+        feedrate=read.within(SPEED, 1e-3, 1e9),
+        inposition_band=0.0 if read.value(BAND) is None else read.within(BAND, 0.0, 1e9),
         ramps=_ramps(read),
         monitors=loop.MONITORS,
         alarms=_alarms(p),
@@ -156,14 +159,15 @@ def _named(parameter: str, axis: str) -> str:
 def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[list[float], list[str]]:
     scales = [_scale(read, name) for name in _SCALES]
     p = [0.0] * loop.PARAMETERS
-    p[loop.PROPORTIONAL] = read.number(PROPORTIONAL) / scales[0]
-    p[loop.INTEGRAL] = read.number(INTEGRAL) / scales[1]
-    p[loop.FEED_FORWARD] = read.number(FEED_FORWARD) / scales[2]
-    p[loop.VELOCITY] = read.number(VELOCITY) / scales[3]
+    gains = (PROPORTIONAL, INTEGRAL, FEED_FORWARD, VELOCITY)
+    places = (loop.PROPORTIONAL, loop.INTEGRAL, loop.FEED_FORWARD, loop.VELOCITY)
+    for place, gain, scale in zip(places, gains, scales, strict=True):
+        p[place] = read.within(gain, *_WORD) / scale
     p[loop.CURRENT_REFERENCE], p[loop.WHOLE_WORDS] = float(current), 1.0
     if not current:
         p[loop.VELOCITY] = loop.WORDS_PER_VOLT / (machine.velocity_per_output * loop.SCAN)
-    p[loop.DEADBAND], p[loop.CLAMP] = read.number(DEADBAND), read.number(CLAMP) * loop.WORDS_PER_VOLT
+    p[loop.DEADBAND] = read.within(DEADBAND, *_WORD)
+    p[loop.CLAMP] = read.within(CLAMP, 0.005, 10.0) * loop.WORDS_PER_VOLT
     notes = [_LOST.format(*scales)]
     kind = "a current reference is simulated" if current else "a velocity reference is simulated"
     notes.append(_SIGNS.format(kind, f"{read.number(VELOCITY):g}"))
@@ -176,7 +180,7 @@ def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[
         (loop.POSITION_ERROR, POSITION_ERROR, 1.0),
         (loop.VELOCITY_ERROR, VELOCITY_ERROR, loop.SCAN),
     ):
-        limit = read.optional(parameter)
+        limit = None if read.value(parameter) is None else read.within(parameter, 0.0, 1e9)
         p[place] = -1.0 if limit is None else limit * factor
         if limit is None:
             notes.append(f"{_named(parameter, read.axis)} is not set: simulated without this fault. Set it.")
@@ -187,13 +191,11 @@ def _scale(read: AxisParameters, name: str) -> float:
     value = read.optional(name)
     if value is None:
         return _SCALES[name][0]
-    if not value > 0.0:
-        raise SimulationError(f"{name} is {value:g}; it must be above 0", name)
-    return value
+    return read.within(name, 1e-6, 1e9)
 
 
 def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
-    up, down = read.number(ACCELERATION), read.number(DECELERATION)
+    up, down = read.within(ACCELERATION, -1e12, 1e12), read.within(DECELERATION, -1e12, 1e12)
     if up <= 0.0 or down <= 0.0:
         raise SimulationError(
             f"Axis {read.axis} has an acceleration of {up:g} and a deceleration of {down:g} counts/s2: the module answers"

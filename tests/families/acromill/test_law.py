@@ -44,7 +44,9 @@ def file_of(**changes: Value | None) -> ParameterFile:
             instance = "" if parameter.startswith("speeds.") or parameter.endswith("servo_period") else "X"
             file.set((parameter, instance), file.default((parameter, instance)))
     for parameter, value in (TUNED | {n.replace("__", "."): v for n, v in changes.items()}).items():
-        file.set((parameter, "" if parameter.endswith(("servo_period", "number_of_axes")) else "X"), value)
+        file.set(
+            (parameter, "" if parameter.startswith(("speeds", "tuning.servo_period", "view")) else "X"), value
+        )
     return file
 
 
@@ -99,9 +101,14 @@ def test_axes_are_as_many_as_the_number_of_axes_says() -> None:
     ("parameter", "value", "message"),
     [
         ("servo__p_gain", Value(0.0, "V/count"), "servo.p_gain of axis X is 0: the loop is open"),
-        ("axes__pulses_per_unit", Value(0.0, "counts/mm"), "it must be above 0"),
-        ("tuning__servo_period", Value(0.0, "us"), "it must be above 0"),
+        ("axes__pulses_per_unit", Value(0.0, "counts/mm"), "it can be simulated from 0.001"),
+        ("tuning__servo_period", Value(0.0, "us"), "it can be simulated from 0.01"),
         ("tuning__notch_width", Value(50.0, "Hz"), "NOTCH takes a frequency and a width"),
+        ("servo__torque_limits", Value(0.0, "V"), "servo.torque_limits of axis X is 0"),
+        ("tuning__dac_gain", Value(0.0, ""), "the output has no use"),
+        ("speeds__rapid_acc_dec", Value(-1.0, "mm/s2"), "speeds.rapid_acc_dec of axis X is -1"),
+        ("servo__p_gain", Value(1e300, "V/count"), "it can be simulated from"),
+        ("view__number_of_axes", Value(0, ""), "Number of Axes .* is 0"),
         ("servo__d_gain", None, "servo.d_gain is not set for axis X"),
     ],
 )

@@ -96,7 +96,9 @@ def test_the_lost_scales_are_named_with_the_result_and_can_be_set() -> None:
     other = simulate(file_of(gain__integral=0), "step", settings={"model.feedforward_scale": 16384.0})
     assert "model.feedforward_scale = 16384" in other.assumptions[0]
     assert other.result["peak_following_error"][0] > 10.0 * trace.result["peak_following_error"][0]
-    with pytest.raises(SimulationError, match=r"model.velocity_scale is 0; it must be above 0"):
+    with pytest.raises(
+        SimulationError, match=r"model.velocity_scale of axis X is 0; it can be simulated from"
+    ):
         simulate(file_of(), "step", settings={"model.velocity_scale": 0.0})
 
 
@@ -130,6 +132,8 @@ def test_a_velocity_gain_of_0_is_a_drive_with_velocity_reference() -> None:
         ("command__acceleration", 0.0, "illegal command fault"),
         ("command__deceleration", -1.0, "illegal command fault"),
         ("gain__proportional", 0.0, "without it the axis does not follow"),
+        ("setup__max_position_error", -1.0, "it can be simulated from 0"),
+        ("output__max_voltage", 0.0, "it can be simulated from 0.005 to 10"),
         ("output__max_voltage", None, "R31 Maximum Voltage Reference"),
     ],
 )
