@@ -6,6 +6,8 @@ ACC 500 (17 ms), and with ramps of the 100 ms that the story wants verified (err
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -173,6 +175,16 @@ def test_the_predicted_error_is_the_one_at_speed(run: int) -> None:
     predicted = axis.predict(500.0 / 60.0)["steady_following_error"].value
     assert predicted is not None
     assert predicted * TURN == pytest.approx(abs(trace(run, PRINTED).at_speed), abs=0.15)
+
+
+def test_feedback_of_the_motors_speed_calms_an_axis_with_its_encoder_on_a_soft_load() -> None:
+    # Page 135: dual feedback; FBVEL dampens the loop in addition to the PID.
+    def swing(fbvel: float) -> float:
+        axis = axis_of(11, servo__p_gain=0.02, servo__d_gain=0.00005, tuning__fbvel=fbvel)
+        soft = replace(axis.machine, load_sensor=True, resonance=60.0, inertia_ratio=1.0, damping=0.02)
+        return index(replace(axis, machine=soft), ramp=VERIFIED, turns=5.0).ringing(0.4, 0.2)
+
+    assert swing(0.0003) < 0.05 * swing(0.0)
 
 
 def reversals(error: np.ndarray, beyond: float) -> int:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from amp_studio.families.acromill import formulas as acromill
-from amp_studio.families.acromill.law_filters import lopass, notch
+from amp_studio.families.acromill import law_sample as loop
+from amp_studio.families.acromill.law_filters import PASS, lopass, notch
 from amp_studio.sim import SimulationError
+from amp_studio.sim.signals import COMMAND, OUTPUT
 
 
 def gain(section: tuple[float, ...], frequency: float, servo_hz: float = 5000.0) -> float:
@@ -49,3 +53,27 @@ def test_a_filter_above_half_the_servo_update_is_refused_with_both_figures() -> 
         lopass(1250, 2500)
     with pytest.raises(SimulationError, match=r"NOTCH\(100, 101\): the width"):
         notch(100, 101, 5000)
+
+
+@pytest.mark.parametrize(
+    ("filters", "expected"),
+    [((), {50: 10.0, 100: 10.0}), ((notch(100, 100, 5000),), {20: 9.8, 100: 0.0, 1000: 9.9}), ((lopass(200, 5000),), {20: 10.0, 200: 7.07, 1000: 0.3})],
+    ids=["none", "NOTCH X(100,100)", "LOPASS X200"],
+)  # fmt: skip
+def test_the_sine_of_the_guide_comes_out_of_the_servo_loop_as_its_traces_are_described(
+    filters: tuple[tuple[float, ...], ...], expected: dict[int, float]
+) -> None:
+    # Page 128: motor off, PGAIN 0.00244, a sine of one turn of 4096 pulses is 10 V at the output; 5000 Hz.
+    p = [0.0] * loop.PARAMETERS
+    p[loop.PULSES], p[loop.PERIOD], p[loop.P_GAIN], p[loop.TORQUE_LIMIT] = 4096.0, 1 / 5000, 10 / 4096, 10.0
+    p[loop.D_PERIODS] = p[loop.DAC_SHARE] = 1.0
+    sections = [*filters, PASS, PASS][:2]
+    p[loop.FILTERS :] = [figure for section in sections for figure in section]
+    for frequency, volts in expected.items():
+        s, seen = [0.0] * loop.STATE, []
+        for k in range(1000):
+            io = [0.0] * 24
+            io[COMMAND] = math.sin(2.0 * math.pi * frequency * k / 5000)
+            loop.position_sample(p, s, io)
+            seen.append(io[OUTPUT])
+        assert max(map(abs, seen[500:])) == pytest.approx(volts, abs=0.3)
