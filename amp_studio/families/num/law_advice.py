@@ -97,7 +97,7 @@ def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     why = (
         f"The window of {shown(band, axis.unit)} must be above one increment, {shown(count, axis.unit)}"
         if arrived
-        else f"The axis stands {shown(left, axis.unit, 3)} from its end, outside the window of {shown(band, axis.unit)}"
+        else f"The axis rests {shown(left, axis.unit, 3)} from its end, outside the window of {shown(band, axis.unit)}"
     )
     wanted = max(2.0 * left, 2.0 * count)
     yield _counted(
