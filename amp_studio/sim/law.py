@@ -143,6 +143,8 @@ class AxisLaw:
     """Number in STOP -> the alarm."""
     predict: Callable[[float], Mapping[str, Prediction]] = lambda _feedrate: {}
     """predict(feedrate in u/s) -> figures by name; ``steady_following_error`` and others that the motion is compared with."""
+    circle_feedrate: Callable[[float], float | None] = lambda _radius: None
+    """circle_feedrate(radius in u) -> the highest feedrate in u/s that the control allows on a circle; None for no limit."""
     limits: Mapping[str, float] = field(default_factory=dict)
     """Limits of the following error in u, to draw beside the curves."""
     sources: Mapping[str, Source] = field(default_factory=dict)

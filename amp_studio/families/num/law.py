@@ -17,7 +17,7 @@ from amp_studio.sim.law import AxisLaw, Law, Prediction, Ramp, Source
 from amp_studio.sim.machine import Machine
 
 from . import law_sample as sample
-from .formulas import increments_per_sample, measured_step
+from .formulas import circle_speed, increments_per_sample, measured_step
 from .law_advice import advise
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
@@ -85,6 +85,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         ),
         alarms=alarms,
         predict=lambda feedrate: predicted(words, feedrate),
+        circle_feedrate=lambda radius: circle_feedrate(words, radius),
         limits=limits,
         sources=_sources(read, words),
         assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
@@ -106,6 +107,13 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
         "reference": Prediction(volts if volts <= 10.0 else None, "V", "6-14"),
         "increments_per_sample": Prediction(increments, "increments", "6-6"),
     }
+
+
+def circle_feedrate(words: Words, radius: float) -> float | None:
+    """Return the speed in u/s to which the control lowers that on a circle: the root of 2 R x error over T (6-32)."""
+    if not (words.curve_error and words.curve_constant):
+        return None
+    return circle_speed(words.curve_error, words.curve_constant * 1000.0, radius) / 60.0
 
 
 def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[str, Ramp]:

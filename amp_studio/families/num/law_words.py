@@ -58,6 +58,10 @@ class Words:
     voltage: float
     acceleration: float
     """u/s2: the fast one."""
+    curve_constant: float
+    """s: of the group, which speeds on curves go by (6-40); 0 for none."""
+    curve_error: float
+    """um: servo-loop error tolerated on circles; 0 for no limit."""
 
     @property
     def rate(self) -> float:
@@ -114,7 +118,21 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
         terms=terms,
         voltage=voltage,
         acceleration=acceleration,
+        curve_constant=(of_group or 0.0) / 1000.0,
+        curve_error=_curve_error(read, turns, notes),
     )
+
+
+def _curve_error(read: AxisParameters, turns: bool, notes: list[str]) -> float:
+    """Return the error tolerated on circles in um (6-32), 0 for no limit of the speed."""
+    if turns:
+        return 0.0  # a length, for linear axes
+    error = read.optional("servo.circle_error", everywhere=True)
+    if not error:
+        notes.append(
+            f"P52N0 is {'not set' if error is None else '0, which by 6-32 leaves no speed'}: the speed on circles is not limited."
+        )
+    return (error or 0.0) * 1000.0
 
 
 def _demand(read: AxisParameters, of_control: Sequence[str], of_axis: Sequence[str]) -> None:

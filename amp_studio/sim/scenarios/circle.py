@@ -106,6 +106,8 @@ def _circle(
     given = above_zero(settings, "move.feedrate")
     known = [each.feedrate / 2.0 for each in (axis, other) if each.feedrate]
     feedrate = given / 60.0 if given else min([FEEDRATE, *known])
+    limit = _limit(axis, other, radius)
+    feedrate = feedrate if limit is None else min(feedrate, limit)
     rate = feedrate / radius
     slowest = max(float(np.max(np.abs(model.poles()), initial=0.0)) for model in models)
     dies = DIES * axis.servo_period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
@@ -117,6 +119,12 @@ def _circle(
             "move.radius",
         )
     return _Circle(radius, rate, 2.0 * RISE / rate, turns)
+
+
+def _limit(axis: AxisLaw, other: AxisLaw, radius: float) -> float | None:
+    """Return the feedrate in u/s to which the control lowers that on the circle; None for no limit."""
+    allowed = [each.circle_feedrate(radius) for each in (axis, other)]
+    return min((each for each in allowed if each is not None), default=None)
 
 
 def _columns(circle: _Circle, first: Motion, second: Motion) -> dict[str, Series]:
@@ -162,7 +170,7 @@ def _figures(
 ) -> dict[str, Figure]:
     """Return the named figures; a radius error above 0 is a circle that is too small."""
     u, deviation = axis.unit, columns["radius_deviation"]
-    feedrate = circle.rate * circle.radius
+    feedrate, limit = circle.rate * circle.radius, _limit(axis, other, circle.radius)
     answers = [complex(model.follows(np.array([circle.rate / (2.0 * math.pi)]))[0]) for model in models]
     predicted = circle.radius * (1.0 - math.sqrt(sum(abs(a) ** 2 for a in answers) / 2.0))
     lag = [circle.radius * (circle.rate / each.position_rate) ** 2 / 2.0 for each in (axis, other)]
@@ -171,6 +179,7 @@ def _figures(
     return {
         "radius": (circle.radius, u),
         "feedrate": (feedrate * 60.0, f"{u}/min"),
+        **({} if limit is None else {"feedrate_limit": (limit * 60.0, f"{u}/min")}),
         "radius_error": (None if stopped else -float(deviation.mean()), u),
         "predicted_radius_error": (predicted if stable else None, u),
         "first_order_radius_error": (sum(lag) / 2.0, u),

@@ -138,6 +138,23 @@ def test_a_circle_of_50_mm_at_2_236_m_a_minute_is_50_um_too_small() -> None:
     assert short == pytest.approx(0.050 * (1.0 - (0.002 + 2.0 * lag) / 0.060), abs=0.0005)
 
 
+def test_the_speed_on_a_circle_of_50_mm_is_lowered_to_2_236_m_a_minute() -> None:
+    law = bound(servo__circle_error=0.050)  # 6-32: 50 µm, 60 ms
+    assert law.circle_feedrate(50.0) == pytest.approx(2236.07 / 60.0, abs=1e-3)
+
+
+def test_the_speed_on_a_circle_goes_by_the_time_constant_of_the_group() -> None:
+    law = bound(servo__circle_error=0.050, servo__axis_time_constant_at_0=30.0)  # 6-40
+    assert law.circle_feedrate(50.0) == pytest.approx(2236.07 / 60.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(("error", "why"), [(None, "not set"), (0.0, "leaves no speed")])
+def test_without_a_tolerated_error_the_speed_on_circles_is_not_limited(error: float | None, why: str) -> None:
+    law = bound(servo__circle_error=error)
+    assert law.circle_feedrate(50.0) is None
+    assert any("P52N0" in each and why in each for each in law.assumptions)
+
+
 def test_an_axis_takes_the_approach_speed_with_the_acceleration_of_p32() -> None:
     # 6-36: 1000 mm/s² x 60 ms are 3600 mm/min: a step of that speed accelerates the axis by 1000 mm/s²
     motion = moved(

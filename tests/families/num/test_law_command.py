@@ -10,6 +10,7 @@ import pytest
 
 from amp_studio.cli import run
 
+EXAMPLE = Path(__file__).parents[3] / "examples" / "num-1060-mill" / "MILL_1060.amp"
 NUM_WORDS = "P2N0=1 P3N0=1 P9N0=0x00 P4N2=3 P50N0=5000 P11N0=1 P11N1=2 P30N0=6000 P32N1=1000 P21N0=4915 P22N0=20 P23N0=6600"
 SYNTEC_VALUES = (
     "Pr61=2500 Pr81=4 Pr201=0 Pr121=1 Pr122=1 Pr161=10000 Pr461=24000 servo.loop_gain@1=30 control.series=super"
@@ -108,3 +109,14 @@ def test_too_fast_a_syntec_axis_brings_mot_005(tmp_path: Path, capsys: pytest.Ca
     capsys.readouterr()
     assert run(["simulate", path, "step", *fast, "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["alarms"][0]["code"] == "MOT-005"
+
+
+def test_a_circle_of_a_num_mill_goes_as_fast_as_its_tolerated_error_allows(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    # 6-32: 50 µm, 60 ms and 50 mm leave 2.236 m/min; the circle is then smaller by them, less what sampling takes away
+    words = settings("move.radius=50 move.feedrate=5000 P50N0=2000")
+    told = simulated(capsys, str(EXAMPLE), "circle", *words)["result"]
+    assert told["feedrate"]["value"] == pytest.approx(2236.07, abs=0.01)
+    assert told["first_order_radius_error"]["value"] == pytest.approx(0.050, abs=1e-5)
+    assert told["radius_error"]["value"] == pytest.approx(0.047, abs=0.003)
