@@ -40,7 +40,7 @@ AT_A_TIME = 8
 
 
 @dataclass(frozen=True)
-class Checked:
+class CheckResult:
     """The result of one file; passes from one process to another."""
 
     path: Path
@@ -86,14 +86,14 @@ def validate_verb(options: argparse.Namespace) -> int:
     return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
 
 
-def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
+def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
     """Return files as they are named, those in folders in the order of their names, and which folders cannot be read."""
     found: list[Path] = []
-    unread: list[Checked] = []
+    unread: list[CheckResult] = []
 
     def skip(error: OSError) -> None:
         folder = Path(error.filename)
-        unread.append(Checked(folder, fault=f"{folder}: cannot be read: {error.strerror}"))
+        unread.append(CheckResult(folder, fault=f"{folder}: cannot be read: {error.strerror}"))
 
     for path in paths:
         if not _is_folder(path):
@@ -103,7 +103,7 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[Checked]]:
         names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
         inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
         if not inside and before == len(unread):
-            unread.append(Checked(path, fault=f"{path}: contains no {ENDING} files"))
+            unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files"))
         found += inside
     return found, unread
 
@@ -116,7 +116,9 @@ def _is_folder(path: Path) -> bool:
         return False
 
 
-def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | None) -> Iterator[Checked]:
+def _each(
+    check: Callable[[Path], CheckResult], paths: Sequence[Path], jobs: int | None
+) -> Iterator[CheckResult]:
     """Yield the results of files, in their order, whichever process is ready first."""
     wanted = min(MOST, jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1))
     if wanted == 1:
@@ -143,7 +145,7 @@ def _each(check: Callable[[Path], Checked], paths: Sequence[Path], jobs: int | N
                     with ProcessPoolExecutor(1, initializer=_start) as pool:
                         yield pool.submit(check, path).result()
                 except BrokenProcessPool:
-                    yield Checked(path, fault=f"{path}: its check was ended from outside")
+                    yield CheckResult(path, fault=f"{path}: its check was ended from outside")
 
 
 def _start() -> None:
@@ -151,19 +153,19 @@ def _start() -> None:
     gc.freeze()
 
 
-def _check(options: argparse.Namespace, path: Path) -> Checked:
+def _check(options: argparse.Namespace, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
     try:
         return _checked(options, path)
     except ParameterFileError as fault:
-        return Checked(path, fault=str(fault))
+        return CheckResult(path, fault=str(fault))
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception
-        return Checked(path, fault=f"{path}: {keep_details(error)}")
+        return CheckResult(path, fault=f"{path}: {keep_details(error)}")
 
 
-def _checked(options: argparse.Namespace, path: Path) -> Checked:
+def _checked(options: argparse.Namespace, path: Path) -> CheckResult:
     file = open_file(path).file
     rules = options.rules
     own = read_builder_rules(rules, file.schema) if rules else rules_beside(path, file.schema)
@@ -172,8 +174,8 @@ def _checked(options: argparse.Namespace, path: Path) -> Checked:
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
     if not options.json:
         lines = _lines(validator, findings, counts, path, why=options.why)
-        return Checked(path, counts["error"], "\n".join(lines))
-    return Checked(path, counts["error"], {
+        return CheckResult(path, counts["error"], "\n".join(lines))
+    return CheckResult(path, counts["error"], {
         "file": str(path), "errors": counts["error"], "warnings": counts["warning"], "advice": counts["advice"],
         "findings": [_json(validator, f, options.why) for f in findings],
         "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}

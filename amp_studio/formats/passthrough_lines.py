@@ -20,14 +20,14 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Row:
+class PassthroughLine:
     """A line of a script: text with marks in it, and the name it is kept by where it is not understood."""
 
     text: str
     kept_as: str = ""
 
 
-def keep(found: TextRead, kind: str, rows: Sequence[Row]) -> None:
+def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine]) -> None:
     """Keep the lines of a script where one of them is not understood; ``kind`` is a word for its format."""
     unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
     if unknown:
@@ -59,7 +59,7 @@ def kept(file: ParameterFile, kind: str) -> list[str] | None:
     return rows or None
 
 
-def _row_text(row: Row) -> str:
+def _row_text(row: PassthroughLine) -> str:
     return mark(f"line {row.kept_as}") if row.kept_as else row.text
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
 
-from amp_studio.schema.model import Severity, State
+from amp_studio.schema.model import ParameterState, Severity
 
 Sort = Literal["axis", "number", "group"]
 """The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files)."""
@@ -59,7 +59,7 @@ class ReportRow:
     """The default as a number in the unit of the value, for calculations in a spreadsheet."""
     is_changed: bool
     """Whether a value is set and differs from the printed default."""
-    state: State
+    state: ParameterState
     why: str
     """Why it is inactive; empty when it is active."""
     state_mark: str

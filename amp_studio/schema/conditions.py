@@ -14,7 +14,7 @@ from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
 from .expression import Decision, program
-from .model import BoundRef, Scope, State
+from .model import BoundRef, ParameterState, Scope
 
 Asked = tuple[str, str, str | None]
 """What is asked (a condition, an entry of ``reads``), for which instance, of which scope."""
@@ -35,7 +35,7 @@ class Reference:
 class StateInfo:
     """The state of a parameter, and why it is inactive."""
 
-    state: State
+    state: ParameterState
     why: str = ""
     page: str | None = None
 

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 FILTER = "Parameter files (*.amp);;All files (*)"
 _RECENT = 8
 
-Checked = tuple[Document, Validator]
+CheckedDocument = tuple[Document, Validator]
 """A document, its validator (already run), and the errors in the rules file beside it."""
 
 
@@ -141,7 +141,7 @@ class FileActions:
     def write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
         """Show the document that ``write`` makes; an existing file is backed up first."""
 
-        def work() -> Checked:
+        def work() -> CheckedDocument:
             if not path.exists():
                 document = write()
             else:
@@ -185,7 +185,7 @@ class FileActions:
             opened = in_background(self.window, "Opening", lambda: _opened(Document.view, path))
         self._show(opened, here)
 
-    def _show(self, opened: Checked, here: Address | None = None) -> None:
+    def _show(self, opened: CheckedDocument, here: Address | None = None) -> None:
         document, validator = opened
         self.window.show_workspace(Workspace(document, validator))
         self._remember(document.path)
@@ -319,7 +319,7 @@ class FileActions:
             QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
 
 
-def _opened(how: Callable[[Path], Document], path: Path) -> Checked:
+def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:
     document = how(path)
     return document, checked(document)
 

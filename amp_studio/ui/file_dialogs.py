@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal, cast
+from typing import cast
 
 from PySide6.QtCore import QRegularExpression
 from PySide6.QtGui import QRegularExpressionValidator
@@ -23,11 +23,10 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import Header, ParameterFile, ProjectInfo, new_file
+from amp_studio.report import Sort
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import show_message
-
-Sort = Literal["axis", "number", "group"]
 
 
 class _Form(QDialog):

@@ -21,7 +21,7 @@ from .expression_worth import (
     LARGEST,
     WHOLE,
     YES_NO,
-    Choices,
+    KnownChoices,
     Signature,
     Worth,
     any_of,
@@ -302,7 +302,7 @@ class ExpressionCheck:
             self._slip(f"{shown(one.text)} and {shown(other.text)} have no choice in common")
 
 
-def meant(text: str, choices: Choices) -> str:
+def meant(text: str, choices: KnownChoices) -> str:
     """Return which key was meant by a text that is none, in words."""
     same = [
         key
@@ -320,7 +320,7 @@ def meant(text: str, choices: Choices) -> str:
     return _keys(choices)
 
 
-def _keys(choices: Choices) -> str:
+def _keys(choices: KnownChoices) -> str:
     keys = list(choices.keys)
     return f"its keys are {', '.join(keys[:12])}{' and others' if len(keys) > 12 else ''}"
 

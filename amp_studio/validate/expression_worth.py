@@ -18,11 +18,11 @@ _TEXT_SIZE, _LIST_SIZE = 6, 4
 LARGEST = 10**15
 """Of sizes and costs; beyond it figures need not be exact."""
 
-Kind = Literal["decimal", "whole", "text", "yes/no", "null", "list", "table", "any"]
+ValueKind = Literal["decimal", "whole", "text", "yes/no", "null", "list", "table", "any"]
 
 
 @dataclass(frozen=True, slots=True)
-class Choices:
+class KnownChoices:
     """What a value that is a choice can be."""
 
     keys: Mapping[str, str]
@@ -38,12 +38,12 @@ class Choices:
 class Worth:
     """What a part of an expression can give: its kind, and how large it can be."""
 
-    kind: Kind
+    kind: ValueKind
     length: int = 0
     """Of a text or a list, at most."""
     item: Worth | None = None
     """What a list contains."""
-    choices: Choices | None = None
+    choices: KnownChoices | None = None
     """Where it comes from a parameter that is a choice."""
     literals: tuple[str, ...] = ()
     """The texts it can be, where they are written in the expression."""
@@ -79,12 +79,12 @@ _SEVERAL = list_worth(32, ANY)
 def choice_worth(parameter: Parameter) -> Worth:
     """Return what the value of a choice parameter is."""
     keys = {choice.key: choice.label for choice in parameter.choices or ()}
-    return replace(text_worth(100), choices=Choices(keys, parameter.more_codes), is_closed=True)
+    return replace(text_worth(100), choices=KnownChoices(keys, parameter.more_codes), is_closed=True)
 
 
 def one_of(keys: Mapping[str, str]) -> Worth:
     """Return a text that is one of some keys."""
-    return replace(text_worth(100), choices=Choices(keys), is_closed=True)
+    return replace(text_worth(100), choices=KnownChoices(keys), is_closed=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +138,7 @@ def any_of(worths: list[Worth]) -> Worth:
         kinds.pop() if len(kinds) == 1 else "any",
         max(worth.length for worth in known),
         any_of(items) if items else None,
-        Choices(keys, any(w.choices.open for w in known if w.choices)) if keys else None,
+        KnownChoices(keys, any(w.choices.open for w in known if w.choices)) if keys else None,
         tuple(dict.fromkeys(text for worth in known for text in worth.literals)),
         all(worth.is_closed for worth in known),
         max(worth.size for worth in known),

@@ -9,7 +9,7 @@ from textwrap import dedent
 import pytest
 from ruamel.yaml import YAML
 
-from amp_studio.families.num.formats.layout import Layout
+from amp_studio.families.num.formats.layout import TableLayout
 from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.formats import all_formats, families_of
 from amp_studio.schema import Schema
@@ -38,7 +38,7 @@ def test_every_format_has_its_line_and_its_section(page: str) -> None:
 
 def test_what_a_file_remembers_of_a_table_may_be_written_as_the_page_says(page: str, num: Schema) -> None:
     told = YAML(typ="safe").load(block(page, "num_table:"))["num_table"]
-    assert Layout.from_header(told).as_header() == told
+    assert TableLayout.from_header(told).as_header() == told
     file = taken(num, SAMPLE)
     file.header.extra["num_table"] = told
     text = FORMAT.write(file)

@@ -34,7 +34,7 @@ class ScopeInfo(Model):
     """The scope whose instances these are parts of: register ``X.3`` belongs to axis ``X``, and reads what is its."""
 
 
-class Machine(Model):
+class MachineType(Model):
     """A machine type that can be chosen for a file of the family."""
 
     key: Key
@@ -104,7 +104,7 @@ class Family(Model):
     document: str
     title: str
     applications: tuple[str, ...] = ()
-    machines: tuple[Machine, ...]
+    machines: tuple[MachineType, ...]
     default_machine: Key
     machine_parameter: ParameterId | None = None
     """The parameter whose choice keys are the machine types, where there is one."""

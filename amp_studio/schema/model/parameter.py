@@ -11,7 +11,7 @@ from amp_studio.schema.units import UNITS
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
 
 ValueType = Literal["integer", "real", "choice", "boolean", "bits", "text", "format"]
-State = Literal["in-force", "ignored", "unusable", "hidden"]
+ParameterState = Literal["in-force", "ignored", "unusable", "hidden"]
 Quantity = Literal[
     "",
     "length",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Piece:
+class SentPiece:
     """One sending: where the piece is in the image (bytes) and when it was sent (seconds)."""
 
     offset: int
@@ -32,7 +32,7 @@ class Window:
         self._ahead: set[int] = set()  # and these beyond it
         self._next = start  # no piece from here on was ever sent
         self._lost: list[int] = []  # a heap of the offsets to send again
-        self._flying: dict[int, Piece] = {}  # by number, in the order of sending
+        self._flying: dict[int, SentPiece] = {}  # by number, in the order of sending
         self._numbers: set[int] = set()
 
     @property
@@ -50,7 +50,7 @@ class Window:
         """When the piece that waits longest for its answer was sent."""
         return next((piece.sent_at for piece in self._flying.values()), None)
 
-    def flying(self, number: int) -> Piece | None:
+    def flying(self, number: int) -> SentPiece | None:
         """Return the sending with this number, while it is under way."""
         return self._flying.get(number)
 
@@ -81,17 +81,17 @@ class Window:
 
     def sent(self, number: int, offset: int, length: int, now: float) -> None:
         """A piece has gone out under this number."""
-        self._flying[number] = Piece(offset, length, now)
+        self._flying[number] = SentPiece(offset, length, now)
         self._numbers.add(number)
 
-    def arrived(self, number: int) -> Piece | None:
+    def arrived(self, number: int) -> SentPiece | None:
         """The sending with this number has arrived; earlier ones without an answer are lost."""
         piece = self._answered(number)
         if piece is not None:
             self.have(piece.offset)
         return piece
 
-    def refused(self, number: int) -> Piece | None:
+    def refused(self, number: int) -> SentPiece | None:
         """The sending with this number has come too early and must be sent again."""
         piece = self._answered(number)
         if piece is not None:
@@ -111,7 +111,7 @@ class Window:
             self._again(piece)
         self._flying.clear()
 
-    def _answered(self, number: int) -> Piece | None:
+    def _answered(self, number: int) -> SentPiece | None:
         if number not in self._flying:
             return None
         for earlier in list(self._flying):
@@ -121,7 +121,7 @@ class Window:
             self._again(piece)
         return None
 
-    def _again(self, piece: Piece) -> None:
+    def _again(self, piece: SentPiece) -> None:
         if self._is_missing(piece.offset):
             heapq.heappush(self._lost, piece.offset)
 

@@ -12,7 +12,7 @@ from amp_studio.schema.quoting import quoted
 DEFAULT_BAUD = 115_200
 FORMS = "tcp://host:port, serial:PORT?baud=115200 or pty:"
 
-Kind = Literal["tcp", "serial", "pty"]
+LinkKind = Literal["tcp", "serial", "pty"]
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Endpoint:
     ``protocol`` is how it is spoken to; "" for the usual way of the control's family.
     """
 
-    kind: Kind
+    kind: LinkKind
     host: str = ""
     port: int = 0
     device: str = ""

@@ -10,7 +10,7 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.demo import examples_folder
 from amp_studio.families.num.formats.table import FORMAT
-from amp_studio.families.num.formats.words import WORD_TYPES, Form, words_of
+from amp_studio.families.num.formats.words import WORD_TYPES, Spelling, words_of
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Schema, Value, load_schema
@@ -42,7 +42,7 @@ def test_every_word_is_stored_as_its_type_says(real: Schema) -> None:
     """Page 1-3 prints what each type is; the facts say it of each parameter once more."""
     for parameter in real.parameters.values():
         if parameter.storage is not None:
-            assert Form.of(parameter.storage) == WORD_TYPES[parameter.storage.code or 0], parameter.id
+            assert Spelling.of(parameter.storage) == WORD_TYPES[parameter.storage.code or 0], parameter.id
     known = words_of(real, "cnc")
     assert known.counts.keys() - known.heads.keys() == {UNTYPED}
     assert all((a, n) in known.meanings for a, count in known.counts.items() for n in range(count))

@@ -18,7 +18,7 @@ _PART = re.compile(r"\{(?P<place>.*?)\}|(?P<word>[A-Za-z0-9]+)|(?P<blank>\s+)|(?
 
 
 @dataclass(frozen=True)
-class Setting:
+class CommandSetting:
     """One command for one instance: it sets a value or, as NOTCH does, several."""
 
     template: str
@@ -50,10 +50,10 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class Argument:
+class CommandArgument:
     """A setting as it is in a line: its figures, each with its column, and where it ends."""
 
-    setting: Setting
+    setting: CommandSetting
     figures: tuple[tuple[str, int], ...]
     column: int
     end: int
@@ -62,7 +62,7 @@ class Argument:
 class Command:
     """One form of a command, for all its instances."""
 
-    def __init__(self, template: str, settings: tuple[Setting, ...]) -> None:
+    def __init__(self, template: str, settings: tuple[CommandSetting, ...]) -> None:
         head, _, tail = template.partition(" ")
         self.word, self.form = ("", template) if "{" in head else (head.upper(), tail)
         """A word in front of all arguments, which need not be repeated: PPU, but not the DAC of ``DAC{k} GAIN``."""
@@ -79,13 +79,13 @@ class Command:
     def example(self) -> str:
         return self.settings[0].write(["1" for _ in self.settings[0].addresses])
 
-    def read(self, text: str, at: int) -> Argument | None:
+    def read(self, text: str, at: int) -> CommandArgument | None:
         """Return the setting at a place of a line; None where there is none."""
         found = self._pattern.match(text, at)
         if found is None:
             return None
         groups = found.groupdict()
-        setting: Setting | None = self.settings[0]
+        setting: CommandSetting | None = self.settings[0]
         if "n" in groups:
             setting = self._by_number.get(groups["n"])
         elif "k" in groups:
@@ -95,7 +95,7 @@ class Command:
         if setting is None:
             return None
         figures = tuple((found[f"v{n}"], found.start(f"v{n}") + 1) for n in range(len(setting.addresses)))
-        return Argument(setting, figures, at + 1, found.end())
+        return CommandArgument(setting, figures, at + 1, found.end())
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
@@ -117,7 +117,7 @@ class Command:
 
 def commands_of(schema: Schema, machine: str) -> list[Command]:
     """Return the commands of a family; parameters with one form (``P{i}={v}``) share it, by their instances."""
-    found: dict[str, dict[tuple[Address, ...], Setting]] = {}
+    found: dict[str, dict[tuple[Address, ...], CommandSetting]] = {}
     for parameter in schema.parameters.values():
         template = parameter.storage.command if parameter.storage else None
         if template:
@@ -127,11 +127,11 @@ def commands_of(schema: Schema, machine: str) -> list[Command]:
     return [Command(template, tuple(settings.values())) for template, settings in found.items() if settings]
 
 
-def _settings(schema: Schema, machine: str, parameter: Parameter, template: str) -> Iterator[Setting]:
+def _settings(schema: Schema, machine: str, parameter: Parameter, template: str) -> Iterator[CommandSetting]:
     places = [m["place"] for m in _PART.finditer(template) if m["place"] not in (None, "i", "k", "n")]
     ids = [parameter.id if place == "v" else place for place in places]
     here = schema.on(machine)
     for place, instance in enumerate(here.instances(parameter)):
         if all(instance in here.instances(schema.parameters[name]) for name in ids):
             number = here.plain_number((parameter.id, instance))
-            yield Setting(template, instance, place, number, tuple((name, instance) for name in ids))
+            yield CommandSetting(template, instance, place, number, tuple((name, instance) for name in ids))

@@ -15,11 +15,20 @@ from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
 from amp_studio.formats.bare_figures import default_system, read_figure, system_of, write_figure
-from amp_studio.formats.passthrough_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
+from amp_studio.formats.passthrough_lines import (
+    PassthroughLine,
+    keep,
+    kept,
+    mark,
+    marked,
+    neighbours,
+    plain,
+    shown,
+)
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, written
 
-from .acr_command import Argument, Command, Setting, commands_of
+from .acr_command import Command, CommandArgument, CommandSetting, commands_of
 
 FAMILY = "acromill"
 _KIND = "acr"
@@ -50,12 +59,12 @@ gains they limit; that much is ours.
 
 
 @dataclass
-class _Line:
+class _ScriptLine:
     """A line of a script: its settings, or why it has none."""
 
     number: int
     text: str
-    arguments: list[Argument] = field(default_factory=list)
+    arguments: list[CommandArgument] = field(default_factory=list)
     fault: FormatError | None = None
     """Why the line is not understood."""
 
@@ -66,7 +75,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
         _set_aside_repeated(lines)
     found = TextRead()
     system = _read_system(lines, schema, found)
-    place: dict[Setting, int] = {}
+    place: dict[CommandSetting, int] = {}
     for line in lines:
         if line.fault is not None and not keep_unknown:
             raise line.fault
@@ -80,9 +89,9 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     return found
 
 
-def _lines(text: str, commands: list[Command]) -> Iterator[_Line]:
+def _lines(text: str, commands: list[Command]) -> Iterator[_ScriptLine]:
     for n, row in enumerate(text.removeprefix(_MARK).removeprefix(_MARK_SEEN_AS_LATIN).split("\n"), 1):
-        line = _Line(n, row.rstrip("\r"))
+        line = _ScriptLine(n, row.rstrip("\r"))
         if len(line.text) > _LONGEST_LINE:
             line.fault = FormatError(f"the line is longer than {_LONGEST_LINE} signs", n)
         elif not _REMARK.fullmatch(line.text):
@@ -93,7 +102,7 @@ def _lines(text: str, commands: list[Command]) -> Iterator[_Line]:
         yield line
 
 
-def _arguments(line: _Line, commands: list[Command]) -> Iterator[Argument]:
+def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandArgument]:
     """Yield the settings of a line; raises FormatError."""
     word = re.match(r"\s*([A-Z]+)(?:\s+|$)", line.text, re.IGNORECASE)
     known = [c for c in commands if word and c.word == word[1].upper()]
@@ -108,7 +117,7 @@ def _arguments(line: _Line, commands: list[Command]) -> Iterator[Argument]:
         at, is_first = argument.end, False
 
 
-def _not_read(line: _Line, at: int, known: list[Command]) -> FormatError:
+def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
     rest = line.text[at:].strip()
     said = rest if len(rest) <= 40 else rest[:39] + "…"
     if not known or not known[0].word:
@@ -120,7 +129,7 @@ def _not_read(line: _Line, at: int, known: list[Command]) -> FormatError:
     )
 
 
-def _set_aside_repeated(lines: list[_Line]) -> None:
+def _set_aside_repeated(lines: list[_ScriptLine]) -> None:
     """Take what is set more than once for not understood: which value counts, the run of the script decides."""
     counts = Counter(a.setting for line in lines for a in line.arguments)
     twice = {setting for setting, count in counts.items() if count > 1}
@@ -129,7 +138,7 @@ def _set_aside_repeated(lines: list[_Line]) -> None:
             line.arguments, line.fault = [], FormatError("it is set more than once", line.number)
 
 
-def _read_system(lines: list[_Line], schema: Schema, found: TextRead) -> str:
+def _read_system(lines: list[_ScriptLine], schema: Schema, found: TextRead) -> str:
     """Return the unit system of the figures, and set it where the script names it."""
     chooser = schema.family.unit_parameter
     for line in lines:
@@ -146,7 +155,7 @@ def _read_system(lines: list[_Line], schema: Schema, found: TextRead) -> str:
     return default_system(schema) or next(iter(schema.family.units), "")
 
 
-def _values(schema: Schema, argument: Argument, line: int, system: str) -> dict[Address, Value]:
+def _values(schema: Schema, argument: CommandArgument, line: int, system: str) -> dict[Address, Value]:
     values = {}
     for address, (text, column) in zip(argument.setting.addresses, argument.figures, strict=True):
         try:
@@ -156,11 +165,11 @@ def _values(schema: Schema, argument: Argument, line: int, system: str) -> dict[
     return values
 
 
-def _layout(line: _Line) -> list[Row]:
+def _layout(line: _ScriptLine) -> list[PassthroughLine]:
     """Return what is kept of a line: a mark for each setting, or its text."""
     if line.arguments:
-        return [Row(mark(written(a.setting.addresses[0]))) for a in line.arguments]
-    return [Row(plain(line.text), str(line.number) if line.fault else "")]
+        return [PassthroughLine(mark(written(a.setting.addresses[0]))) for a in line.arguments]
+    return [PassthroughLine(plain(line.text), str(line.number) if line.fault else "")]
 
 
 def _recognises(text: str) -> bool:
@@ -190,12 +199,12 @@ def _write(file: ParameterFile) -> str:
     return "\n".join(_filled(file, layout, rows, units if system != default_system(file.schema) else []))
 
 
-def _settings(file: ParameterFile) -> list[Setting]:
+def _settings(file: ParameterFile) -> list[CommandSetting]:
     """Return every setting that the family's commands can make, in ``ORDER``."""
     place = {address: n for n, address in enumerate(file.addresses())}
     rank = {word: n for n, word in enumerate(ORDER)}
 
-    def order(setting: Setting) -> tuple[int, int]:
+    def order(setting: CommandSetting) -> tuple[int, int]:
         word = re.match("[A-Z]*", setting.template)
         return rank.get(word[0] if word else "", len(rank)), place[setting.addresses[0]]
 
@@ -203,7 +212,7 @@ def _settings(file: ParameterFile) -> list[Setting]:
     return sorted(found, key=order)
 
 
-def _row(file: ParameterFile, setting: Setting, system: str) -> str:
+def _row(file: ParameterFile, setting: CommandSetting, system: str) -> str:
     """Return the line of a setting; empty where it is not set, or does not exist for this machine."""
     unset = [a for a in setting.addresses if file.get(a) is None]
     hidden = any(file.evaluation.state(a).state == "hidden" for a in setting.addresses)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from amp_studio.formats.text_format import FormatError
 from amp_studio.schema import InvalidValueError
 
-from .words import Form, Word, name_of
+from .words import Spelling, Word, name_of
 
 XOFF = "\x13"
 MOST_VALUES = 10
@@ -52,7 +52,7 @@ class Placed:
 
 
 @dataclass
-class Layout:
+class TableLayout:
     """What a table contains besides its words; the defaults are those of a table that the control sends."""
 
     job_reference: str = "00000000"
@@ -71,11 +71,11 @@ class Layout:
     def as_header(self) -> dict[str, object]:
         """Return it for the header of a parameter file, without what goes without saying."""
         header: dict[str, object] = {}
-        if self.job_reference != Layout.job_reference:
+        if self.job_reference != TableLayout.job_reference:
             header["job_reference"] = self.job_reference
         if self.comment:
             header["comment"] = self.comment
-        if self.line_end != Layout.line_end:
+        if self.line_end != TableLayout.line_end:
             header["line_end"] = _named(self.line_end)
         if self.end not in ("", self.line_end + XOFF):
             header["end"] = _named(self.end)
@@ -88,7 +88,7 @@ class Layout:
         return header
 
     @classmethod
-    def from_header(cls, header: object) -> Layout:
+    def from_header(cls, header: object) -> TableLayout:
         """Read the header of a parameter file; raises FormatError where a person wrote what cannot be."""
         entries = header if isinstance(header, Mapping) else {}
         number = entries.get("job_reference", cls.job_reference)
@@ -138,7 +138,7 @@ def _block(line: str) -> Placed:
 # -- from words to text ----------------------------------------------------------
 
 
-def compose(cells: Cells, heads: Heads, forms: Mapping[int, Form], layout: Layout) -> str:
+def compose(cells: Cells, heads: Heads, forms: Mapping[int, Spelling], layout: TableLayout) -> str:
     """Return the text of a table; raises FormatError for a line that is too long."""
     lines = [f"%{layout.job_reference}{layout.comment}"]
     for block in _arranged(cells, layout):
@@ -152,7 +152,7 @@ def compose(cells: Cells, heads: Heads, forms: Mapping[int, Form], layout: Layou
     return measured + (layout.end or layout.line_end + XOFF)
 
 
-def _arranged(cells: Cells, layout: Layout) -> list[Placed]:
+def _arranged(cells: Cells, layout: TableLayout) -> list[Placed]:
     """Return the lines of a table: those remembered as far as their words are there, the rest in its place."""
     left = dict.fromkeys(sorted(cells), True)
     arranged: list[Placed] = []
@@ -182,7 +182,7 @@ def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
         yield Placed(first, count, typed)
 
 
-def _data(block: Placed, cells: Cells, forms: Mapping[int, Form]) -> str:
+def _data(block: Placed, cells: Cells, forms: Mapping[int, Spelling]) -> str:
     spelled = [cells[word] for word in block.words]
     form = forms.get(block.first[0])
     if block.data is not None and form is not None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from amp_studio.formats.text_format import FormatError
 
-from .layout import XOFF, Layout
+from .layout import XOFF, TableLayout
 from .words import Word
 
 _LINE = re.compile(r"(.*);([0-9A-F]{2})")
@@ -69,7 +69,7 @@ def _unmeasured(said: str, n: int) -> FormatError:
     return FormatError("something comes after the length of the line", n, last.end() + 1)
 
 
-def split_table(text: str) -> tuple[list[str], Layout]:
+def split_table(text: str) -> tuple[list[str], TableLayout]:
     """Return the lines of a table without their lengths, the start apart; raises FormatError."""
     body, xoff, tail = text.partition(XOFF)
     last = body.count("\n") + 1
@@ -95,7 +95,7 @@ def split_table(text: str) -> tuple[list[str], Layout]:
     start = _START.fullmatch(lines[0]) if lines else None
     if start is None:
         raise FormatError("a table begins with '%' and the eight digits of the job reference", 1, 1)
-    return lines[1:], Layout(start[1], start[2], line_end, end)
+    return lines[1:], TableLayout(start[1], start[2], line_end, end)
 
 
 def blocks_of(lines: list[str]) -> Iterator[Block]:

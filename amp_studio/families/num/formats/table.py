@@ -15,15 +15,15 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema
 
-from .layout import MOST_VALUES, Cells, Layout, Placed, compose, runs
+from .layout import MOST_VALUES, Cells, Placed, TableLayout, compose, runs
 from .lines import HEADER, Block, blocks_of, split_table
 from .words import (
     WORD_TYPES,
     Content,
-    Form,
-    Meaning,
+    KnownWords,
+    Spelling,
     Word,
-    Words,
+    WordMeaning,
     meant_by,
     name_of,
     spelled_text,
@@ -161,7 +161,7 @@ class _Reader:
             self._value(file, word, meant_by(file, self.known.meanings[word]))
         self.found.values = file.values
 
-    def _value(self, file: ParameterFile, word: Word, meaning: Meaning) -> None:
+    def _value(self, file: ParameterFile, word: Word, meaning: WordMeaning) -> None:
         try:
             file.values[meaning.address] = meaning.value(file, self.contents[word])
         except InvalidValueError as error:
@@ -220,7 +220,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
 # -- writing ---------------------------------------------------------------------
 
 
-def _heads(known: Words, layout: Layout, unknown: dict[str, str]) -> dict[int, tuple[int, int]]:
+def _heads(known: KnownWords, layout: TableLayout, unknown: dict[str, str]) -> dict[int, tuple[int, int]]:
     """Return type and number of words for the headers: those of the schema, where the table had no others."""
     heads = dict(known.heads)
     for word, head, _ in _kept(unknown):
@@ -244,7 +244,7 @@ def _kept(unknown: dict[str, str]) -> Iterator[tuple[Word, tuple[int, int] | Non
 
 def _write(file: ParameterFile) -> str:
     known = words_of(file.schema, file.machine)
-    layout = Layout.from_header(file.header.extra.get(KEY))
+    layout = TableLayout.from_header(file.header.extra.get(KEY))
     heads = _heads(known, layout, file.unknown)
     alone = {a for a, (code, count) in heads.items() if count == 1 and WORD_TYPES[code].is_text}
     cells: Cells = {}
@@ -265,7 +265,7 @@ def _write(file: ParameterFile) -> str:
     return compose(cells, heads, forms, layout)
 
 
-def _spelled(file: ParameterFile, meaning: Meaning, form: Form | None) -> str:
+def _spelled(file: ParameterFile, meaning: WordMeaning, form: Spelling | None) -> str:
     try:
         content = meaning.content(file, file.values[meaning.address])
         return spelled_text(str(content)) if form is None else form.spell(content)

@@ -48,7 +48,7 @@ _LARGEST_DECIMAL = 99_999_999
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class Spelling:
     """How the words of a parameter are spelled."""
 
     code: int | None
@@ -62,7 +62,7 @@ class Form:
     pattern: re.Pattern[str]
 
     @classmethod
-    def of(cls, storage: Storage) -> Form:
+    def of(cls, storage: Storage) -> Spelling:
         """Return how words are spelled that the control stores in such a way.
 
         Page 13-14 shows eight digits for hexadecimal words of 32 bits and no leading zeros for those of 8 bits.
@@ -115,8 +115,8 @@ def spelled_text(text: str) -> str:
     return text
 
 
-WORD_TYPES: dict[int, Form] = {
-    form.code: Form.of(form)
+WORD_TYPES: dict[int, Spelling] = {
+    form.code: Spelling.of(form)
     for form in (
         Storage(code=0, bits=8, notation="hex"),
         Storage(code=1, bits=16),
@@ -137,7 +137,7 @@ WORD_TYPES: dict[int, Form] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Meaning:
+class WordMeaning:
     """A value that a word may be."""
 
     address: Address
@@ -146,7 +146,7 @@ class Meaning:
     """In which the control keeps it; None where other words decide: millimetres are degrees on an axis that turns."""
 
     @classmethod
-    def of(cls, schema: Schema, address: Address) -> Meaning:
+    def of(cls, schema: Schema, address: Address) -> WordMeaning:
         """Return the meaning that a schema gives to one of its values."""
         parameter = schema.parameters[address[0]]
         storage = parameter.storage or Storage()
@@ -185,7 +185,7 @@ class Meaning:
         return to_figure(self.parameter, Value(found, said), unit)
 
 
-def meant_by(file: ParameterFile, meanings: tuple[Meaning, ...]) -> Meaning:
+def meant_by(file: ParameterFile, meanings: tuple[WordMeaning, ...]) -> WordMeaning:
     """Return the value a word is: the first that this configuration has, where several share the word."""
     if len(meanings) > 1:
         for meaning in meanings:
@@ -195,19 +195,19 @@ def meant_by(file: ParameterFile, meanings: tuple[Meaning, ...]) -> Meaning:
 
 
 @dataclass(frozen=True)
-class Words:
+class KnownWords:
     """The words that a schema has on a machine type."""
 
-    meanings: dict[Word, tuple[Meaning, ...]]
+    meanings: dict[Word, tuple[WordMeaning, ...]]
     """More than one where the configuration decides what a word means."""
     counts: dict[int, int]
     """Parameter -> how many words it has."""
-    forms: dict[int, Form]
+    forms: dict[int, Spelling]
     """Parameter -> how its words are spelled; those of which nothing is known are texts without a form."""
     heads: dict[int, tuple[int, int]]
     """Parameter -> type and number of its words, where the schema knows the type."""
 
-    def form(self, parameter: int, heads: Mapping[int, tuple[int, int]]) -> Form | None:
+    def form(self, parameter: int, heads: Mapping[int, tuple[int, int]]) -> Spelling | None:
         """Return how the words of a parameter are spelled: by the schema, else by the type that a table gives."""
         own = self.forms.get(parameter)
         if (own is None or own.code is None) and parameter in heads:
@@ -216,21 +216,21 @@ class Words:
 
 
 @lru_cache(maxsize=8)
-def words_of(schema: Schema, machine: str) -> Words:
+def words_of(schema: Schema, machine: str) -> KnownWords:
     """Return the words of a schema, found by their numbers."""
-    meanings: dict[Word, tuple[Meaning, ...]] = {}
+    meanings: dict[Word, tuple[WordMeaning, ...]] = {}
     counts: dict[int, int] = {}
-    forms: dict[int, Form] = {}
+    forms: dict[int, Spelling] = {}
     for address in schema.on(machine).addresses:
         found = _NUMBER.fullmatch(schema.on(machine).number(address) or "")
         if found is None or schema.on(machine).is_disputed(address[0]):
             continue
         a, b = int(found[1]), int(found[2])
-        meaning = Meaning.of(schema, address)
+        meaning = WordMeaning.of(schema, address)
         meanings[a, b] = (*meanings.get((a, b), ()), meaning)
         counts[a] = max(counts.get(a, 0), b + 1)
         storage = meaning.parameter.storage or (None if meaning.parameter.type == "text" else Storage())
         if storage is not None and (a not in forms or forms[a].code is None):
-            forms[a] = Form.of(storage)
+            forms[a] = Spelling.of(storage)
     heads = {a: (form.code, counts[a]) for a, form in forms.items() if form.code is not None}
-    return Words(meanings, counts, forms, heads)
+    return KnownWords(meanings, counts, forms, heads)

@@ -11,13 +11,22 @@ import re
 from collections import Counter
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.passthrough_lines import Row, keep, kept, mark, marked, neighbours, plain, shown
+from amp_studio.formats.passthrough_lines import (
+    PassthroughLine,
+    keep,
+    kept,
+    mark,
+    marked,
+    neighbours,
+    plain,
+    shown,
+)
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
 from amp_studio.schema import Address, InvalidValueError, Schema, show_value
 from amp_studio.schema.storage import is_low_first
 
-from .basic_text import Line, Statement, read_lines
-from .registers import Meaning, RegisterContent, Registers, Written, contents_of, registers_of
+from .basic_text import BasicLine, BasicStatement, read_lines
+from .registers import RegisterContent, Registers, RegisterValues, Written, contents_of, registers_of
 from .word_text import read_word, write_hexadecimal
 
 _SIGNS = "cp437"
@@ -80,7 +89,7 @@ def _write_table(file: ParameterFile) -> str:
 
 def _read_table(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     machine = schema.family.default_machine
-    meaning = Meaning(registers_of(schema, machine), keep_unknown)
+    meaning = RegisterValues(registers_of(schema, machine), keep_unknown)
     for n, line in enumerate(_lines(text), 1):
         if not line.strip() or line.lstrip().startswith("!"):
             continue
@@ -214,7 +223,7 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
     return "\n".join([*text, ""])
 
 
-def _marked_registers(statement: Statement) -> tuple[int, ...]:
+def _marked_registers(statement: BasicStatement) -> tuple[int, ...]:
     """Return the registers whose mark a statement is; none for any other."""
     what = marked(statement.text) or ""
     return tuple(map(int, what.split("+"))) if re.fullmatch(r"[0-9]{1,9}(\+[0-9]{1,9})*", what) else ()
@@ -236,7 +245,7 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     if keep_unknown:  # which of several values counts, the run of the task decides
         counts = Counter(one.register for one in settings.values())
         settings = {key: one for key, one in settings.items() if counts[one.register] == 1}
-    meaning = Meaning(registers_of(schema, machine), keep_unknown)
+    meaning = RegisterValues(registers_of(schema, machine), keep_unknown)
     for one in settings.values():
         meaning.take(one)
     meaning.settle()
@@ -246,7 +255,7 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     return found
 
 
-def _row(line: Line, settings: dict[int, Written]) -> Row:
+def _row(line: BasicLine, settings: dict[int, Written]) -> PassthroughLine:
     """Return a line with a mark where each setting was."""
     is_known = all(id(statement) in settings for statement in line.statements)
     for statement in line.statements:
@@ -255,10 +264,10 @@ def _row(line: Line, settings: dict[int, Written]) -> Row:
             line.replace(statement, [mark("+".join(str(one.register + n) for n in range(one.words)))])
         else:
             line.replace(statement, [plain(statement.text)])
-    return Row(line.text, "" if is_known else line.number)
+    return PassthroughLine(line.text, "" if is_known else line.number)
 
 
-def _setting(statement: Statement, variables: Variables) -> Written:
+def _setting(statement: BasicStatement, variables: Variables) -> Written:
     """Return what an assignment writes; raises FormatError for a statement that is none, or of nothing known."""
     found = _SET.fullmatch(statement.text)
     if found is None:

@@ -27,7 +27,7 @@ LONGEST_LINE = 5000
 
 
 @dataclass(eq=False)
-class Statement:
+class BasicStatement:
     """One statement of a line, without the blanks around it."""
 
     text: str
@@ -45,13 +45,13 @@ class Statement:
 
 
 @dataclass
-class Line:
+class BasicLine:
     """One numbered line: its pieces in order, which together are its text."""
 
     head: str
     """The number, with the blanks around it."""
     pieces: list[str] = field(default_factory=list)
-    statements: list[Statement] = field(default_factory=list)
+    statements: list[BasicStatement] = field(default_factory=list)
     _places: dict[int, int] = field(default_factory=dict)
     """id of a statement -> its piece."""
 
@@ -64,13 +64,13 @@ class Line:
     def text(self) -> str:
         return self.head + "".join(self.pieces)
 
-    def add(self, piece: str, statement: Statement | None = None) -> None:
+    def add(self, piece: str, statement: BasicStatement | None = None) -> None:
         if statement is not None:
             self._places[id(statement)] = len(self.pieces)
             self.statements.append(statement)
         self.pieces.append(piece)
 
-    def replace(self, statement: Statement, texts: list[str]) -> None:
+    def replace(self, statement: BasicStatement, texts: list[str]) -> None:
         r"""Put other statements in the place of one; without any it goes, and its ``\`` with it."""
         at = self._places[id(statement)]
         piece = self.pieces[at]
@@ -91,7 +91,7 @@ class Line:
         return self.head + " \\ ".join(texts) + (f" \\ {rest}" if rest else "")
 
 
-def read_lines(text: str) -> Iterator[Line]:
+def read_lines(text: str) -> Iterator[BasicLine]:
     """Yield the lines of a task; raises FormatError for one without a number, or with that of another."""
     begun: list[str] = []
     first = 0
@@ -119,18 +119,18 @@ def _ends_in_remark(line: str) -> bool:
     return any(found.lastgroup == "remark" for found in _TOKEN.finditer(line))
 
 
-def _line(text: str, number: int) -> Line:
+def _line(text: str, number: int) -> BasicLine:
     head = re.match(r"\s*[0-9]{1,9}(?![0-9])[ \t]*", text)
     if head is None:
         raise FormatError("a line of a task begins with its number", number, 1)
-    line = Line(head[0])
+    line = BasicLine(head[0])
     at = head.end()
     for piece, is_statement in _pieces(text[at:]):
         statement = None
         if is_statement:
             start = at + len(piece) - len(piece.lstrip())
             row, column = text.count("\n", 0, start), start - (text.rfind("\n", 0, start) + 1)
-            statement = Statement(piece.strip(), number + row, column + 1)
+            statement = BasicStatement(piece.strip(), number + row, column + 1)
         line.add(piece, statement)
         at += len(piece)
     return line

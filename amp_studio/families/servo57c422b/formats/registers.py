@@ -135,7 +135,7 @@ class _Cell:
     source: Written
 
 
-class Meaning:
+class RegisterValues:
     """The values that written registers mean; ``leftover`` are those that mean none, where they are wanted."""
 
     def __init__(self, registers: Registers, keep_unknown: bool) -> None:
