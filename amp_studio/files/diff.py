@@ -85,8 +85,7 @@ def merge(
         elif not _same(ours.values, theirs.values, address):
             conflicts.append(Conflict(address, base.get(address), ours.get(address), theirs.get(address)))
     if ours.header.machine == base.header.machine:
-        merged.header.machine = theirs.header.machine
-        merged.evaluation.forget()
+        merged.set_machine(theirs.header.machine)
     return merged, conflicts + _merge_unknown(base.unknown, merged.unknown, theirs.unknown)
 
 

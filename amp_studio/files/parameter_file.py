@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from amp_studio.schema import (
@@ -56,6 +57,32 @@ class Header:
     signature: str = ""
     extra: dict[str, object] = field(default_factory=dict)
     """Keys this program does not know, kept as they are."""
+
+
+_KEPT_APART = ("units", "signature", "extra")
+"""Header entries that no step changes: display settings, and what the program writes itself."""
+
+
+@dataclass(frozen=True)
+class Marks:
+    """The forced marks and the header of a file at one moment."""
+
+    forced: dict[Address, str]
+    header: dict[str, object]
+
+    @classmethod
+    def of(cls, file: ParameterFile) -> Marks:
+        return cls(dict(file.forced), {k: v for k, v in vars(file.header).items() if k not in _KEPT_APART})
+
+    def put_back(self, file: ParameterFile) -> None:
+        """Give a file these marks and this header."""
+        machine = file.machine
+        file.forced.clear()
+        file.forced.update(self.forced)
+        for key, value in self.header.items():
+            setattr(file.header, key, value)
+        if file.machine != machine:
+            file.evaluation.forget()
 
 
 class ParameterFile:
@@ -161,18 +188,17 @@ class ParameterFile:
         raise RangeError and nothing is changed.
         """
         marks = dict(self.forced)
-        changes = [c for c in (self.set(a, v) for a, v in wanted.items()) if c]
-        profile = self.schema.family.axes
-        for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
-            changes += self.refit_units(axis)
-        faults = {
-            a: said for a, v in wanted.items() if v is not None and (said := fault(self.evaluation, a, v))
-        }
-        if faults and not force:
-            for change in reversed(changes):
-                self.apply(change.reversed())
-            self.forced.update(marks)
-            raise RangeError(faults)
+        with self.step() as changes:
+            for address, value in wanted.items():
+                self.set(address, value)
+            profile = self.schema.family.axes
+            for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
+                self.refit_units(axis)
+            faults = {
+                a: said for a, v in wanted.items() if v is not None and (said := fault(self.evaluation, a, v))
+            }
+            if faults and not force:
+                raise RangeError(faults)
         changed = {change.address for change in changes}
         for address, value in wanted.items():
             self.forced.pop(address, None)
@@ -181,6 +207,43 @@ class ParameterFile:
             if address not in changed and self.forced.get(address) != marks.get(address):
                 self._notify(Change(address, value, value))  # the value is unchanged, its mark is not
         return changes
+
+    @contextmanager
+    def step(self) -> Iterator[list[Change]]:
+        """Make changes as one step and collect them; an error takes all of them back, with marks and header.
+
+        This is the only place that takes an edit back: ``set_many``, the desktop's steps and the trial of a fix
+        are made of it.
+        """
+        before, changes = Marks.of(self), list[Change]()
+        stop = self.listen(changes.append)
+        try:
+            yield changes
+        except BaseException:
+            stop()
+            self.take_back(changes, before)
+            raise
+        stop()
+
+    def take_back(self, changes: Iterable[Change], before: Marks) -> None:
+        """Undo changes, the last one first, and put marks and header back."""
+        self.replay([change.reversed() for change in reversed(list(changes))], before)
+
+    def replay(self, changes: Iterable[Change], after: Marks) -> None:
+        """Make changes again, with the marks and the header that were there after them."""
+        for change in changes:
+            self.apply(change)
+        after.put_back(self)
+
+    def take(self, values: Mapping[Address, Value]) -> None:
+        """Take values as they were read, in range or not, and forget what followed from the old ones."""
+        self.values.update(values)
+        self.evaluation.forget()
+
+    def set_machine(self, machine: str) -> None:
+        """Set the machine type in the header, for a family that has no parameter for it."""
+        self.header.machine = machine
+        self.evaluation.forget()
 
     def refit_units(self, axis: str) -> list[Change]:
         """Give each value of an axis a unit that fits the way it moves; returns the changes."""
@@ -270,5 +333,5 @@ def describe(file: ParameterFile, address: Address) -> str:
     return file.machine_schema.label(address)
 
 
-__all__ = ["Change", "Header", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults",
+__all__ = ["Change", "Header", "Marks", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults",
            "secret_values", "without_secrets", "written"]  # fmt: skip

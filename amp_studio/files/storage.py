@@ -168,13 +168,14 @@ class _FileReader:
 
     def _read_values(self, entries: dict[str, Any]) -> None:
         file = self.file
+        values: dict[Address, Value] = {}
         machine = file.schema.family.machine_parameter
         ordered = sorted(entries, key=lambda k: k != machine)  # the machine type decides what the others are
         for key in ordered:
             address, said = read_address(key), entries[key]
             if not isinstance(said, str):
                 raise self._fault(f"{short(key)} has no single value", "values", key)
-            if address in file.values or key in file.unknown:  # "x" and "x@"
+            if address in values or key in file.unknown:  # "x" and "x@"
                 raise self._fault(f"{quoted(written(address))} occurs twice", "values", key)
             try:
                 value = _value(file, address, said)
@@ -183,8 +184,10 @@ class _FileReader:
             if value is None:
                 file.unknown[key] = said
             else:
-                file.values[address] = value
-        file.evaluation.forget()
+                values[address] = value
+                if key == machine:
+                    file.take(values)
+        file.take(values)
 
 
 def _extra(text: str, data: dict[str, Any]) -> dict[str, object]:

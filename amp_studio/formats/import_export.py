@@ -71,8 +71,7 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     machine_parameter = schema.family.machine_parameter
     if machine_parameter and read.machine and (machine_parameter, "") not in read.values:
         file.set((machine_parameter, ""), Value(read.machine))
-    file.values.update(read.values)
-    file.evaluation.forget()
+    file.take(read.values)
     file.unknown.update(read.unknown)
     file.header.extra.update(read.extra)
     return file

@@ -93,15 +93,16 @@ def decode_image(image: bytes) -> ParameterFile:
                                         revision=_unescaped(head["revision"]),
                                         machine="" if schema.family.machine_parameter else head["machine"],
                                         signature=schema.signature))  # fmt: skip
+    values: dict[Address, Value] = {}
     for entry, field in records:
         address = read_address(entry)
         parameter = schema.parameters.get(address[0])
         if parameter is None:
             raise ImageError(f"the control image contains '{_short(entry)}', which the schema does not have")
-        if address in file.values:
+        if address in values:
             raise ImageError(f"the control image contains {_short(entry)} twice")
-        file.values[address] = _value(schema, parameter, entry, field)
-    file.evaluation.forget()
+        values[address] = _value(schema, parameter, entry, field)
+    file.take(values)
     _check_form(file, image)
     return file
 
@@ -243,10 +244,9 @@ def patch_image(image: bytes, number: str, text: str) -> bytes:
         value, rest = read_number(text)
         if rest.strip():
             raise PatchError("patch values are plain numbers")
-        file.values[address] = value_of_stored(parameter, value, turns=file.evaluation.turns(address))
+        file.take({address: value_of_stored(parameter, value, turns=file.evaluation.turns(address))})
     except InvalidValueError as error:
         raise PatchError(str(error)) from None
-    file.evaluation.forget()
     changed = encode_image(file)
     decode_image(changed)  # the control's memory contains nothing that cannot be read again
     return changed

@@ -129,7 +129,7 @@ class ViewActions:
         if parameter:
             workspace.edit("Control type", {(parameter, ""): Value(machine)})
         else:
-            workspace.do("Control type", partial(_describe_machine, workspace, machine))
+            workspace.do("Control type", partial(workspace.file.set_machine, machine))
         self._check()
 
     # -- what is shown ---------------------------------------------------------
@@ -151,8 +151,3 @@ class ViewActions:
         from .step_view import StepView
 
         StepView(self._workspace(), self.window.selected(), self.window.go_to, self.window).show()
-
-
-def _describe_machine(workspace: Workspace, machine: str) -> None:
-    workspace.file.header.machine = machine
-    workspace.file.evaluation.forget()

@@ -6,48 +6,25 @@ Every view reads from this object and listens to it; no view stores values.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from amp_studio.files import Change, Comparison, Document, ParameterFile, compare, digest_of
+from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address, Value, read_value
 from amp_studio.validate import Finding, Validator, rules_beside
 
 JOURNAL_MS = 500
 """Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""
-_KEPT_APART = ("units", "signature", "extra")
-"""Header entries that undo does not change: display settings, and what the program writes itself."""
-
-
-@dataclass(frozen=True)
-class _Marks:
-    """The forced marks and the header of a file."""
-
-    forced: dict[Address, str]
-    header: dict[str, object]
-
-    @classmethod
-    def of(cls, file: ParameterFile) -> _Marks:
-        return cls(dict(file.forced), {k: v for k, v in vars(file.header).items() if k not in _KEPT_APART})
-
-    def put_back(self, file: ParameterFile) -> None:
-        machine = file.machine
-        file.forced.clear()
-        file.forced.update(self.forced)
-        for key, value in self.header.items():
-            setattr(file.header, key, value)
-        if file.machine != machine:
-            file.evaluation.forget()
 
 
 class _Edit(QUndoCommand):
     """One step of the undo stack: values changed together, with their forced marks."""
 
     def __init__(
-        self, workspace: Workspace, text: str, changes: list[Change], before: _Marks, after: _Marks
+        self, workspace: Workspace, text: str, changes: list[Change], before: Marks, after: Marks
     ) -> None:
         super().__init__(text)
         self._workspace, self._changes, self._before, self._after = workspace, changes, before, after
@@ -57,17 +34,12 @@ class _Edit(QUndoCommand):
         if self._first:
             self._first = False
         else:
-            self._apply(self._changes, self._after)
+            self._workspace.file.replay(self._changes, self._after)
         self._notify()
 
     def undo(self) -> None:
-        self._apply([c.reversed() for c in reversed(self._changes)], self._before)
+        self._workspace.file.take_back(self._changes, self._before)
         self._notify()
-
-    def _apply(self, changes: list[Change], marks: _Marks) -> None:
-        for change in changes:
-            self._workspace.file.apply(change)
-        marks.put_back(self._workspace.file)
 
     def _notify(self) -> None:
         marked = self._before.forced.items() ^ self._after.forced.items()
@@ -97,7 +69,7 @@ class Workspace(QObject):
         self.control: tuple[dict[Address, Value], str] | None = None
         """The values of the control when it was last read, and the time of that."""
         self.is_saving = False
-        self._saved = (_Marks.of(document.file), document.file.header.units)
+        self._saved = (Marks.of(document.file), document.file.header.units)
         self._journal = QTimer(self)
         self._journal.setSingleShot(True)
         self._journal.timeout.connect(self._keep_unsaved)
@@ -137,18 +109,10 @@ class Workspace(QObject):
 
         An operation that raises leaves the file as it was.
         """
-        before, changes = _Marks.of(self.file), list[Change]()
-        stop = self.file.listen(changes.append)
-        try:
+        before = Marks.of(self.file)
+        with self.file.step() as changes:
             operation()
-        except BaseException:
-            stop()
-            for change in reversed(changes):
-                self.file.apply(change.reversed())
-            before.put_back(self.file)
-            raise
-        stop()
-        after = _Marks.of(self.file)
+        after = Marks.of(self.file)
         if not changes and before == after:
             return False
         self.undo_stack.push(_Edit(self, text, changes, before, after))
@@ -182,7 +146,7 @@ class Workspace(QObject):
     @property
     def is_dirty(self) -> bool:
         """Whether there are unsaved changes."""
-        return self.document.is_dirty or self._saved != (_Marks.of(self.file), self.file.header.units)
+        return self.document.is_dirty or self._saved != (Marks.of(self.file), self.file.header.units)
 
     def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
         """Save in place, through ``run`` (a thread); raises ChangedOnDisk, SaveError, InUse."""
@@ -195,7 +159,7 @@ class Workspace(QObject):
             raise
         finally:
             self.is_saving = False
-        self._saved = (_Marks.of(self.file), self.file.header.units)
+        self._saved = (Marks.of(self.file), self.file.header.units)
         self.saved.emit()
 
     def disk_state(self) -> str | None:

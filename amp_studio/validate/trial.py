@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from amp_studio.files import Change, ParameterFile, RangeError
+from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address
 
 from .builder_rules import BuilderRules, sort_out
@@ -100,7 +101,7 @@ class Trials:
         if file is None:
             file = self._file = self._original.copy()
             self._checks = Checks(file, self._own.places)
-        forced = dict(file.forced)
+        before = Marks.of(file)
         try:
             changes = file.set_many({setting.address: setting.value for setting in finding.fix})
         except RangeError:
@@ -108,10 +109,7 @@ class Trials:
         try:
             return self._judge(place, finding, filed, changes)
         finally:
-            for change in reversed(changes):
-                file.apply(change.reversed())
-            file.forced.clear()
-            file.forced.update(forced)
+            file.take_back(changes, before)
 
     def _judge(
         self,

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
 from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
-from amp_studio.schema import InvalidValueError, Schema
+from amp_studio.schema import InvalidValueError, Schema, Value
 
 from .layout import MOST_VALUES, Cells, Placed, TableLayout, compose, runs
 from .lines import HEADER, Block, blocks_of, split_table
@@ -149,21 +149,22 @@ class _Reader:
         """Turn the words into values: those first whose meaning depends on no others."""
         file = ParameterFile(self.schema)
         file.header.machine = self.machine
-        later = []
+        values, later = {}, []
         for word in self.contents:
             meanings = self.known.meanings[word]
             if len(meanings) > 1 or meanings[0].unit is None:
                 later.append(word)
             else:
-                self._value(file, word, meanings[0])
-        file.evaluation.forget()
+                values[meanings[0].address] = self._value(file, word, meanings[0])
+        file.take(values)
         for word in later:
-            self._value(file, word, meant_by(file, self.known.meanings[word]))
+            meaning = meant_by(file, self.known.meanings[word])
+            file.set(meaning.address, self._value(file, word, meaning))
         self.found.values = file.values
 
-    def _value(self, file: ParameterFile, word: Word, meaning: WordMeaning) -> None:
+    def _value(self, file: ParameterFile, word: Word, meaning: WordMeaning) -> Value:
         try:
-            file.values[meaning.address] = meaning.value(file, self.contents[word])
+            return meaning.value(file, self.contents[word])
         except InvalidValueError as error:
             raise FormatError(f"{name_of(word)}: {error}", *self.places[word]) from None
 

@@ -170,7 +170,7 @@ class RegisterValues:
             else:
                 self._decide(register, claims, "is of no parameter")
         file = ParameterFile(self.registers.schema, Header(machine=self.registers.machine))
-        file.values.update(self.values)
+        file.take(self.values)
         for register in several:
             claims = self.registers.claims[register]
             existing = [a for a in claims if file.evaluation.state(a).state != "hidden"]
