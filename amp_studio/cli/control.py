@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, RangeError, open_file
-from amp_studio.files.lock import now
-from amp_studio.files.out_of_range import out_of_range
+from amp_studio.files import ParameterFile, open_file
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, InvalidValueError
 from amp_studio.transfer.client.exchange import Outcome
 from amp_studio.transfer.client.kept import IMAGE, digest_path, open_copy, save_image
 from amp_studio.transfer.client.parameters import (
@@ -24,9 +20,10 @@ from amp_studio.transfer.client.verification import verify_images
 from amp_studio.transfer.emulated.family_control import emulate
 from amp_studio.transfer.image import ImageError, decode_image, encode_image
 
-from .console import ask, family, note, print_json, progress
+from .console import family, note, print_json, progress
 from .errors import UsageError
 from .files import difference_json, print_comparison, print_difference
+from .out_of_range import settle_values
 from .output import check_new, write_new
 from .program import AT_CONTROL, CHANGED, FAULT
 from .screen import end_results, flush_results
@@ -114,8 +111,7 @@ def upload_verb(options: argparse.Namespace) -> int:
         print(f"{output}: {len(image)} bytes, digest in {digest_path(output).name}")
     else:
         file = _readable(image, output)
-        for address, said in out_of_range(file):
-            walk(file, address, said, options.on_fault, "an upload")
+        settle_values(file, options.on_fault, "an upload")
         write_new(file, output)
         print(f"{output}: {counted(len(file.values), 'value')}")
     print(f"sha256 {sha256(image)}")
@@ -129,27 +125,6 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
         raise UsageError(
             f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"
         ) from None
-
-
-def walk(file: ParameterFile, address: Address, said: str, on_fault: str, by: str) -> None:
-    """Ask what to do with one out-of-range value that came from elsewhere: continue, edit, or quit."""
-    if on_fault == "quit" or (on_fault == "ask" and not sys.stdin.isatty()):
-        raise UsageError(
-            f"{by} contains an illegal value, nothing was written: {said} (--on-fault keep takes it)"
-        )
-    while on_fault == "ask":
-        answer = ask(f"{said}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()
-        if answer.startswith("q"):
-            raise UsageError("cancelled, nothing was written")
-        if answer.startswith("c"):
-            break
-        if answer.startswith("e"):
-            try:
-                file.set_many({address: file.read(address, ask("new value: "))})
-                return
-            except (InvalidValueError, RangeError) as error:
-                note(str(error))
-    file.forced[address] = f"on {now()} by {by}"
 
 
 def verify_verb(options: argparse.Namespace) -> int:

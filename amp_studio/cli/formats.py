@@ -5,14 +5,13 @@ from __future__ import annotations
 import argparse
 
 from amp_studio.files import open_file, secret_values
-from amp_studio.files.out_of_range import out_of_range
 from amp_studio.formats import FamilyNotGivenError, export_file, import_file
 from amp_studio.report.wording import counted
 from amp_studio.schema import UnknownFamilyError, written
 
 from .console import note
-from .control import walk
 from .errors import UsageError
+from .out_of_range import settle_values
 from .output import check_new, check_replaced, write_new
 
 
@@ -33,8 +32,7 @@ def import_verb(options: argparse.Namespace) -> int:
         raise UsageError(str(error)) from None
     except ValueError as error:
         raise UsageError(f"{options.text}: {error}") from None
-    for address, said in out_of_range(file):
-        walk(file, address, said, options.on_fault, "an import")
+    settle_values(file, options.on_fault, "an import")
     for key in file.unknown:
         note(f"kept without knowing it: {key}")
     write_new(file, options.output)

@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 from amp_studio import __version__
 
 from .errors import UsageError
+from .manual import sections
 from .misuse import in_plain_words, unexpected, unknown
 
 _USUAL = {
@@ -60,8 +61,6 @@ class _Parser(argparse.ArgumentParser):
 
     def format_help(self) -> str:
         """Return the help of argparse with what comes below it."""
-        from .manual import sections
-
         below = (
             f"{title}:\n" + "\n".join(f"  {line}" for line in lines) for title, lines in sections(self.verb)
         )
@@ -295,7 +294,7 @@ def parser() -> argparse.ArgumentParser:
     )
     sub = verb("completion", "completion", "print the completion script of a shell")
     sub.add_argument("shell", choices=("bash", "zsh", "fish"))
-    verb("man", "manual", "print the man page")
+    verb("man", "man_page", "print the man page")
     return top
 
 

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from amp_studio.files import axis_title, copy_axis, delete_axis, fitted_axes, retype_axis
 from amp_studio.schema.model import AxisProfile
 
 from .axis_dialogs import AxisDialog
+from .studio_window import StudioWindow
 from .workspace import Workspace
-
-if TYPE_CHECKING:
-    from .main_window import MainWindow
 
 
 class AxisActions:
     """Axis operations, each one step to undo."""
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: StudioWindow) -> None:
         self.window = window
         menu = window.menuBar().addMenu("&Axis")
         act = window.action

@@ -3,46 +3,37 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QStyle
+from PySide6.QtWidgets import QMessageBox, QStyle
 
-from amp_studio.files import Document, ParameterFile, RangeError
-from amp_studio.files.lock import now
-from amp_studio.schema import Address, InvalidValueError, write_value
+from amp_studio.files import Document, ParameterFile
+from amp_studio.files.out_of_range import settle
 
+from .control_exchange import ControlExchange
 from .emulated_control import EmulatedControl
+from .file_actions import FileActions
+from .out_of_range import AskInDialogs
 from .questions import ask, show_message
 from .restore import restore
-from .task import Progress, ProgressDialog
+from .studio_window import StudioWindow
+from .task import Progress
+from .workspace import Workspace
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Outcome
-
-    from .main_window import MainWindow
-    from .workspace import Workspace
-
-STAGES = {
-    "keep": "Saving the control's present parameters …",
-    "download": "Sending the file …",
-    "commit": "The control is checking and storing the parameters …",
-    "restart": "Waiting for the control to restart …",
-    "verify": "Reading all parameters back and comparing …",
-    "upload": "Reading the parameters of the control …",
-}
 
 
 class ControlActions:
     """Exchange with the control of the project, or with the emulated one."""
 
-    def __init__(self, window: MainWindow) -> None:
-        self.window = window
+    def __init__(self, window: StudioWindow, files: FileActions) -> None:
+        self.window, self._files = window, files
         self.emulated = EmulatedControl(window)
+        self.exchanges = ControlExchange(window, self.emulated)
         self.emulated.ready.connect(self._ready)
         self.emulated.ended.connect(self._ended)
         act, icons = window.action, QStyle.StandardPixmap
@@ -50,7 +41,7 @@ class ControlActions:
         download = act("&Download to Control…", self.download, "F5", "file", icons.SP_ArrowDown, "Download")
         verify = act("&Verify With Control…", self.verify, "F6", "file", icons.SP_DialogApplyButton, "Verify")
         upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
-        put_back = act("&Restore Control From Backup…", partial(restore, self), None, "")
+        put_back = act("&Restore Control From Backup…", partial(restore, self.exchanges), None, "")
         menu.addActions([download, verify, upload, put_back])
         menu.addSeparator()
         self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
@@ -98,24 +89,6 @@ class ControlActions:
 
     # -- exchange --------------------------------------------------------------
 
-    def ask_address(self, title: str) -> str | None:
-        """Ask for the address of the control; suggests the emulated control, that of the project and the last one."""
-        project, settings = self.window.projects.project, self.window.settings
-        known = (
-            self.emulated.address,
-            project.info.control if project else "",
-            settings.control(),
-        )
-        offered = list(dict.fromkeys(a for a in known if a)) or ["tcp://127.0.0.1:9600"]
-        label = (
-            "Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)"
-        )
-        text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
-        if not accepted or not text.strip():
-            return None
-        settings.keep_control(text.strip())
-        return text.strip()
-
     def _workspace(self) -> Workspace:
         workspace = self.window.workspace
         assert workspace is not None
@@ -126,7 +99,7 @@ class ControlActions:
         workspace = self._workspace()
         if not self._is_ready(workspace):
             return
-        address = self.ask_address("Download")
+        address = self.exchanges.ask_address("Download")
         if address is None:
             return
         file, path = workspace.file.copy(), workspace.path
@@ -139,16 +112,8 @@ class ControlActions:
 
             return download_file(file, address, path.parent, path.stem, progress, cancel, expected=approved)
 
-        if self.exchange("Download", work).verified:
-            self.remember(workspace, file)
-
-    def exchange(self, title: str, work: Callable[[Progress, threading.Event], Outcome]) -> Outcome:
-        """Run a download or restore, show its outcome and return it."""
-        hint = "Waiting for the control …"
-        outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()
-        icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
-        show_message(self.window, title, outcome.text, icon)
-        return outcome
+        if self.exchanges.run("Download", work).verified:
+            self.exchanges.remember(workspace, file)
 
     def _is_ready(self, workspace: Workspace) -> bool:
         """Ask about unsaved changes and errors; returns whether the file may be downloaded."""
@@ -175,7 +140,7 @@ class ControlActions:
 
         from .compare_dialog import DownloadPreview
 
-        image = self.fetch(address, "Download", workspace.file.schema.family.family)
+        image = self.exchanges.fetch(address, "Download", workspace.file.schema.family.family)
         approved = sha256(image)
         if not image:
             return approved
@@ -187,7 +152,7 @@ class ControlActions:
             question = f"{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
             return approved if answer == "&Download" else None
-        self.remember(workspace, present)
+        self.exchanges.remember(workspace, present)
         found = workspace.differences_to(present.values)
         if (
             not found.differences
@@ -196,24 +161,20 @@ class ControlActions:
             return approved
         return None
 
-    def remember(self, workspace: Workspace, present: ParameterFile) -> None:
-        if present.schema is workspace.file.schema:
-            workspace.remember_control(present.values, f"{datetime.now(UTC).astimezone():%H:%M}")
-
     def verify(self) -> None:
         """Compare the file with the parameters of the control."""
         workspace = self._workspace()
-        address = self.ask_address("Verify")
+        address = self.exchanges.ask_address("Verify")
         if address is None:
             return
         from amp_studio.transfer.client.verification import verify_images
         from amp_studio.transfer.image import decode_image, encode_image
 
-        image = self.fetch(address, "Verify", workspace.file.schema.family.family)
+        image = self.exchanges.fetch(address, "Verify", workspace.file.schema.family.family)
         found = verify_images(encode_image(workspace.file), image)
         if not found.unreadable:
             present = decode_image(image)
-            self.remember(workspace, present)
+            self.exchanges.remember(workspace, present)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
             show_message(self.window, "Verify", found.summary(), icon)
@@ -222,38 +183,24 @@ class ControlActions:
 
         CompareDialog(workspace, present.values, "the control", self.window.go_to, self.window).show()
 
-    def fetch(self, address: str, title: str, family: str = "") -> bytes:
-        """Return the image of the control, byte for byte; raises an error for a control of another family."""
-
-        def work(progress: Progress, cancel: threading.Event) -> bytes:
-            from amp_studio.transfer.client.parameters import fetch_image
-
-            return fetch_image(address, progress, cancel, family=family)
-
-        image: bytes = ProgressDialog(title, work, self.window, "Waiting for the control …", STAGES).run()
-        return image
-
     def upload(self) -> None:
         """Read the parameters of the control, ask about each value out of range, and save them as a new file."""
-        from amp_studio.files.out_of_range import out_of_range
-
         if not self.window.may_leave():
             return
-        address = self.ask_address("Upload")
+        address = self.exchanges.ask_address("Upload")
         if address is None:
             return
         file = self._uploaded(address)
-        for place, problem in out_of_range(file):
-            if not self._walk(file, place, problem):
-                self.window.show_status("Upload cancelled. No file was written.")
-                return
-        self._save_upload(file)
+        if settle(file, "an upload", AskInDialogs(self.window)):
+            self._save_upload(file)
+        else:
+            self.window.show_status("Upload cancelled. No file was written.")
 
     def _uploaded(self, address: str) -> ParameterFile:
         """Return the parameters of the control as a file; raises ValueError when they cannot be read."""
         from amp_studio.transfer.image import ImageError, decode_image
 
-        image = self.fetch(address, "Upload")
+        image = self.exchanges.fetch(address, "Upload")
         if not image:
             raise ValueError("The control contains no parameters: there is nothing to upload.")
         try:
@@ -265,35 +212,12 @@ class ControlActions:
 
     def _save_upload(self, file: ParameterFile) -> None:
         """Save an upload as a new file; asks for another name when it cannot be written."""
-        while (path := self.window.files.ask_path("Save upload as", Path("from-control"))) is not None:
+        while (path := self._files.ask_path("Save upload as", Path("from-control"))) is not None:
             file.header.name = path.stem
             try:
-                self.window.files.write_new(path, partial(Document.create, file, path))
+                self._files.write_new(path, partial(Document.create, file, path))
             except OSError as error:
                 show_message(self.window, "Upload", f"{error}.\n\nChoose another name.")
             else:
                 return
         self.window.show_status("Upload cancelled. No file was written.")
-
-    def _walk(self, file: ParameterFile, place: Address, problem: str) -> bool:
-        """Ask about one out-of-range value: continue checking, edit it, or quit. Returns whether to continue."""
-        go_on, edit, stop = "&Continue checking", "&Edit parameter", "&Quit checking"
-        while True:
-            answer = ask(
-                self.window, "Out of range", f"{problem}.", go_on, edit, stop, icon=QMessageBox.Icon.Warning
-            )
-            if answer == stop:
-                return False
-            if answer == go_on:
-                file.forced[place] = f"on {now()} by an upload"
-                return True
-            parameter = file.schema.parameters[place[0]]
-            old = "" if parameter.secret else write_value(parameter, file.get(place))
-            echo = QLineEdit.EchoMode.Password if parameter.secret else QLineEdit.EchoMode.Normal
-            text, accepted = QInputDialog.getText(self.window, "Edit parameter", problem, echo, old)
-            try:
-                if accepted:
-                    file.set_many({place: file.read(place, text)})
-                    return True
-            except (InvalidValueError, RangeError) as error:
-                show_message(self.window, "Edit parameter", f"{error}.")

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
 from .questions import ask, show_message
 from .settings import is_there
+from .studio_window import StudioWindow
 from .workspace import Workspace
-
-if TYPE_CHECKING:
-    from .main_window import MainWindow
 
 SETTLE_MS = 250
 """Milliseconds to wait, as a program may write a file in several steps."""
@@ -21,9 +20,9 @@ SETTLE_MS = 250
 class DiskWatch(QObject):
     """Watches one file, and its folder, because a rename over a file ends the watch of the file itself."""
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: StudioWindow, reload: Callable[[Path], object]) -> None:
         super().__init__(window)
-        self._window = window
+        self._window, self._reload = window, reload
         self._workspace: Workspace | None = None
         self._refused: str | None = None
         self._watcher = QFileSystemWatcher(self)
@@ -66,6 +65,4 @@ class DiskWatch(QObject):
         lost = " Your unsaved changes will be lost." if workspace.is_dirty else ""
         question = f"{workspace.path.name} was changed by another program.\n\nReload it?{lost}"
         if ask(self._window, "Changed on disk", question, "&Reload", "Keep Open Version") == "&Reload":
-            self._window.guarded(
-                lambda: self._window.files.open_path(workspace.path, ask_first=False), "Open"
-            )
+            self._window.guarded(lambda: self._reload(workspace.path), "Open")

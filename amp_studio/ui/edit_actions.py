@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QStyle
@@ -14,16 +12,14 @@ from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, calculators, suppress
 
 from .questions import ask, show_message
+from .studio_window import StudioWindow
 from .workspace import Workspace
-
-if TYPE_CHECKING:
-    from .main_window import MainWindow
 
 
 class EditActions:
     """Everything that changes a value."""
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
         self.undo = act("&Undo", self._undo, keys.Undo, "edit", icons.SP_ArrowBack, "Undo")

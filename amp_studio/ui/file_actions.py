@@ -31,13 +31,12 @@ from amp_studio.validate import Validator, rules_beside
 from .format_actions import FormatActions
 from .questions import ask
 from .settings import is_there
+from .studio_window import StudioWindow
 from .task import Progress, ProgressDialog, in_background
 from .workspace import Workspace
 
 if TYPE_CHECKING:
     import threading
-
-    from .main_window import MainWindow
 
 FILTER = "Parameter files (*.amp);;All files (*)"
 _RECENT = 8
@@ -49,7 +48,7 @@ CheckedDocument = tuple[Document, Validator]
 class FileActions:
     """Everything that opens, saves, compares or prints the open file."""
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
         new = act("&New…", self.new, keys.New, "", icons.SP_FileIcon, "New")
@@ -70,7 +69,7 @@ class FileActions:
             [act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")]
         )
         menu.addSeparator()
-        menu.addActions(FormatActions(window).actions)
+        menu.addActions(FormatActions(window, self.ask_path, self.write_new).actions)
         menu.addSeparator()
         menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()
@@ -109,7 +108,7 @@ class FileActions:
 
         if not self.window.may_leave():
             return
-        project, workspace = self.window.projects.project, self.window.workspace
+        project, workspace = self.window.project, self.window.workspace
         now = project.info.family if project else workspace.file.schema.family.family if workspace else ""
         dialog = NewFileDialog(self.window, now)
         if not dialog.exec():
@@ -159,7 +158,7 @@ class FileActions:
 
     def open(self) -> None:
         """Ask for a file and open it."""
-        project, workspace = self.window.projects.project, self.window.workspace
+        project, workspace = self.window.project, self.window.workspace
         folder = workspace.path.parent if workspace else project.folder if project else ""
         text, _ = QFileDialog.getOpenFileName(self.window, "Open", str(folder), FILTER)
         if text:
@@ -189,7 +188,6 @@ class FileActions:
         document, validator = opened
         self.window.show_workspace(Workspace(document, validator))
         self._remember(document.path)
-        self.window.projects.notice(document.path.parent)
         if here:
             self.window.go_to(here)
         if document.is_locked:

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import Document, ParameterFile, check_output, secret_values
-from amp_studio.files.lock import now
+from amp_studio.files.out_of_range import keep, out_of_range
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import ask
+from .studio_window import StudioWindow
 from .task import in_background
 
 if TYPE_CHECKING:
     from amp_studio.formats import FormatError
-
-    from .main_window import MainWindow
 
 _SHOWN = 8
 """Number of errors of an import that a question lists."""
@@ -26,8 +26,13 @@ _SHOWN = 8
 class FormatActions:
     """Imports a text file as a parameter file, and exports the open file as text."""
 
-    def __init__(self, window: MainWindow) -> None:
-        self.window = window
+    def __init__(
+        self,
+        window: StudioWindow,
+        ask_path: Callable[[str, Path], Path | None],
+        write_new: Callable[[Path, Callable[[], Document]], None],
+    ) -> None:
+        self.window, self._ask_path, self._write_new = window, ask_path, write_new
         self._notes: list[str] = []
         """Notes about the text that was read last."""
         self.actions = [
@@ -50,10 +55,10 @@ class FormatActions:
         file = self._understood(Path(text))
         if file is None or not self._takes_what_is_out_of_range(file):
             return
-        path = self.window.files.ask_path("Import as", Path(text))
+        path = self._ask_path("Import as", Path(text))
         if path is not None:
             file.header.name = path.stem
-            self.window.files.write_new(path, lambda: Document.create(file, path))
+            self._write_new(path, lambda: Document.create(file, path))
             if self._notes:
                 self.window.show_status("; ".join(self._notes))
 
@@ -103,8 +108,6 @@ class FormatActions:
         return in_background(self.window, "Importing", read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
-        from amp_studio.files.out_of_range import out_of_range
-
         faults = out_of_range(file)
         if not faults:
             return True
@@ -117,7 +120,7 @@ class FormatActions:
             != "&Import and Mark"
         ):
             return False
-        file.forced.update({address: f"on {now()} by an import" for address, _ in faults})
+        keep(file, [address for address, _ in faults], "an import")
         return True
 
     def write(self) -> None:

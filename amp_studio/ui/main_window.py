@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Literal
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QCloseEvent, QKeySequence
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMessageBox, QStyle, QVBoxLayout, QWidget
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMessageBox, QVBoxLayout, QWidget
 
-from amp_studio.files import ChangedOnDisk, describe
+from amp_studio.files import describe
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Parameter
 from amp_studio.validate import Finding
@@ -25,17 +24,14 @@ from .findings_panel import FindingsPanel
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .project_actions import ProjectActions
-from .questions import ask, show_message
-from .settings import Settings
-from .task import Task, in_background
-from .theme import program_icon, standard_icon
+from .questions import show_message
+from .studio_window import StudioWindow
+from .task import Task
+from .theme import program_icon
 from .value_table import ValueTable
 from .view_actions import ViewActions
 from .welcome import WelcomePage
 from .workspace import Workspace
-
-Needs = Literal["", "file", "edit", "axes", "project", "units"]
-"""What an action needs: nothing, an open file, the right to change it, a family with axes as well, a project."""
 
 _PANELS = (
     ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 225),
@@ -44,7 +40,7 @@ _PANELS = (
 )
 
 
-class MainWindow(QMainWindow):
+class MainWindow(StudioWindow):
     """One window, one open file. Menus are filled by the action groups in the modules beside this one."""
 
     def __init__(self) -> None:
@@ -52,75 +48,24 @@ class MainWindow(QMainWindow):
         self.setWindowIcon(program_icon())
         room = self.screen().availableSize()
         self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
-        self.workspace: Workspace | None = None
-        self.table: ParameterTable | None = None
-        self.table_view: ValueTable | None = None
-        self.groups: GroupList | None = None
-        self.detail: DetailPanel | None = None
-        self.findings: FindingsPanel | None = None
         self._list_title = ""
-        self.settings = Settings()
         self.file_status, self.value_status = QLabel(), QLabel()
         self.statusBar().addWidget(self.value_status, 1)
         self.statusBar().addPermanentWidget(self.file_status)
-        self._needing: dict[Needs, list[QAction]] = {
-            "": [],
-            "file": [],
-            "edit": [],
-            "axes": [],
-            "units": [],
-            "project": [],
-        }
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
-        self.watch = DiskWatch(self)
         self.files = FileActions(self)
+        self.watch = DiskWatch(self, partial(self.files.open_path, ask_first=False))
         self.edits = EditActions(self)
         self.axes = AxisActions(self)
         self.view = ViewActions(self)
-        self.control = ControlActions(self)
-        self.projects = ProjectActions(self)
+        self.control = ControlActions(self, self.files)
+        self.projects = ProjectActions(self, self.files.open_path)
         self._help_menu()
         self._toolbar()
         self.settings.place(self)
         self.show_nothing()
 
     # -- building --------------------------------------------------------------
-
-    def action(
-        self,
-        text: str,
-        act: Callable[[], object],
-        shortcut: QKeySequence | QKeySequence.StandardKey | str | None = None,
-        needs: Needs = "file",
-        icon: QStyle.StandardPixmap | None = None,
-        short: str = "",
-    ) -> QAction:
-        """Return a menu action that shows an error of ``act`` as a message."""
-        action = QAction(text, self)
-        if shortcut is not None:
-            action.setShortcut(QKeySequence(shortcut))
-        if icon is not None:
-            action.setIcon(standard_icon(icon))
-        if short:
-            action.setIconText(short)
-        name = text.replace("&", "").rstrip("…")
-        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-        action.setToolTip(f"{name} ({keys})" if keys else name)
-        action.triggered.connect(lambda *_: self.guarded(act, name))
-        self._needing[needs].append(action)
-        self.addAction(action)
-        return action
-
-    def guarded(self, act: Callable[[], object], title: str = "AMP Studio") -> object:
-        """Run an action and return its result; an error is shown as a message, and the result is None."""
-        if self.table_view is not None and not self.table_view.finish():
-            return None
-        try:
-            return act()
-        except (OSError, ValueError, KeyError, RuntimeError) as error:
-            is_bare = type(error) is KeyError and error.args  # its own text is in quotes
-            show_message(self, title, str(error.args[0]) if is_bare else str(error))
-            return None
 
     def _help_menu(self) -> None:
         menu = self.menuBar().addMenu("&Help")
@@ -202,6 +147,7 @@ class MainWindow(QMainWindow):
         workspace.saved.connect(self.enable)
         self.watch.follow(workspace)
         self.view.follow(workspace)
+        self.projects.notice(workspace.path.parent)
         self.groups.choose()
         self.settings.arrange(self)
         self.enable()
@@ -228,14 +174,6 @@ class MainWindow(QMainWindow):
         below = area == Qt.DockWidgetArea.BottomDockWidgetArea
         self.resizeDocks([dock], [size], Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal)
 
-    def show_panel(self, title: str) -> None:
-        """Show a panel that may be closed, and give it the keyboard focus."""
-        for dock in self.findChildren(QDockWidget):
-            if dock.objectName() == title:
-                dock.show()
-                dock.raise_()
-                dock.widget().setFocus()
-
     # -- selection -------------------------------------------------------------
 
     def _show_parameters(self, title: str, parameters: list[Parameter]) -> None:
@@ -252,10 +190,6 @@ class MainWindow(QMainWindow):
         more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
         what = counted(count, "parameter", none="no")
         self.list_title.setText(f"<b>{self._list_title}</b> — {what}{more}")
-
-    def selected(self) -> Address | None:
-        """Return the address of the current cell."""
-        return self.table_view.address() if self.table_view is not None else None
 
     def _show_address(self, address: Address) -> None:
         assert self.workspace is not None
@@ -284,18 +218,6 @@ class MainWindow(QMainWindow):
                 f"{describe(self.workspace.file, address)} is not available on this machine type"
             )
 
-    def follow(self, parameter_id: str) -> None:
-        """Go to a parameter, in the selected axis if it exists there."""
-        assert self.workspace is not None
-        file, here = self.workspace.file, self.selected()
-        instances = file.machine_schema.instances(file.schema.parameters[parameter_id])
-        if instances:
-            self.go_to((parameter_id, here[1] if here and here[1] in instances else instances[0]))
-        else:
-            self.show_status(
-                f"{file.schema.parameters[parameter_id].name} is not available on this machine type"
-            )
-
     def _show_finding(self, finding: Finding) -> None:
         if finding.addresses and self.table_view is not None:
             self.go_to(finding.addresses[0])
@@ -312,10 +234,6 @@ class MainWindow(QMainWindow):
 
     # -- state of the window ---------------------------------------------------
 
-    def show_status(self, text: str) -> None:
-        """Show a short message in the status bar."""
-        self.statusBar().showMessage(text, 10_000)
-
     def enable(self, *_: object) -> None:
         """Update actions, title and status bar."""
         workspace = self.workspace
@@ -323,8 +241,8 @@ class MainWindow(QMainWindow):
         has_axes = workspace is not None and workspace.file.schema.family.axes is not None
         can = {"": True, "file": workspace is not None, "edit": may_edit, "axes": may_edit and has_axes,
                "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
-               "project": self.projects.project is not None}  # fmt: skip
-        for needs, actions in self._needing.items():
+               "project": self.project is not None}  # fmt: skip
+        for needs, actions in self.actions_needing.items():
             for action in actions:
                 action.setEnabled(can[needs])
         self.edits.show_state(workspace)
@@ -348,31 +266,6 @@ class MainWindow(QMainWindow):
         self.file_status.setText("   ".join(parts))
 
     # -- leaving ---------------------------------------------------------------
-
-    def save(self) -> bool:
-        """Save and return whether it was saved; an error is shown, and the work stays open."""
-        assert self.workspace is not None
-        try:
-            self.workspace.save(lambda work: in_background(self, "Saving", work))
-        except ChangedOnDisk as error:
-            show_message(
-                self, "Not saved", f"{error}.\n\nSave your work under a new name, or reload the file."
-            )
-            return False
-        except OSError as error:
-            show_message(self, "Not saved", f"{error}.\n\nYour work is still open.")
-            return False
-        if self.workspace.document.notes:
-            self.show_status("; ".join(self.workspace.document.notes))
-        return True
-
-    def may_leave(self) -> bool:
-        """Ask about unsaved work; returns whether the file may be closed."""
-        if self.workspace is None or not self.workspace.is_dirty or not self.workspace.may_edit:
-            return True
-        question = f"Save the changes to {self.workspace.path.name}?"
-        answer = ask(self, "Unsaved changes", question, "&Save", "&Discard", "Cancel")
-        return self.save() if answer == "&Save" else answer == "&Discard"
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if (self.table_view is not None and not self.table_view.finish()) or not self.may_leave():

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
@@ -14,18 +14,15 @@ from amp_studio.schema import Address
 
 from .file_actions import FILTER
 from .questions import ask
+from .studio_window import StudioWindow
 from .task import PATIENCE_MS, ProgressDialog, in_background
-
-if TYPE_CHECKING:
-    from .main_window import MainWindow
 
 
 class ProjectActions:
     """New, open, information; open, copy, rename, delete and recover the files of a project."""
 
-    def __init__(self, window: MainWindow) -> None:
-        self.window = window
-        self.project: Project | None = None
+    def __init__(self, window: StudioWindow, open_path: Callable[[Path], None]) -> None:
+        self.window, self._open_path = window, open_path
         act = window.action
         menu = window.menuBar().addMenu("&Project")
         menu.addActions([
@@ -46,24 +43,30 @@ class ProjectActions:
 
     def notice(self, folder: Path) -> None:
         """Use the project of a folder, if it is one, because one of its files was opened."""
-        if (folder / "project.yaml").exists() and (self.project is None or self.project.folder != folder):
+        if (folder / "project.yaml").exists() and (
+            self.window.project is None or self.window.project.folder != folder
+        ):
             with contextlib.suppress(
                 ParameterFileError
             ):  # an unreadable project file does not prevent work on the parameters
-                self.project = Project.open(folder)
+                self.window.project = Project.open(folder)
                 self.window.enable()
 
     def name_of(self, path: Path) -> str:
         """Return the name of the project a file belongs to."""
-        return self.project.info.name if self.project and self.project.folder == path.parent else ""
+        return (
+            self.window.project.info.name
+            if self.window.project and self.window.project.folder == path.parent
+            else ""
+        )
 
     def _the_project(self) -> Project:
-        if self.project is None:
+        if self.window.project is None:
             raise ValueError("Open a project first: Project > Open Project.")
-        return self.project
+        return self.window.project
 
     def _show(self, project: Project) -> None:
-        self.project = project
+        self.window.project = project
         self.window.enable()
         files = len(project.files())
         self.window.show_status(
@@ -131,7 +134,7 @@ class ProjectActions:
         """Open a file of the project."""
         path = self._choose("Open", self._the_project().files())
         if path:
-            self.window.files.open_path(path)
+            self._open_path(path)
 
     def check(self) -> None:
         """Check every file of the project as it is on disk, and list the findings."""
@@ -153,7 +156,7 @@ class ProjectActions:
         def show() -> None:
             workspace = self.window.workspace
             if workspace is None or not same_file(workspace.path, path):
-                self.window.files.open_path(path)
+                self._open_path(path)
             workspace = self.window.workspace
             if address is not None and workspace is not None and same_file(workspace.path, path):
                 self.window.go_to(address)
@@ -175,7 +178,7 @@ class ProjectActions:
         if source and name:
             project = self._the_project()
             path = in_background(self.window, "Copying", lambda: project.copy(source, name))
-            self.window.files.open_path(path)
+            self._open_path(path)
 
     def rename(self) -> None:
         """Rename a file of the project; the open one stays open under its new name."""
@@ -190,7 +193,7 @@ class ProjectActions:
                 path = project.rename(path, name)
             finally:
                 if was_open:
-                    self.window.files.open_path(path)
+                    self._open_path(path)
 
     def delete(self) -> None:
         """Delete a file of the project; it can be recovered."""
@@ -209,4 +212,4 @@ class ProjectActions:
         path = self._choose("Recover", project.backups())
         if path and self._let_go(path):
             project.recover(path)
-            self.window.files.open_path(path)
+            self._open_path(path)

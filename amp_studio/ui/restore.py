@@ -11,18 +11,17 @@ from PySide6.QtWidgets import QFileDialog
 from amp_studio.files import compare
 from amp_studio.validate import Validator, rules_beside
 
+from .control_exchange import ControlExchange
 from .questions import ask
 from .task import Progress, in_background
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Copy, Outcome
 
-    from .control_actions import ControlActions
-
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
-def restore(control: ControlActions) -> None:
+def restore(control: ControlExchange) -> None:
     """Ask for a backup and an address, show what would change, then send the backup byte for byte.
 
     The control's present parameters are saved beside the backup first. Raises the errors of the restore.
@@ -48,7 +47,7 @@ def restore(control: ControlActions) -> None:
     def work(progress: Progress, cancel: threading.Event) -> Outcome:
         return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present))
 
-    outcome = control.exchange("Restore", work)
+    outcome = control.run("Restore", work)
     if outcome.verified and copy.file is not None and window.workspace is not None:
         control.remember(window.workspace, copy.file)
 
@@ -65,7 +64,7 @@ def _check(copy: Copy, path: Path) -> None:
         )
 
 
-def _is_wanted(control: ControlActions, copy: Copy, path: Path, present: bytes) -> bool:
+def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes) -> bool:
     """Show what would change, or why it cannot be shown; returns whether to restore the backup."""
     from amp_studio.transfer.image import ImageError, decode_image
 

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QStyle
 
 from amp_studio.schema import Value
 
+from .studio_window import StudioWindow
 from .workspace import Workspace
-
-if TYPE_CHECKING:
-    from .main_window import MainWindow
 
 
 class ViewActions:
     """What is shown, and in which units; only the control type changes values."""
 
-    def __init__(self, window: MainWindow) -> None:
+    def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act, icons = window.action, QStyle.StandardPixmap
         menu = window.menuBar().addMenu("&Options")

@@ -15,7 +15,8 @@ import pytest
 
 from amp_studio import cli
 from amp_studio.cli.examples import EXAMPLES, MILL
-from amp_studio.cli.manual import SCENARIOS, families, man_page
+from amp_studio.cli.man_page import man_page
+from amp_studio.cli.manual import SCENARIOS, families
 from amp_studio.cli.parser import parser, verbs_of
 from amp_studio.schema import family_ids
 from amp_studio.sim import SCENARIOS as SIMULATED

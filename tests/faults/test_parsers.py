@@ -27,6 +27,7 @@ READERS = {
     "cli/control.py": "damaged control image",
     "cli/files.py": "damaged control image",
     "cli/identify.py": "damaged control image",
+    "cli/out_of_range.py": "",  # whether somebody is at the terminal
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
     "demo.py": "",  # whether there is a display

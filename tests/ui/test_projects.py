@@ -34,7 +34,7 @@ def window(open_window, project: Project, path: Path) -> MainWindow:
 
 
 def test_opening_a_file_opens_its_project(window: MainWindow) -> None:
-    assert window.projects.project.info.name == "Mill"
+    assert window.project.info.name == "Mill"
     assert "Mill" in window.windowTitle()
     assert action(window, "Rename File").isEnabled()
 
@@ -172,7 +172,7 @@ def test_a_broken_project_file_keeps_nobody_from_the_parameters(open_window, pat
     (path.parent / "project.yaml").write_text("nonsense: [")
     window = open_window(path)
     assert window.workspace is not None
-    assert window.projects.project is None
+    assert window.project is None
 
 
 def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(

@@ -1,0 +1,79 @@
+"""Reaches a control from the window: asks for its address, reads it, runs a download or a restore, remembers its values."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import QInputDialog, QMessageBox
+
+from amp_studio.files import ParameterFile
+
+from .emulated_control import EmulatedControl
+from .questions import show_message
+from .studio_window import StudioWindow
+from .task import Progress, ProgressDialog
+from .workspace import Workspace
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.parameters import Outcome
+
+STAGES = {
+    "keep": "Saving the control's present parameters …",
+    "download": "Sending the file …",
+    "commit": "The control is checking and storing the parameters …",
+    "restart": "Waiting for the control to restart …",
+    "verify": "Reading all parameters back and comparing …",
+    "upload": "Reading the parameters of the control …",
+}
+
+
+class ControlExchange:
+    """Exchanges with the control of the project, or with the emulated one, in a dialog with progress."""
+
+    def __init__(self, window: StudioWindow, emulated: EmulatedControl) -> None:
+        self.window, self._emulated = window, emulated
+
+    def ask_address(self, title: str) -> str | None:
+        """Ask for the address of the control; suggests the emulated control, that of the project and the last one."""
+        project, settings = self.window.project, self.window.settings
+        known = (
+            self._emulated.address,
+            project.info.control if project else "",
+            settings.control(),
+        )
+        offered = list(dict.fromkeys(a for a in known if a)) or ["tcp://127.0.0.1:9600"]
+        label = (
+            "Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)"
+        )
+        text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
+        if not accepted or not text.strip():
+            return None
+        settings.keep_control(text.strip())
+        return text.strip()
+
+    def fetch(self, address: str, title: str, family: str = "") -> bytes:
+        """Return the image of the control, byte for byte; raises an error for a control of another family."""
+
+        def work(progress: Progress, cancel: threading.Event) -> bytes:
+            from amp_studio.transfer.client.parameters import fetch_image
+
+            return fetch_image(address, progress, cancel, family=family)
+
+        image: bytes = ProgressDialog(title, work, self.window, "Waiting for the control …", STAGES).run()
+        return image
+
+    def run(self, title: str, work: Callable[[Progress, threading.Event], Outcome]) -> Outcome:
+        """Run a download or restore, show its outcome and return it."""
+        hint = "Waiting for the control …"
+        outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()
+        icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
+        show_message(self.window, title, outcome.text, icon)
+        return outcome
+
+    def remember(self, workspace: Workspace, present: ParameterFile) -> None:
+        """Show the values of the control beside those of a file of the same family."""
+        if present.schema is workspace.file.schema:
+            workspace.remember_control(present.values, f"{datetime.now(UTC).astimezone():%H:%M}")

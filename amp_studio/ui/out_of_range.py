@@ -1,0 +1,41 @@
+"""Questions about values out of range that came from a control."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
+
+from amp_studio.files import ParameterFile
+from amp_studio.files.out_of_range import Decision
+from amp_studio.schema import Address, write_value
+
+from .questions import ask, show_message
+
+_ANSWERS: dict[str, Decision] = {
+    "&Continue checking": "keep",
+    "&Edit parameter": "edit",
+    "&Quit checking": "quit",
+}
+
+
+class AskInDialogs:
+    """A person who decides about each value in a dialog."""
+
+    def __init__(self, parent: QWidget) -> None:
+        self._parent = parent
+
+    def decide(self, problem: str) -> Decision:
+        """Ask whether to keep the value, to edit it or to quit."""
+        icon = QMessageBox.Icon.Warning
+        return _ANSWERS[ask(self._parent, "Out of range", f"{problem}.", *_ANSWERS, icon=icon)]
+
+    def new_value(self, file: ParameterFile, address: Address, problem: str) -> str | None:
+        """Ask for another value; a secret is not shown."""
+        parameter = file.schema.parameters[address[0]]
+        old = "" if parameter.secret else write_value(parameter, file.get(address))
+        echo = QLineEdit.EchoMode.Password if parameter.secret else QLineEdit.EchoMode.Normal
+        text, accepted = QInputDialog.getText(self._parent, "Edit parameter", problem, echo, old)
+        return text if accepted else None
+
+    def refused(self, problem: str) -> None:
+        """Show why the other value cannot be taken either."""
+        show_message(self._parent, "Edit parameter", f"{problem}.")
