@@ -25,8 +25,8 @@ from .machine import (
     POSITION_COUNT,
     POSITION_COUNTS,
 )
-from .plant import advance, delayed
-from .profiles import WIDTH, command, piece_at
+from .plant import advance, brake, delayed
+from .profiles import IN_POSITION, KIND, WIDTH, command, piece_at
 from .signals import (
     COMMAND,
     COMMAND_ACCELERATION,
@@ -68,14 +68,18 @@ MONITORS = 9
 """How many there are."""
 FORWARD = 10
 """1; 0 takes velocity and acceleration of the command from the law, for a loop without feed-forward."""
-TIMING_SIZE = 11
+IN_POSITION_BAND = 11
+"""u"""
+COAST_TIME = 12
+"""s after an alarm in which the axis runs out without output; 0 to end at the alarm."""
+TIMING_SIZE = 13
 
-SAMPLES, COMMAND_TIME, SHARE, PIECE, RESTLESS, ENDED = range(6)
+SAMPLES, COMMAND_TIME, SHARE, PIECE, RESTLESS, ENDED, ALARM_ROW = range(7)
 """State of the run: servo samples since the start; time, s, share of the feedrate and piece of the command; sample of the last
-motion; sample at which the command ended, -1 before."""
-PLANT = 6
+motion; sample at which the command ended and row of the alarm, both -1 before."""
+PLANT = 7
 """State of the plant: the first of the six figures of `plant.State`."""
-STATE_SIZE = 12
+STATE_SIZE = 13
 
 BOUNDLESS = 1e12
 """Positions beyond are no motion of a machine any more, u."""
@@ -133,7 +137,7 @@ def run(
     """Run the axis until the command is over and the axis at rest, an alarm, or all rows are filled; return the rows.
 
     ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine, ``x`` the state of run and plant, ``line``
-    the delay line, ``timing`` and ``profile`` as their indices say; s, io, x and line are changed.
+    the delay line, ``timing`` and ``profile`` as their indices say; all but p, timing and profile are changed.
     """
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])
@@ -142,7 +146,7 @@ def run(
     on_load = m[LOAD_SENSOR] == 1.0
     motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
     load, torque, error_sum = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5]
-    row, since = 0, stride
+    row, since, coasting = 0, stride, 0.0
     while True:
         start = x[SAMPLES] * period
         piece = piece_at(profile, int(x[PIECE]), x[COMMAND_TIME])
@@ -156,21 +160,28 @@ def run(
             m, load_position if on_load else motor_position, POSITION_COUNT, POSITION_COUNTS
         )
         io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
-        position_sample(p, s, io)
-        if over(x, timing, profile, abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])):
-            return row
+        if coasting > 0.0:
+            coasting -= period
+            if coasting <= 0.0 or (motor == 0.0 and load == 0.0):
+                return row
+        else:
+            position_sample(p, s, io)
+            if over(x, timing, profile, abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])):
+                return row
+            waits = profile[piece * WIDTH + KIND] == IN_POSITION
+            if not waits or abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION]) <= timing[IN_POSITION_BAND]:
+                feed(x, timing, io[FEED_SHARE])
         sampled, velocity = io[COMMAND], io[COMMAND_VELOCITY]
-        feed(x, timing, io[FEED_SHARE])
         rate = (x[COMMAND_TIME] - begun) / period
         for k in range(samples):
-            if k > 0:
-                io[TIME], io[TORQUE] = start + k * substeps * h, torque
-                io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
-            velocity_sample(p, s, io)
+            if coasting == 0.0:
+                if k > 0:
+                    io[TIME], io[TORQUE] = start + k * substeps * h, torque
+                    io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
+                velocity_sample(p, s, io)
             output = io[OUTPUT]
-            stopped = io[STOP] != 0.0
             for j in range(substeps):
-                if since == stride or stopped:
+                if since == stride or (io[STOP] != 0.0 and coasting == 0.0):
                     if row >= rows.shape[0]:
                         return row
                     since = 0
@@ -195,8 +206,14 @@ def run(
                         rows[row, 9 + n] = io[MONITOR + n]
                     row += 1
                     io[COMMAND], io[COMMAND_VELOCITY] = sampled, velocity
-                if stopped:
-                    return row
+                if io[STOP] != 0.0 and coasting == 0.0:
+                    x[ALARM_ROW] = float(row - 1)
+                    coasting = timing[COAST_TIME]
+                    if coasting == 0.0 or io[STOP] == DIVERGED:
+                        return row
+                    # The control takes the output away and goes on with the command no more.
+                    io[OUTPUT] = output = rate = 0.0
+                    brake(m)
                 since += 1
                 held = delayed(m, line, output) if late else output
                 motor_position, motor, load_position, load, torque, error_sum = advance(

@@ -44,6 +44,8 @@ class Machine:
     """Damping ratio of the resonance."""
     gravity: float = 0.0
     """Torque that holds the axis against its weight; a positive one acts in the negative direction."""
+    brake: float = 0.0
+    """Torque of a brake that closes when an alarm takes the output from the drive."""
     spring: float = 0.0
     """Torque for 1 u away from the start."""
     velocity_per_output: float = 0.0
@@ -127,7 +129,8 @@ VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL = 27, 28, 29
 MOTOR_COUNT, POSITION_COUNT, LOAD_SENSOR, TWO_MASSES = 30, 31, 32, 33
 MOTOR_COUNTS, POSITION_COUNTS = 34, 35
 """Counts in 1 u."""
-SIZE = 36
+BRAKE = 36
+SIZE = 37
 
 
 def machine_array(machine: Machine, step: float) -> list[float]:
@@ -144,7 +147,7 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     m[STIFFNESS], m[HALF_GAP] = rate * rate / (motor + load), 0.5 * machine.backlash
     m[DAMPING] = damping / (1.0 + 0.5 * step * (motor + load) * damping)
     m[MOTOR_KICK], m[LOAD_KICK], m[ELASTIC_KICK] = (0.5 * step * each for each in (motor, load, motor + load))
-    m[GRAVITY], m[SPRING] = machine.gravity, machine.spring
+    m[GRAVITY], m[SPRING], m[BRAKE] = machine.gravity, machine.spring, machine.brake
     if machine.bandwidth > 0.0:
         lag = 2.0 * math.pi * machine.bandwidth * step
         m[LAG], m[LAG_MEAN] = math.exp(-lag), -math.expm1(-lag) / lag

@@ -50,6 +50,15 @@ class Motion:
     """Number of the alarm that ended the run; 0 for none, -1 where the axis ran away without bounds."""
     rows_per_servo_period: int
     """Rows from one servo sample to the next; the first row is a servo sample."""
+    alarm_row: int | None
+    """Row of the alarm; in the rows after it the axis runs out without output."""
+    command_end: float | None
+    """s: when the command was at its end; None if the run was over before."""
+
+    @property
+    def driven(self) -> slice:
+        """The rows in which the control moved the axis."""
+        return slice(None if self.alarm_row is None else self.alarm_row + 1)
 
 
 def run_axis(
@@ -63,12 +72,14 @@ def run_axis(
     refine: int = 1,
     thin: bool = False,
     feed_forward: bool = True,
+    coast: float = 0.0,
 ) -> Motion:
     """Run an axis from rest over a profile (`profiles.py`).
 
     ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share; ``refine`` divides the
     physics step; ``thin`` keeps one row for each velocity sample; without ``feed_forward`` the law
-    sees the commanded position only. Raises SimulationError where the run would take too long.
+    sees the commanded position only; after an alarm the axis runs out for up to ``coast`` s. Raises SimulationError where the
+    run would take too long.
     """
     if axis.after is not None:
 
@@ -80,36 +91,42 @@ def run_axis(
 
         axis = axis.after(axis, lead)
     samples, substeps = steps(axis, refine)
-    step = axis.servo_period / samples / substeps
-    stride = substeps if thin else 1
-    most = math.ceil(until.duration / step - 1e-6)
+    step, stride = axis.servo_period / samples / substeps, substeps if thin else 1
+    most = math.ceil((until.duration + coast) / step - 1e-6) if until.duration < math.inf else MOST_STEPS + 1
     if not most <= MOST_STEPS or most / stride > MOST_ROWS:
         longest = min(MOST_STEPS, MOST_ROWS * stride) * step
         raise SimulationError(
             f"The move takes about {until.duration:.0f} s, more than can be simulated ({longest:.0f} s)."
             " Give a shorter distance or a higher feedrate"
         )
+    machine, timing = machine_array(axis.machine, step), _timing(axis, until, samples, substeps, step)
+    timing[kernel.SHARE_RATE], timing[kernel.STRIDE] = share_rate, float(stride)
+    timing[kernel.FORWARD], timing[kernel.COAST_TIME] = float(feed_forward), coast
+    io = [0.0] * (MONITOR + len(axis.monitors))
+    io[FEED_SHARE], io[MODE] = 1.0, mode
+    x, line = [0.0] * kernel.STATE_SIZE, [0.0] * (int(machine[DELAY_STEPS]) + 3)
+    x[kernel.SHARE], x[kernel.ENDED], x[kernel.ALARM_ROW] = 1.0, -1.0, -1.0
+    rows = np.empty((max(1, math.ceil(most / stride)), len(kernel.COLUMNS) + len(axis.monitors)))
+    parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
+    filled, io, x = _run(axis, [parameters, state, io, machine, x, line, timing, profile], rows, engine, most)
+    names = [*kernel.COLUMNS, *(name for name, _ in axis.monitors)]
+    return Motion(
+        dict(zip(names, np.ascontiguousarray(rows[:filled].T), strict=True)),
+        int(io[STOP]),
+        samples * substeps // stride,
+        int(x[kernel.ALARM_ROW]) if x[kernel.ALARM_ROW] >= 0.0 else None,
+        x[kernel.ENDED] * axis.servo_period if x[kernel.ENDED] >= 0.0 else None,
+    )
+
+
+def _timing(axis: AxisLaw, until: Until, samples: int, substeps: int, step: float) -> list[float]:
     timing = [0.0] * kernel.TIMING_SIZE
     timing[kernel.SERVO_PERIOD], timing[kernel.STEP] = axis.servo_period, step
     timing[kernel.VELOCITY_SAMPLES], timing[kernel.SUBSTEPS] = float(samples), float(substeps)
-    timing[kernel.SHARE_RATE], timing[kernel.STRIDE] = share_rate, float(stride)
     timing[kernel.REST_BAND], timing[kernel.REST_TIME] = until.rest_band, until.rest_time
-    timing[kernel.FORWARD] = float(feed_forward)
+    timing[kernel.IN_POSITION_BAND] = max(axis.inposition_band, 1.5 * axis.machine.position_count)
     timing[kernel.SETTLE_TIME], timing[kernel.MONITORS] = until.settle_time, float(len(axis.monitors))
-    io = [0.0] * (MONITOR + len(axis.monitors))
-    io[FEED_SHARE], io[MODE] = 1.0, mode
-    machine = machine_array(axis.machine, step)
-    x = [0.0] * kernel.STATE_SIZE
-    x[kernel.SHARE], x[kernel.ENDED] = 1.0, -1.0
-    line = [0.0] * (int(machine[DELAY_STEPS]) + 3)
-    rows = np.empty((max(1, math.ceil(most / stride)), len(kernel.COLUMNS) + len(axis.monitors)))
-    parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
-    vectors = [parameters, state, io, machine, x, line, timing, profile]
-    filled, io = _run(axis, vectors, rows, engine, most)
-    stop = int(io[STOP])
-    names = [*kernel.COLUMNS, *(name for name, _ in axis.monitors)]
-    columns = dict(zip(names, np.ascontiguousarray(rows[:filled].T), strict=True))
-    return Motion(columns, stop, samples * substeps // stride)
+    return timing
 
 
 def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
@@ -126,18 +143,18 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
 
 def _run(
     axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, most: int
-) -> tuple[int, list[float]]:
-    """Run the kernel; return the filled rows and the signals at the end."""
+) -> tuple[int, list[float], list[float]]:
+    """Run the kernel; return the filled rows, the signals and the state at the end."""
     machine_code = engine == "compiled" or (engine == "auto" and (is_loaded() or most > PLAIN_STEPS))
     if machine_code and not jit_is_off():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
         filled = compiled(axis.position_sample, axis.velocity_sample)(*arrays, rows)
-        return filled, arrays[2].tolist()
+        return filled, arrays[2].tolist(), arrays[4].tolist()
     try:
         filled = plain(axis.position_sample, axis.velocity_sample)(*vectors, rows)
     except OverflowError:  # a count of a position without bounds
         raise SimulationError(f"Axis {axis.axis} runs away: its loop is not stable") from None
-    return filled, vectors[2]
+    return filled, vectors[2], vectors[4]
 
 
 __all__ = ["DIVERGED", "Engine", "Motion", "Until", "run_axis", "steps"]

@@ -13,6 +13,7 @@ import math
 
 from .arrays import Vector
 from .machine import (
+    BRAKE,
     COULOMB,
     DAMPING,
     DELAY_SHARE,
@@ -93,6 +94,13 @@ def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
     if after * dry < 0.0:
         return 0.0
     return after
+
+
+def brake(m: Vector) -> None:
+    """Close the brake: dry friction at the load, for the rest of the run."""
+    for k in (0, LOAD):
+        m[k + COULOMB] += m[BRAKE]
+        m[k + STATIC] += m[BRAKE]
 
 
 def coupling_torque(m: Vector, twist: float, difference: float, torque: float, weight: float) -> float:

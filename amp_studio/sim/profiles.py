@@ -26,6 +26,8 @@ SINE_SQUARED = 2.0
 SINE = 3.0
 """x = POSITION + VELOCITY sin(ACCELERATION t + JERK t2/2 + FIGURE): amplitude in u, rate in rad/s, change of the rate in
 rad/s2, phase in rad."""
+IN_POSITION = 4.0
+"""At rest until the axis is in position, checked once in DURATION s: the end of an exact stop."""
 
 
 def piece_at(profile: Vector, piece: int, time: float) -> int:
@@ -41,12 +43,7 @@ def command(profile: Vector, piece: int, time: float, io: Vector) -> None:
     t = time - profile[k + START]
     p, v, a = profile[k + POSITION], profile[k + VELOCITY], profile[k + ACCELERATION]
     kind, figure = profile[k + KIND], profile[k + FIGURE]
-    if kind == POLYNOMIAL:
-        j = profile[k + JERK]
-        io[COMMAND] = p + t * (v + t * (0.5 * a + t * j * SIXTH))
-        io[COMMAND_VELOCITY] = v + t * (a + 0.5 * t * j)
-        io[COMMAND_ACCELERATION] = a + t * j
-    elif kind == EXPONENTIAL:
+    if kind == EXPONENTIAL:
         rest = math.exp(-t / figure)
         gone = a * figure * (1.0 - rest)
         io[COMMAND] = p + (v + a * figure) * t - gone * figure
@@ -58,9 +55,14 @@ def command(profile: Vector, piece: int, time: float, io: Vector) -> None:
         io[COMMAND] = p + t * (v + 0.25 * a * t) - a * wave * wave / (rate * rate)
         io[COMMAND_VELOCITY] = v + 0.5 * a * (t - math.sin(rate * t) / rate)
         io[COMMAND_ACCELERATION] = a * wave * wave
-    else:
+    elif kind == SINE:
         j = profile[k + JERK]
         angle, rate = figure + t * (a + 0.5 * j * t), a + j * t
         io[COMMAND] = p + v * math.sin(angle)
         io[COMMAND_VELOCITY] = v * rate * math.cos(angle)
         io[COMMAND_ACCELERATION] = v * (j * math.cos(angle) - rate * rate * math.sin(angle))
+    else:
+        j = profile[k + JERK]
+        io[COMMAND] = p + t * (v + t * (0.5 * a + t * j * SIXTH))
+        io[COMMAND_VELOCITY] = v + t * (a + 0.5 * t * j)
+        io[COMMAND_ACCELERATION] = a + t * j
