@@ -23,11 +23,13 @@ Sample = Callable[[Vector, Vector, Vector], None]
 Run = Callable[..., int]
 """`kernel.run`."""
 
-PLAIN_STEPS = 30_000
+PLAIN_STEPS = 100_000
 """Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation.md)."""
 
 OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy"}
 """Sums are computed in the written order; a division does not look whether it is by 0."""
+
+_loaded: set[tuple[Sample, Sample | None]] = set()
 
 
 @lru_cache(maxsize=64)
@@ -60,7 +62,9 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     run.__qualname__ = run.__name__ = f"run_{digest}"
     vector = numba.float64[::1]
     signature = numba.int64(*[vector] * 8, numba.float64[:, ::1])
-    return cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
+    found = cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
+    _loaded.add((position_sample, velocity_sample))
+    return found
 
 
 def jit_is_off() -> bool:
@@ -68,9 +72,9 @@ def jit_is_off() -> bool:
     return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 
-def is_loaded() -> bool:
-    """Return whether machine code was loaded in this process, so that more of it costs little."""
-    return compiled.cache_info().currsize > 0
+def is_loaded(position_sample: Sample, velocity_sample: Sample | None) -> bool:
+    """Return whether the machine code of a law is in this process, so that it costs nothing."""
+    return (position_sample, velocity_sample) in _loaded
 
 
 def _own(position_sample: Sample, velocity_sample: Sample | None) -> dict[str, FunctionType]:

@@ -32,6 +32,7 @@ from .signals import (
     COMMAND_ACCELERATION,
     COMMAND_VELOCITY,
     DIVERGED,
+    EMERGENCY_STOP,
     FEED_SHARE,
     MONITOR,
     MOTOR,
@@ -72,7 +73,11 @@ IN_POSITION_BAND = 11
 """u"""
 COAST_TIME = 12
 """s after an alarm in which the axis runs out without output; 0 to end at the alarm."""
-TIMING_SIZE = 13
+EMERGENCY = 13
+"""s: moment of an emergency stop; infinite for none."""
+DRIVEN_ROWS = 14
+"""Rows at most before an alarm."""
+TIMING_SIZE = 15
 
 SAMPLES, COMMAND_TIME, SHARE, PIECE, RESTLESS, ENDED, ALARM_ROW = range(7)
 """State of the run: servo samples since the start; time, s, share of the feedrate and piece of the command; sample of the last
@@ -147,6 +152,7 @@ def run(
     motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
     load, torque, error_sum = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5]
     row, since, coasting = 0, stride, 0.0
+    most = int(timing[DRIVEN_ROWS])
     while True:
         start = x[SAMPLES] * period
         piece = piece_at(profile, int(x[PIECE]), x[COMMAND_TIME])
@@ -168,6 +174,8 @@ def run(
             position_sample(p, s, io)
             if over(x, timing, profile, abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])):
                 return row
+            if start >= timing[EMERGENCY]:
+                io[STOP] = EMERGENCY_STOP
             waits = profile[piece * WIDTH + KIND] == IN_POSITION
             if not waits or abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION]) <= timing[IN_POSITION_BAND]:
                 feed(x, timing, io[FEED_SHARE])
@@ -182,7 +190,7 @@ def run(
             output = io[OUTPUT]
             for j in range(substeps):
                 if since == stride or (io[STOP] != 0.0 and coasting == 0.0):
-                    if row >= rows.shape[0]:
+                    if row >= most:
                         return row
                     since = 0
                     passed = (k * substeps + j) * h
@@ -213,6 +221,7 @@ def run(
                         return row
                     # The control takes the output away and goes on with the command no more.
                     io[OUTPUT] = output = rate = 0.0
+                    most = rows.shape[0]
                     brake(m)
                 since += 1
                 held = delayed(m, line, output) if late else output

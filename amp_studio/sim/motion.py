@@ -14,10 +14,13 @@ from .compiled import PLAIN_STEPS, compiled, is_loaded, jit_is_off, plain
 from .errors import SimulationError
 from .law import AxisLaw
 from .machine import DELAY_STEPS, machine_array
+from .ramps import end_of
 from .signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 
 Engine = Literal["auto", "plain", "compiled"]
 
+LONGEST_DELAY = 1.0
+"""s"""
 LONGEST_STEP = 0.25e-3
 """Longest physics step in s."""
 STIFFEST_STEP = 0.25
@@ -25,7 +28,7 @@ STIFFEST_STEP = 0.25
 MOST_SUBSTEPS = 10_000
 MOST_STEPS = 40_000_000
 """Most physics steps of a run, almost three hours at the longest one."""
-MOST_ROWS = 4_000_000
+MOST_ROWS = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,7 @@ class Motion:
     columns: dict[str, npt.NDArray[np.float64]]
     """Name -> (rows,) float64 in s, u, u/s, the units of output, torque and monitors."""
     stop: int
-    """Number of the alarm that ended the run; 0 for none, -1 where the axis ran away without bounds."""
+    """Number of the alarm that ended the run; 0 for none, below 0 one of the kernel (`signals.py`)."""
     rows_per_servo_period: int
     """Rows from one servo sample to the next; the first row is a servo sample."""
     alarm_row: int | None
@@ -73,13 +76,14 @@ def run_axis(
     thin: bool = False,
     feed_forward: bool = True,
     coast: float = 0.0,
+    emergency: float = math.inf,
 ) -> Motion:
     """Run an axis from rest over a profile (`profiles.py`).
 
     ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share; ``refine`` divides the
     physics step; ``thin`` keeps one row for each velocity sample; without ``feed_forward`` the law
-    sees the commanded position only; after an alarm the axis runs out for up to ``coast`` s. Raises SimulationError where the
-    run would take too long.
+    sees the commanded position only; after an alarm, or the emergency stop at ``emergency`` s, the axis runs out for up to
+    ``coast`` s. Raises SimulationError where the run would take too long or its figures are beyond all numbers.
     """
     if axis.after is not None:
 
@@ -92,8 +96,7 @@ def run_axis(
         axis = axis.after(axis, lead)
     samples, substeps = steps(axis, refine)
     step, stride = axis.servo_period / samples / substeps, substeps if thin else 1
-    most = math.ceil((until.duration + coast) / step - 1e-6) if until.duration < math.inf else MOST_STEPS + 1
-    if not most <= MOST_STEPS or most / stride > MOST_ROWS:
+    if not (until.duration / step <= MOST_STEPS and until.duration / step / stride <= MOST_ROWS):
         longest = min(MOST_STEPS, MOST_ROWS * stride) * step
         raise SimulationError(
             f"The move takes about {until.duration:.0f} s, more than can be simulated ({longest:.0f} s)."
@@ -102,13 +105,22 @@ def run_axis(
     machine, timing = machine_array(axis.machine, step), _timing(axis, until, samples, substeps, step)
     timing[kernel.SHARE_RATE], timing[kernel.STRIDE] = share_rate, float(stride)
     timing[kernel.FORWARD], timing[kernel.COAST_TIME] = float(feed_forward), coast
+    timing[kernel.EMERGENCY] = emergency
+    driven = max(1, math.ceil((until.duration / step - 1e-6) / stride))
+    timing[kernel.DRIVEN_ROWS] = float(driven)
     io = [0.0] * (MONITOR + len(axis.monitors))
     io[FEED_SHARE], io[MODE] = 1.0, mode
     x, line = [0.0] * kernel.STATE_SIZE, [0.0] * (int(machine[DELAY_STEPS]) + 3)
     x[kernel.SHARE], x[kernel.ENDED], x[kernel.ALARM_ROW] = 1.0, -1.0, -1.0
-    rows = np.empty((max(1, math.ceil(most / stride)), len(kernel.COLUMNS) + len(axis.monitors)))
+    rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
-    filled, io, x = _run(axis, [parameters, state, io, machine, x, line, timing, profile], rows, engine, most)
+    vectors = [parameters, state, io, machine, x, line, timing, profile]
+    expected = min(until.duration, end_of(profile) + until.rest_time) / step
+    filled, io, x = _run(axis, vectors, rows, engine, expected)
+    if not np.isfinite(rows[:filled]).all():
+        raise SimulationError(
+            f"The figures of axis {axis.axis} are too large or too small to be computed with. Check its gains and model.*"
+        )
     names = [*kernel.COLUMNS, *(name for name, _ in axis.monitors)]
     return Motion(
         dict(zip(names, np.ascontiguousarray(rows[:filled].T), strict=True)),
@@ -133,6 +145,11 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
     """Return (velocity samples in a servo period, physics steps in a velocity sample)."""
     samples = max(1, round(axis.servo_period / axis.velocity_period))
     sample = axis.servo_period / samples
+    if axis.machine.delay > LONGEST_DELAY:
+        raise SimulationError(
+            f"The delay of axis {axis.axis} is {axis.machine.delay:g} s; at most {LONGEST_DELAY:g} s are simulated",
+            "model.delay",
+        )
     wanted = max(sample / LONGEST_STEP - 1e-9, sample * axis.machine.fastest / STIFFEST_STEP)
     if not wanted <= MOST_SUBSTEPS:
         raise SimulationError(
@@ -142,16 +159,17 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
 
 
 def _run(
-    axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, most: int
+    axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, expected: float
 ) -> tuple[int, list[float], list[float]]:
-    """Run the kernel; return the filled rows, the signals and the state at the end."""
-    machine_code = engine == "compiled" or (engine == "auto" and (is_loaded() or most > PLAIN_STEPS))
+    """Run the kernel for about ``expected`` steps; return the filled rows, the signals and the state at the end."""
+    law = axis.position_sample, axis.velocity_sample
+    machine_code = engine == "compiled" or (engine == "auto" and (expected > PLAIN_STEPS or is_loaded(*law)))
     if machine_code and not jit_is_off():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
-        filled = compiled(axis.position_sample, axis.velocity_sample)(*arrays, rows)
+        filled = compiled(*law)(*arrays, rows)
         return filled, arrays[2].tolist(), arrays[4].tolist()
     try:
-        filled = plain(axis.position_sample, axis.velocity_sample)(*vectors, rows)
+        filled = plain(*law)(*vectors, rows)
     except OverflowError:  # a count of a position without bounds
         raise SimulationError(f"Axis {axis.axis} runs away: its loop is not stable") from None
     return filled, vectors[2], vectors[4]

@@ -40,5 +40,7 @@ VELOCITY_LOOP = 1.0
 OUTPUT_TEST = 2.0
 """No loop: the law sets OUTPUT to COMMAND (within its limits)."""
 
+EMERGENCY_STOP = -2.0
+"""STOP of the kernel itself: the emergency stop that a scenario asked for."""
 DIVERGED = -1.0
 """STOP of the kernel itself: positions without bounds."""

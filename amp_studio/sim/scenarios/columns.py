@@ -1,0 +1,52 @@
+"""Columns, units and alarms of a trace, for every scenario."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.motion import Motion
+from amp_studio.sim.rounding import shown
+from amp_studio.sim.signals import DIVERGED, EMERGENCY_STOP
+from amp_studio.sim.trace import Alarm
+
+
+def per_minute(columns: dict[str, npt.NDArray[np.float64]]) -> dict[str, npt.NDArray[np.float64]]:
+    """Return the columns with velocities in u/min, as feedrates are."""
+    return {
+        name: column * 60.0 if name in ("command_velocity", "velocity") else column
+        for name, column in columns.items()
+    }
+
+
+def column_units(axis: AxisLaw) -> dict[str, str]:
+    """Return the unit of every column of a trace."""
+    u = axis.unit
+    torque = "%" if axis.machine.velocity_per_output > 0.0 else axis.output_unit
+    own = {"time_s": "s", "command_position": u, "command_velocity": f"{u}/min", "position": u}
+    own |= {"measured_position": u, "following_error": u, "velocity": f"{u}/min"}
+    return own | {"output": axis.output_unit, "torque": torque} | dict(axis.monitors)
+
+
+def alarms_of(
+    axis: AxisLaw, motion: Motion, stable: bool = True, margin: float | None = None
+) -> tuple[Alarm, ...]:
+    """Return the alarm that ended a run, after the one for a loop that is not stable: ``margin`` is its gain margin in dB."""
+    alarms = []
+    if not stable or motion.stop == int(DIVERGED):
+        moment = 0.0 if motion.alarm_row is None else float(motion.columns["time_s"][motion.alarm_row])
+        gain = "" if margin is None or margin >= 0.0 else f": its gain margin is {shown(margin, 'dB', 3)}"
+        alarms.append(
+            Alarm(
+                "UNSTABLE", 0.0 if not stable else moment, f"The loop of axis {axis.axis} is not stable{gain}"
+            )
+        )
+    if motion.stop != 0 and motion.stop != int(DIVERGED):
+        moment = float(motion.columns["time_s"][motion.alarm_row or 0])
+        if motion.stop == int(EMERGENCY_STOP):
+            alarms.append(Alarm("EMERGENCY STOP", moment, "The emergency stop that was asked for"))
+        else:
+            text = axis.alarms[motion.stop]
+            alarms.append(Alarm(text.code, moment, text.message))
+    return tuple(alarms)
