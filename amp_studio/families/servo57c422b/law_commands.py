@@ -12,9 +12,9 @@ from amp_studio.sim import AxisLaw, ParameterValue, Recommendation, SimulationEr
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.ramps import end_of, move, profile_of
+from amp_studio.sim.scenarios.columns import alarms_of, column_units, per_minute
 from amp_studio.sim.scenarios.scenario import above_zero, number, refuse_unknown
 from amp_studio.sim.scenarios.step import SCENARIO as STEP
-from amp_studio.sim.scenarios.step import alarms_of, column_units, per_minute
 from amp_studio.sim.trace import Figure
 
 from . import law_tune as tune

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from amp_studio.sim import SimulationError
-from amp_studio.sim.ramps import Piece
+from amp_studio.sim.pieces import Piece
 
 from .formulas.motion import GEAR_SCALE
 from .law_sample import SCAN

@@ -15,8 +15,9 @@ import numpy as np
 
 from amp_studio.sim import AxisLaw, SimulationError
 from amp_studio.sim.motion import Motion, Until, run_axis
+from amp_studio.sim.pieces import Piece
 from amp_studio.sim.profiles import POLYNOMIAL
-from amp_studio.sim.ramps import Piece, end_of, move, profile_of
+from amp_studio.sim.ramps import end_of, move, profile_of
 from amp_studio.sim.signals import OUTPUT_TEST, POSITION_LOOP, VELOCITY_LOOP
 
 from . import law_sample as loop
@@ -135,11 +136,13 @@ def feed_forward(axis: AxisLaw, scales: Scales, positive: float, negative: float
 
 
 def with_figures(axis: AxisLaw, figures: dict[int, float]) -> AxisLaw:
-    """Return the axis with other figures of its loop."""
-    parameters = list(axis.parameters)
+    """Return the axis with other figures of its loop; its linear model has the same gains."""
+    parameters, linear = list(axis.parameters), list(axis.linear_parameters or axis.parameters)
     for place, value in figures.items():
+        if place != loop.DEADBAND:  # which is a step
+            linear[place] = value
         parameters[place] = value
-    return replace(axis, parameters=parameters)
+    return replace(axis, parameters=parameters, linear_parameters=linear)
 
 
 def run(axis: AxisLaw, profile: list[float], rest: float, mode: float = POSITION_LOOP) -> Motion:
