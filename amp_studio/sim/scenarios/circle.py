@@ -20,8 +20,8 @@ from amp_studio.sim.profiles import SINE
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
+from .columns import alarms_of
 from .scenario import Scenario, Settings, above_zero, refuse_unknown
-from .step import alarms_of
 from .sweep import DIES
 
 SECOND = "move.second_axis"
