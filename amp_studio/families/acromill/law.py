@@ -24,6 +24,7 @@ from amp_studio.sim import (
     Trace,
 )
 from amp_studio.sim.model import with_model
+from amp_studio.sim.steady import error_at_speed
 
 from . import law_plant as plant
 from . import law_sample as loop
@@ -249,24 +250,19 @@ def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
 
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     """Return the Vel FFwd that takes the steady error away: P Gain × error / speed more than now (page 115)."""
-    error, speed = (
-        trace.result.get("steady_following_error", (None, ""))[0],
-        trace.result.get("feedrate", (None, ""))[0],
-    )
-    p = axis.parameters
-    if trace.alarms or not error or not speed or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
+    error, speed, p = error_at_speed(trace), trace.result.get("feedrate", (None, ""))[0], axis.parameters
+    if trace.alarms or error is None or not speed or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
         return ()
     pulses = error * p[loop.PULSES]
-    if pulses < 2.0:
+    wanted = p[loop.VEL_FFWD] + p[loop.P_GAIN] * error / (speed / 60.0)
+    if abs(pulses) < 2.0 or wanted < 0.0:
         return ()
-    sign = -1.0 if float(trace.columns["following_error"].mean()) * speed < 0.0 else 1.0
-    wanted = p[loop.VEL_FFWD] + sign * p[loop.P_GAIN] * error / (speed / 60.0)
     return (
         Recommendation(
             VEL_FFWD,
             float(f"{wanted:.3g}"),
             "Vs/count",
-            f"the axis is {pulses:.3g} pulses {'ahead' if sign < 0.0 else 'behind'} at this speed (page 115). Its price:"
+            f"the axis is {abs(pulses):.3g} pulses {'ahead' if pulses < 0.0 else 'behind'} at this speed (page 115). Its price:"
             " the part that is dry friction is paid back at other speeds",
         ),
     )

@@ -24,6 +24,7 @@ from amp_studio.sim import (
     Trace,
 )
 from amp_studio.sim.model import with_model
+from amp_studio.sim.steady import error_at_speed
 
 from . import law_plant as plant
 from . import law_sample as loop
@@ -268,18 +269,13 @@ def _sources() -> Mapping[str, Source]:
 
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     """Return the Feedforward Gain that makes the following error of this speed as small as possible (page 5-4)."""
-    error, speed = (
-        trace.result.get("steady_following_error", (None, ""))[0],
-        trace.result.get("feedrate", (None, ""))[0],
-    )
-    p = axis.parameters
-    if trace.alarms or not error or not speed or error < 2.0 or p[loop.INTEGRAL] > 0.0:
+    error, speed, p = error_at_speed(trace), trace.result.get("feedrate", (None, ""))[0], axis.parameters
+    if trace.alarms or error is None or not speed or abs(error) < 2.0 or p[loop.INTEGRAL] > 0.0:
         return ()
-    own = p[loop.FEED_FORWARD]
-    if float(trace.columns["following_error"].mean()) * speed < 0.0:
-        error = -error
-    wanted = own + p[loop.PROPORTIONAL] * error / (abs(speed) / 60.0 * loop.SCAN)
-    scale = _SCALES["model.feedforward_scale"][0]
+    wanted = p[loop.FEED_FORWARD] + p[loop.PROPORTIONAL] * error / (speed / 60.0 * loop.SCAN)
+    scale = axis.scales.feed_forward if isinstance(axis, ModuleAxis) else 1.0
+    if not 0.0 <= wanted * scale <= _WORD[1]:
+        return ()
     return (
         Recommendation(
             FEED_FORWARD,

@@ -26,7 +26,7 @@ from .sweep import DIES
 
 SECOND = "move.second_axis"
 SETTINGS = {
-    "move.radius": "radius (mm or deg); default: 20",
+    "move.radius": "radius (mm or deg); default: 20, or 20000 counts",
     "move.feedrate": "feedrate on the circle (mm/min or deg/min); default: 3000, at most half the rapid feedrate",
     SECOND: "the other axis of the plane; default: the next one",
 }
@@ -102,10 +102,11 @@ def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None)
 def _circle(
     axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel], settings: Settings
 ) -> _Circle:
-    radius = above_zero(settings, "move.radius") or RADIUS
+    size = 1000.0 if axis.unit == "counts" else 1.0  # a count stands for a thousandth
+    radius = above_zero(settings, "move.radius") or RADIUS * size
     given = above_zero(settings, "move.feedrate")
     known = [each.feedrate / 2.0 for each in (axis, other) if each.feedrate]
-    feedrate = given / 60.0 if given else min([FEEDRATE, *known])
+    feedrate = given / 60.0 if given else min([FEEDRATE * size, *known])
     limit = _limit(axis, other, radius)
     feedrate = feedrate if limit is None else min(feedrate, limit)
     rate = feedrate / radius

@@ -123,9 +123,15 @@ def test_advice_gives_the_feed_forward_of_the_printed_equation() -> None:
     # Page 115: P Gain × error / speed.
     file = file_of()
     trace = simulate(file, "step", settings={"model.coulomb_friction": 0.0})
-    (advice,) = LAW.advise(bind_axis(file, LAW), trace)
-    assert advice.parameter == "servo.vel_ffwd"
+    (advice,) = (each for each in trace.recommendations if each.parameter == "servo.vel_ffwd")
     assert advice.value == pytest.approx(0.0000015, rel=0.01)  # the viscous friction of the plant
+
+
+def test_the_advice_is_the_same_for_a_move_in_the_negative_direction() -> None:
+    trace = simulate(file_of(), "step", settings={"move.distance": -14.0})
+    (advice,) = (each for each in trace.recommendations if each.parameter == "servo.vel_ffwd")
+    assert advice.value == pytest.approx(0.00000296, rel=0.01)  # dry friction too: 0.099 V at 33333 pulses/s
+    assert "behind" in advice.why
 
 
 # -- the loop, one sample at a time ----------------------------------------------------------------
