@@ -352,9 +352,10 @@ def _ballbar(trace: Trace, before: Trace | None) -> Picture:
         curves.append(Curve(name, angle, off, role))  # type: ignore[arg-type]
     unit = trace.units["radius_deviation"]
     levels: list[tuple[str, float]] = [("", 0.0)]
+    # A radius error above 0 is a circle that is too small, a deviation below 0.
     predicted = trace.result.get("predicted_radius_error", (None, ""))[0]
     if predicted is not None and math.isfinite(predicted):
-        levels.append((f"predicted {shown(predicted, unit)}", predicted))
+        levels.append((f"predicted {shown(-predicted, unit)}", -predicted))
     marks = tuple((f"{turn} deg", float(turn)) for turn in (90, 180, 270))
     panel = Panel("radius deviation", unit, tuple(curves), tuple(levels), marks, 1.2)
     return Picture("", (), "angle (deg)", (panel,), rings=tuple(rings), ring_unit=unit)

@@ -104,3 +104,11 @@ def test_a_bode_plot_has_both_loops_and_the_limit_of_stability() -> None:
     ]
     assert ("−180 deg", -180.0) in phase.levels
     ET.fromstring(plot_svg(SCENARIOS["frequency"].run(tiny(gain=3000.0), {})))
+
+
+def test_the_predicted_radius_error_is_drawn_on_the_side_of_the_circle_that_is_too_small() -> None:
+    trace = SCENARIOS["circle"].run(tiny(), {"move.radius": 20.0, "move.feedrate": 3000.0})
+    (panel,) = picture_of(trace).panels
+    (_, level) = panel.levels[1]
+    assert level == pytest.approx(float(trace.columns["radius_deviation"].mean()), rel=0.01)
+    assert level < 0.0
