@@ -83,7 +83,8 @@ def _axis_named(read: AxisParameters, name: str, parameter: str) -> str:
 
 
 def _not_negative(read: AxisParameters, name: str, place: str) -> float:
-    value = read.number(name, at=place)
+    """Return a figure of a set; a gain that is not set is 0, the default, which switches it off (32-9, 37-3)."""
+    value = (read.optional(name, at=place) or 0.0) if name == GAIN else read.number(name, at=place)
     if not 0.0 <= value < math.inf:
         raise SimulationError(f"{name}@{place} is {value:g}; it must not be negative", name)
     return value
