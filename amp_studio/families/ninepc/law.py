@@ -24,6 +24,7 @@ from .law_drives import Parts, analog, digital, third_party
 from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
 from .law_figures import Loop, predictions
 from .law_ramps import ramps_of
+from .law_reading import above_zero, demand, if_set, not_negative
 
 TITLE = "9/PC axis"
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
@@ -106,7 +107,7 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
     parameters = _position_parameters(read, kind, loop, feedback, notes)
     common = _common(read, kind, notes, master)
     common |= {
-        "inposition_band": _not_negative(read, BAND),
+        "inposition_band": not_negative(read, BAND),
         "position_rate": loop.rate,
         "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
         "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
@@ -144,20 +145,12 @@ def _kind(read: AxisParameters) -> Kind:
 
 def _loop(read: AxisParameters, kind: Kind) -> Loop:
     """Return the position loop; with ZFE the gain break is not used (7-22, 7-27)."""
-    gain = read.number(GAIN)
-    if not 0.0 < gain < math.inf:
-        raise SimulationError(f"{GAIN}@{read.axis} is {gain:g}; it must be above 0", GAIN)
+    gain = above_zero(read, GAIN)
     if kind.loop == "zfe":
-        share = _not_negative(read, FEED_FORWARD)
-        if share > 100.0:
-            raise SimulationError(
-                f"{FEED_FORWARD}@{read.axis} is {share:g}; it must be 100 % or less", FEED_FORWARD
-            )
+        share = not_negative(read, FEED_FORWARD, most=100.0, unit=" %")
         return Loop(gain, math.inf, 1.0, share / 100.0)
-    ratio = _not_negative(read, BREAK_RATIO)
-    if ratio > 1.0:
-        raise SimulationError(f"{BREAK_RATIO}@{read.axis} is {ratio:g}; it must be 1 or less", BREAK_RATIO)
-    return Loop(gain, _not_negative(read, BREAK_POINT), ratio, 0.0)
+    ratio = not_negative(read, BREAK_RATIO, most=1.0)
+    return Loop(gain, not_negative(read, BREAK_POINT), ratio, 0.0)
 
 
 def _position_parameters(
@@ -168,10 +161,11 @@ def _position_parameters(
     p[samples.GAIN], p[samples.FEED_FORWARD] = loop.rate, loop.feed_forward
     p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.break_point, loop.break_ratio
     p[samples.OPEN] = 1.0 if kind.loop == "open" else 0.0
-    p[samples.EXCESS], p[samples.SUPPRESSION] = _not_negative(read, EXCESS), _not_negative(read, SUPPRESSION)
+    p[samples.EXCESS], p[samples.SUPPRESSION] = not_negative(read, EXCESS), not_negative(read, SUPPRESSION)
     p[samples.COUNT] = feedback.position_count
-    p[samples.CUTTING] = (read.optional(CUTTING) or 0.0) / 60.0
+    p[samples.CUTTING] = if_set(read, CUTTING) / 60.0
     reversal = read.optional(REVERSAL) or 0.0
+    demand(read, REVERSAL, reversal, not math.isnan(reversal), "must be a number")
     if reversal and feedback.on_load:
         notes.append(notes_of.REVERSAL_ON_SCALE)
     elif reversal:
@@ -185,17 +179,15 @@ def _common(
 ) -> dict[str, object]:
     """Return what every kind of axis has, as fields of AxisLaw."""
     said = notes if notes is not None else []
-    cycle = read.number(CYCLE, everywhere=True)
-    if not 0.0 < cycle < math.inf:
-        raise SimulationError(f"{CYCLE} is {cycle:g}; it must be above 0", CYCLE)
+    cycle = above_zero(read, CYCLE, everywhere=True)
     ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, said)
-    rapid = (master or read).optional(RAPID)
+    rapid = if_set(master or read, RAPID)
     said += [notes_of.SAMPLED, notes_of.RAMPS]
     return {
         "axis": read.axis,
         "unit": kind.unit,
         "servo_period": cycle / 1000.0,
-        "feedrate": rapid / 60.0 if rapid and 0.0 < rapid < math.inf else None,
+        "feedrate": rapid / 60.0 if rapid else None,
         "ramps": ramps,
         "sources": {name: _bounded(source, kind.unit) for name, source in SOURCES.items()},
     }
@@ -205,7 +197,7 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
     limits = {
         "excess error": parameters[samples.EXCESS],
         "feedrate suppression": parameters[samples.SUPPRESSION],
-        "inposition band": _not_negative(read, BAND),
+        "inposition band": not_negative(read, BAND),
     }
     if loop.break_ratio < 1.0:
         limits["gain break point"] = loop.break_point
@@ -216,13 +208,6 @@ def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[i
     limit = shown(parameters[samples.EXCESS], kind.unit)
     text = f"Following error above {limit} ({EXCESS}@{read.axis}): the control goes into E-STOP"
     return {int(samples.EXCESS_ERROR_ALARM): AlarmText("EXCESS FOLLOWING ERROR", text)}
-
-
-def _not_negative(read: AxisParameters, name: str) -> float:
-    value = read.number(name)
-    if not 0.0 <= value < math.inf:
-        raise SimulationError(f"{name}@{read.axis} is {value:g}; it must not be negative", name)
-    return value
 
 
 def _bounded(source: Source, unit: str) -> Source:

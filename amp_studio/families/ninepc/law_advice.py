@@ -1,4 +1,4 @@
-"""Advice after a move of a 9/PC axis: limits of the following error, ramps and velocity gains, each with page and price."""
+"""Recommendations after a move of a 9/PC axis: limits of the following error, ramps and velocity gains, each with page and price."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Move:
 
 
 def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
-    """Return the advice after the scenario `step`, the most urgent first; none after others or with an open position loop."""
+    """Return the recommendations after the scenario `step`, the most urgent first; none after others or with an open position loop."""
     p = axis.parameters
     if trace.scenario != "step" or p[samples.OPEN] or not math.isfinite(p[samples.EXCESS]):
         return ()

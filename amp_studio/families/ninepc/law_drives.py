@@ -16,6 +16,7 @@ from . import law_notes as notes_of
 from . import law_samples as samples
 from .law_feedback import Feedback
 from .law_figures import Loop, predictions
+from .law_reading import above_zero, demand, if_set, not_negative
 from .law_units import (
     CURRENT_LOOP,
     DELAY,
@@ -34,6 +35,7 @@ DISCHARGE, FILTER = "servo.integrator_discharge", "servo.torque_filter"
 LIMIT_POSITIVE, LIMIT_NEGATIVE = "servo.max_torque_positive", "servo.max_torque_negative"
 OFFSET, OFFSET_DIRECTION, PEAK = "servo.torque_offset", "servo.torque_offset_direction", "servo.peak_current"
 TABLES, MOTOR, RATIO = "servo.standard_motor_values", "servo.motor_type", "servo.load_inertia_ratio"
+RATIOS = ("r0", "r1", "r2", "r3")
 MOTOR_SPEED, RAPID = "servo.max_motor_speed", "feedrate.rapid"
 FRICTION = {
     "servo.friction_threshold": samples.THRESHOLD,
@@ -51,13 +53,15 @@ VOLTS = 10.0
 """V: the end of the analog output (7-41)."""
 DRIVE_RATIO = 10.0
 """Velocity loop of an analog drive / position loop: the upper bound of 7-54 (10923 / 65536 per ms to gain / 60 per ms)."""
+USUAL_PITCH = 10.0
+"""mm: a usual lead, where the file of a third-party drive has none."""
 USUAL_GAIN = 1.0
 """Initial Gain of most machines (7-25)."""
 
 
 @dataclass(frozen=True)
 class Parts:
-    """What every drive has: unit, devices, position loop, its array of parameters, what is said, and fields of AxisLaw."""
+    """What every drive has: unit, devices, position loop, its array of parameters, the notes of the result, and fields of AxisLaw."""
 
     unit: str
     feedback: Feedback
@@ -71,12 +75,14 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     """Return an axis whose velocity loop the 1394 closes: torque in % of rated torque."""
     feedback, loop, p, notes, common = parts.feedback, parts.loop, parts.p, parts.notes, parts.common
     motor = str(read.value(MOTOR) or "nonstandard")
-    ratio = int(str(read.value(RATIO) or "r0").removeprefix("r"))
+    ratio = _inertia_ratio(read)
     proportional, integral = _gains(read, motor, ratio, notes)
     inertia = inertia_of(motor, ratio, read.tables)
     own = read.optional(OWN_ACCELERATION)
+    if own is not None:
+        demand(read, OWN_ACCELERATION, own, own > 0.0, "must be above 0")
     travel = feedback.motor_turn
-    if own is not None and 0.0 < own < math.inf:
+    if own is not None:
         inertia = Inertia(100.0 * own * 2.0 * math.pi / travel, "")
     p[samples.PROPORTIONAL], p[samples.INTEGRAL] = (
         torque_for(proportional, travel),
@@ -104,7 +110,7 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     )
     assumed = {
         "acceleration_per_output": inertia.why + " All torques depend on it.",
-        "bandwidth": "No current loop is printed; with the delay it ends appendix A as told (A-9, A-10).",
+        "bandwidth": "No current loop is printed; with the delay it ends appendix A as printed (A-9, A-10).",
         "delay": "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10).",
     }
     if p[samples.OFFSET]:
@@ -148,6 +154,16 @@ def _linear(p: list[float]) -> list[float]:
     return linear
 
 
+def _inertia_ratio(read: AxisParameters) -> int:
+    """Return the load's side of Load Inertia Ratio (7-71)."""
+    key = str(read.value(RATIO) or "r0")
+    if key not in RATIOS:
+        raise SimulationError(
+            f"{RATIO} of axis {read.axis} is '{key}', not one of {', '.join(RATIOS)}", RATIO
+        )
+    return RATIOS.index(key)
+
+
 def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tuple[float, float]:
     """Return the gains that the control uses: those of its tables for a standard motor, unless one is set by hand (7-6)."""
     by_hand = read.given(PROPORTIONAL) or read.given(INTEGRAL)
@@ -164,36 +180,29 @@ def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tu
             "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its tables (7-6), where this motor is not"
             " printed; the gains of the file are simulated instead."
         )
-    gains = read.number(PROPORTIONAL), read.number(INTEGRAL)
-    for name, gain in zip((PROPORTIONAL, INTEGRAL), gains, strict=True):
-        _demand(read, name, gain, 0.0 <= gain < math.inf, "must not be negative")
-    return gains
+    return not_negative(read, PROPORTIONAL), not_negative(read, INTEGRAL)
 
 
 def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
     """Set discharge, limits, offset, filter and friction compensation; return the lag in s that the filter adds."""
     p[samples.DISCHARGE] = read.number(DISCHARGE)
-    _demand(
-        read, DISCHARGE, p[samples.DISCHARGE], 1.0 <= p[samples.DISCHARGE] < math.inf, "must be 1 or more"
-    )
+    demand(read, DISCHARGE, p[samples.DISCHARGE], p[samples.DISCHARGE] >= 1.0, "must be 1 or more")
     for name, place in ((LIMIT_POSITIVE, samples.LIMIT_POSITIVE), (LIMIT_NEGATIVE, samples.LIMIT_NEGATIVE)):
-        p[place] = read.number(name)
-        _demand(read, name, p[place], 0.0 <= p[place] < math.inf, "must not be negative")
-    offset = read.optional(OFFSET) or 0.0
+        p[place] = not_negative(read, name)
+    offset = if_set(read, OFFSET)
     if offset:
         sign = 1.0 if read.value(OFFSET_DIRECTION) == "plus" else -1.0
         p[samples.OFFSET] = sign * offset * _peak(read) / 100.0
         notes.append(notes_of.OFFSET.format(shown(p[samples.OFFSET])))
     for name, place in FRICTION.items():
-        p[place] = read.optional(name) or 0.0
-        _demand(read, name, p[place], 0.0 <= p[place] < math.inf, "must not be negative")
+        p[place] = if_set(read, name)
     if any(p[place] for place in FRICTION.values()):
         notes.append(notes_of.FRICTION)
     cutoff = read.optional(FILTER)
     p[samples.FILTER] = 1.0
     if cutoff is None or cutoff >= FILTER_OFF:
         return 0.0
-    _demand(read, FILTER, cutoff, cutoff > 0.0, "must be above 0")
+    demand(read, FILTER, cutoff, cutoff > 0.0, "must be above 0")
     p[samples.FILTER] = -math.expm1(-2.0 * math.pi * cutoff * p[samples.PERIOD])
     notes.append(notes_of.FILTER)
     return 1.0 / (2.0 * math.pi * cutoff)
@@ -206,8 +215,8 @@ def _dry(p: list[float]) -> float:
 
 def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: list[str]) -> None:
     """Say it where the rapid feedrate needs more than Maximum Motor Speed (7-74)."""
-    most, rapid = read.optional(MOTOR_SPEED), common["feedrate"]
-    if most is None or rapid is None or rapid * 60.0 / travel <= most:
+    most, rapid = if_set(read, MOTOR_SPEED), common["feedrate"]
+    if most == 0.0 or rapid is None or rapid * 60.0 / travel <= most:
         return
     notes.append(
         f"The rapid feedrate needs {shown(rapid * 60.0 / travel, 'rpm')} of the motor, more than Maximum Motor Speed {shown(most, 'rpm')} (7-74);"
@@ -275,8 +284,7 @@ def _analog_acceleration(
     The printed range and default of Maximum Servo Acceleration are in mm and inches (7-67, 37-3), so a rotary axis takes nothing from it.
     """
     if unit == "mm":
-        most = read.number(MAX_ACCELERATION)
-        _demand(read, MAX_ACCELERATION, most, 0.0 < most < math.inf, "must be above 0")
+        most = above_zero(read, MAX_ACCELERATION)
         return most / peak, ""
     why = (
         "Maximum Servo Acceleration is printed in mm and inches only (7-67) and not taken for a rotary axis:"
@@ -289,7 +297,7 @@ def _volts(read: AxisParameters, name: str, sign: float) -> float:
     """Return the size of a voltage at rapid (7-41, 7-43), ``sign`` that of its direction."""
     volts = read.number(name) * sign
     side = "above 0" if sign > 0.0 else "below 0"
-    _demand(read, name, volts * sign, 0.0 < volts <= VOLTS, f"must be {side} and 10 V at most")
+    demand(read, name, volts * sign, 0.0 < volts <= VOLTS, f"must be {side} and 10 V at most")
     return volts
 
 
@@ -301,22 +309,17 @@ def _peak(read: AxisParameters) -> float:
     return float(digits)
 
 
-def _demand(read: AxisParameters, name: str, value: float, good: bool, what: str) -> None:
-    if not good:
-        raise SimulationError(f"{name}@{read.axis} is {value:g}; it {what}", name)
-
-
 def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> AxisLaw:
     """Return an axis with a third-party SERCOS drive: as far as the file goes, with the gain of most machines (7-2, 7-25)."""
     own = read.optional(OWN_GAIN)
     gain = USUAL_GAIN if own is None else own
-    _demand(read, OWN_GAIN, gain, 0.0 < gain < math.inf, "must be above 0")
+    demand(read, OWN_GAIN, gain, gain > 0.0, "must be above 0")
     loop = Loop(gain, math.inf, 1.0, 0.0)
     p = [0.0] * samples.SIZE
     p[samples.GAIN], p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.rate, math.inf, 1.0
     p[samples.EXCESS] = p[samples.SUPPRESSION] = p[samples.VOLTS_LIMIT] = math.inf
     p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
-    turn = 360.0 if unit == "deg" else read.optional("servo.lead_screw_pitch") or 10.0
+    turn = 360.0 if unit == "deg" else if_set(read, "servo.lead_screw_pitch") or USUAL_PITCH
     why = f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set {OWN_GAIN}."
     assumed = {
         "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as the position loop, the upper bound of 7-54.",

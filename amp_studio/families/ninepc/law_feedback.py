@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
 
+from .law_reading import above_zero, if_set
+
 DEVICE, COUNTS, PITCH, PERIOD = (
     "servo.position_feedback_type",
     "servo.position_counts",
@@ -41,28 +43,25 @@ def feedback_of(read: AxisParameters, unit: str, *, digital: bool, notes: list[s
     if device == "none":
         raise SimulationError(f"Axis {read.axis} has no position feedback", DEVICE)
     turn = _turn(read, unit, device, digital=digital, notes=notes)
-    counts = _above_zero(read, COUNTS)
+    counts = above_zero(read, COUNTS)
     if device == "dcm":
-        count = _above_zero(read, PERIOD) / counts
+        count = above_zero(read, PERIOD) / counts
     else:
-        gear, screw = (_above_zero(read, name) for name in POSITION_TEETH)
+        gear, screw = (above_zero(read, name) for name in POSITION_TEETH)
         count = turn * gear / (counts * screw)
         notes.append("One electrical cycle of the feedback device is taken as one turn: one marker (7-33).")
     if not digital:
         return Feedback(turn, turn, count, 0.0, device in SCALES)
-    gear, screw = (_teeth(read, name) for name in VELOCITY_TEETH)
+    gear, screw = (1.0 if read.optional(name) is None else above_zero(read, name) for name in VELOCITY_TEETH)
     motor_turn = turn * gear / screw
-    velocity_counts = read.optional(VELOCITY_COUNTS)
+    velocity_counts = if_set(read, VELOCITY_COUNTS)
     motor_count = motor_turn / velocity_counts if velocity_counts else 0.0
     return Feedback(turn, motor_turn, count, motor_count, device in SCALES)
 
 
 def _turn(read: AxisParameters, unit: str, device: str, *, digital: bool, notes: list[str]) -> float:
-    own = read.optional(OWN_TRAVEL)
-    if own is not None:
-        if not own > 0.0:
-            raise SimulationError(f"{OWN_TRAVEL} is {own:g}; it must be above 0", OWN_TRAVEL)
-        return own
+    if read.optional(OWN_TRAVEL) is not None:
+        return above_zero(read, OWN_TRAVEL)
     if unit == "deg":
         notes.append(
             "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the gears of this rotary"
@@ -70,18 +69,5 @@ def _turn(read: AxisParameters, unit: str, device: str, *, digital: bool, notes:
         )
         return 360.0
     if device == "dcm" and not digital and read.optional(PITCH) is None:
-        return _above_zero(read, PERIOD)  # nothing but the counts needs the pitch there (B-2)
-    return _above_zero(read, PITCH)
-
-
-def _above_zero(read: AxisParameters, name: str) -> float:
-    value = read.number(name)
-    if not value > 0.0:
-        raise SimulationError(f"{name}@{read.axis} is {value:g}; it must be above 0", name)
-    return value
-
-
-def _teeth(read: AxisParameters, name: str) -> float:
-    """Return the teeth of the gear of the motor's device; 1 : 1 where they are not set."""
-    value = read.optional(name)
-    return 1.0 if value is None else _above_zero(read, name)
+        return above_zero(read, PERIOD)  # nothing but the counts needs the pitch there (B-2)
+    return above_zero(read, PITCH)

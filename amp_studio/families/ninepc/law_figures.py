@@ -48,7 +48,7 @@ def printed_excess_error(loop: Loop, feedrate: float) -> float:
 
 
 def sentence_excess_error(loop: Loop, feedrate: float) -> float:
-    """Return what the sentence beside that equation says: 110 % of the following error that is expected (7-20).
+    """Return the reading of the sentence beside that equation: 110 % of the following error that is expected (7-20).
 
     Below the printed equation where the gain break is in between, and with ZFE; the same without a gain break.
     """

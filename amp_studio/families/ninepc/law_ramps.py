@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import Ramp
 from amp_studio.sim.rounding import shown
+
+from .law_reading import LARGEST, SMALLEST, demand, if_set, not_negative
 
 DELAY, SCAN, SCANS = "accdec.programmed_delay", "timing.fine_foreground", "timing.scans_per_logic"
 UP, DOWN, STEP = "accdec.linear_acceleration", "accdec.linear_deceleration", "accdec.velocity_step"
@@ -23,9 +23,7 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
     0 as acceleration is no ramp, as deceleration the acceleration (10-8, 10-10, 10-11, 10-13). Raises SimulationError where a figure
     that the ramp needs is not set or impossible.
     """
-    step = _not_negative(read, STEP, 0.0)
-    up = _not_negative(read, UP)
-    down = _not_negative(read, DOWN)
+    step, up, down = if_set(read, STEP), not_negative(read, UP), not_negative(read, DOWN)
     found = {"linear": Ramp("linear", up, down or up, velocity_step=step)}
     time, scan = _exponential(read, notes)
     if time is not None:
@@ -55,12 +53,13 @@ def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, 
     if fine is None:
         return None, None
     scan = fine * (1.0 if scans is None else scans)
-    if not (math.isfinite(scan) and scan > 0.0):
-        raise SimulationError(f"{SCAN} times {SCANS} is {scan:g} ms; it must be above 0", SCAN)
+    if not SMALLEST <= scan <= LARGEST:
+        raise SimulationError(
+            f"{SCAN} times {SCANS} is {scan:g} ms; it must be above 0 and a scan time", SCAN
+        )
     if delay is None:
         return None, scan / 1000.0
-    if not delay > 0.0:
-        raise SimulationError(f"{DELAY} is {delay:g}; it must be above 0", DELAY)
+    demand(read, DELAY, delay, delay > 0.0, "must be above 0", everywhere=True)
     notes.append(
         "One coarse iteration of Programmed Delay Constant (10-17) is assumed to be Fine Foreground Scan Time"
         f" times Fine Scans per Logic Scan (33-19), {scan:g} ms."
@@ -70,9 +69,8 @@ def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, 
 
 def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, notes: list[str]) -> Ramp | None:
     """Return the S-curve: its time is ramp / jerk, between 2 and 60 scans (10-19 to 10-22); None where it is not set."""
-    up, down = read.optional(CURVE_UP), read.optional(CURVE_DOWN)
-    jerk = read.optional(JERK)
-    if up is None or jerk is None or not (up > 0.0 and jerk > 0.0):
+    up, down, jerk = if_set(read, CURVE_UP), if_set(read, CURVE_DOWN), if_set(read, JERK)
+    if up == 0.0 or jerk == 0.0:
         return None
     if scan is not None:
         low, high = jerk_bounds(up, scan)
@@ -84,12 +82,3 @@ def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, not
             )
             jerk = used
     return Ramp("s-curve", up, down or up, jerk=jerk, velocity_step=step)
-
-
-def _not_negative(read: AxisParameters, name: str, missing: float | None = None) -> float:
-    value = read.optional(name) if missing is not None else read.number(name)
-    if value is None:
-        return missing or 0.0
-    if not 0.0 <= value < math.inf:
-        raise SimulationError(f"{name}@{read.axis} is {value:g}; it must not be negative", name)
-    return value

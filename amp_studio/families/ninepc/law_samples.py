@@ -1,6 +1,6 @@
 """The 9/PC's loops as sample functions over flat arrays: position loop, velocity loop, analog output.
 
-Pages are those of the 9/PC AMP manual. Where it is silent the choice is said here and in the assumptions of every result
+Pages are those of the 9/PC AMP manual. Where it is silent the choice is documented here and in the assumptions of every result
 (`law_notes.py`). Lengths are in the unit u of the axis (mm or deg), times in s, torque in % of rated torque. The functions run as
 plain Python and as machine code: flat arrays, indices below.
 """

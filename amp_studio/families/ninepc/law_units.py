@@ -10,8 +10,8 @@ it decides:
 - Each column of Tables 7.B and 7.C is its first cell times 1 + load inertia ratio (7-55, 7-56; one cell of 36 is printed 17460
   for 17476): the gain is torque per velocity error, and the inertia is not in it. Windings of one motor share a cell, so the torque is a share
   of rated torque, not amperes. The lead of the screw is in no table: the error is an angle.
-- The bounds 3277, 10923 and 1092 times the position gain (7-54, 7-56) are 65536 / 20, / 6 and / 60, and the manual says that these constants
-  convert to inverse milliseconds, the position gain being 60 / gain in them (7-25). So 65536 stands for 1 per ms for both
+- The bounds 3277, 10923 and 1092 times the position gain (7-54, 7-56) are 65536 / 20, / 6 and / 60, which by the manual
+  convert to inverse milliseconds, the position gain being 60 / gain in them (7-25). So 65536 is 1 per ms for both
   gains: the proportional one on an axis of 1000 rad/s2 at rated torque (`NOMINAL`), the integral one where the sum grows once a millisecond.
 - On that axis the two upper bounds together are a damping of 0.65 at gain 1, the usual design of a cascade.
 - A factor of 2 more torque (value / 65536 of the 200 % limit) would put cells of Table 7.B beyond the stability of a loop
@@ -20,7 +20,7 @@ it decides:
   time in samples, and the oscillation comes where it is shorter than the lag of the loop: 3 to 5 samples in all. Half a sample of hold
   and half of difference leave 2 to 4: `DELAY` and `CURRENT_LOOP` are taken from that.
 
-What does not fit is said with the result (`law_notes.py`): the 7xx motors, whose two cells are 120 to 220 apart where all others are 14 to 25; an
+What does not fit is a note of the result (`law_notes.py`): the 7xx motors, whose two cells are 120 to 220 apart where all others are 14 to 25; an
 axis too heavy for 1500; the smooth overshoot of large systems.
 """
 

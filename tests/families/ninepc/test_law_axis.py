@@ -88,7 +88,10 @@ def test_a_needed_parameter_that_is_not_set_is_named(axis: Axis, parameter: str)
         ({"servo.position_feedback_type": "none"}, "no position feedback"),
         ({"servo.initial_gain": 0.0}, "servo.initial_gain@1 is 0; it must be above 0"),
         ({"servo.initial_gain": math.nan}, "servo.initial_gain@1 is nan; it must be above 0"),
-        ({"servo.initial_gain": math.inf}, "servo.initial_gain@1 is inf; it must be above 0"),
+        (
+            {"servo.initial_gain": math.inf},
+            "servo.initial_gain@1 is inf, which no machine has; it must be from 1e-09 to 1e+09",
+        ),
         ({"servo.initial_gain": "one"}, "servo.initial_gain of axis 1 is 'one', not a number"),
         ({"servo.gain_break_ratio": 1.5}, "servo.gain_break_ratio@1 is 1.5; it must be 1 or less"),
         ({"servo.excess_error": -1.0}, "servo.excess_error@1 is -1; it must not be negative"),
@@ -99,10 +102,19 @@ def test_a_needed_parameter_that_is_not_set_is_named(axis: Axis, parameter: str)
             "velocity_proportional_gain@1 is -5; it must not be negative",
         ),
         ({"servo.integrator_discharge": 0.0}, "servo.integrator_discharge@1 is 0; it must be 1 or more"),
-        ({"servo.max_torque_positive": math.inf}, "max_torque_positive@1 is inf; it must not be negative"),
+        ({"servo.max_torque_positive": math.inf}, "max_torque_positive@1 is inf, which no machine has"),
         ({"servo.torque_filter": 0.0}, "servo.torque_filter@1 is 0; it must be above 0"),
         ({"servo.sercos_cycle": 0.0}, "servo.sercos_cycle is 0; it must be above 0"),
         ({"accdec.linear_acceleration": -1.0}, "linear_acceleration@1 is -1; it must not be negative"),
+        (
+            {"servo.load_inertia_ratio": "r9"},
+            "servo.load_inertia_ratio of axis 1 is 'r9', not one of r0, r1, r2, r3",
+        ),
+        ({"servo.reversal_error": math.nan}, "servo.reversal_error@1 is nan; it must be a number"),
+        (
+            {"servo.velocity_screw_teeth": math.inf},
+            "servo.velocity_screw_teeth@1 is inf, which no machine has",
+        ),
         ({"servo.velocity_screw_teeth": 0.0}, "servo.velocity_screw_teeth@1 is 0; it must be above 0"),
     ],
 )
