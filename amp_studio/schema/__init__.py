@@ -10,8 +10,8 @@ from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
 from .conditions import IN_FORCE, Reference, StateInfo
 from .constraint import Limits, bounding, clip, fault, limits
-from .evaluation import Evaluation, canonical_value, same_value
-from .expression import program
+from .evaluation import Evaluation, same_value
+from .expression import canonical_value, program
 from .file_error import FileError
 from .load import DatabaseError, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
 from .machine_schema import MachineSchema, labelled

@@ -35,9 +35,22 @@ Program = Any
 compile_expression = _module.compile
 Context = _module.Context
 
-# A function that makes no sense of its arguments ends the expression, and no more is known; CEL also logs
-# it, which without a handler would come out on standard error.
-logging.getLogger("cel").addHandler(logging.NullHandler())
+_FAULTS = ("AttributeError", "NameError", "UnboundLocalError", "AssertionError", "ImportError")
+"""What a function raises that is wrong itself."""
+
+
+def _tells_of_a_fault(record: logging.LogRecord) -> bool:
+    """Return whether what CEL logs is worth a line.
+
+    It warns of every function that raises. Most only make no sense of their arguments, which ends the expression and
+    is all there is to say.
+    """
+    return record.levelno > logging.WARNING or any(
+        f" failed: {fault}" in record.getMessage() for fault in _FAULTS
+    )
+
+
+logging.getLogger("cel").addFilter(_tells_of_a_fault)
 
 LANGUAGE_FUNCTIONS = frozenset(
     {"size", "contains", "startsWith", "endsWith", "matches", "int", "uint", "double", "string", "bytes", "type",

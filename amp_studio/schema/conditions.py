@@ -6,14 +6,15 @@ it, and the plan of all checks.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Literal
 
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
-from .expression import Decision, program
+from .expression import Decision, Key, program
 from .model import BoundRef, ParameterState, Scope
 
 Asked = tuple[str, str, str | None]
@@ -53,6 +54,32 @@ class StatePlan:
     otherwise: StateInfo
 
 
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A condition asked for an instance."""
+
+    decision: Decision
+    names: tuple[str, ...]
+    references: tuple[Reference | None, ...]
+    """What the names mean; None for what exists, but not on this machine type or not for this instance."""
+    plain: tuple[Address, ...]
+    """The same, if it reads single values alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """What follows from the values that conditions read: the same for all files in which these are equal."""
+
+    holds: dict[Asked, bool] = field(default_factory=dict)
+    states: dict[StatePlan, StateInfo] = field(default_factory=dict)
+    by_address: dict[Address, StateInfo] = field(default_factory=dict)
+    """The same states, so that they are quick to look up."""
+
+
+_SITUATIONS = 100
+"""Kept before all are forgotten: some hundred kilobytes each."""
+
+
 class Conditions:
     """The conditions and states of one family on one machine type."""
 
@@ -70,7 +97,12 @@ class Conditions:
         """What ``state_plan`` has returned so far."""
         self._plans: dict[tuple[object, ...], StatePlan] = {}
         self._references: dict[Asked, Reference] = {}
-        self._reads: dict[Asked, tuple[Reference | None, ...]] = {}
+        self._questions: dict[Asked, Question] = {}
+        read = {read_address(t)[0] for c in schema.family.conditions.values() for t in c.reads.values()}
+        self.deciding = tuple(address for address in self._here.addresses if address[0] in read)
+        """Every address that a condition may read."""
+        self.decides = frozenset(self.deciding)
+        self._situations: dict[tuple[Key, ...], Situation] = {}
 
     def _reach(self, name: str) -> Reach:
         condition = self._schema.family.conditions[name]
@@ -107,6 +139,31 @@ class Conditions:
             self.plans_asking.setdefault(asked, set()).add(plan)
         return plan
 
+    # -- situations ------------------------------------------------------------
+
+    def situation(
+        self, keys: tuple[Key, ...], before: Situation | None = None, changed: Iterable[Address] = ()
+    ) -> Situation:
+        """Return the situation for the keys of the ``deciding`` values, and of the model of the control.
+
+        One that is new knows what the one ``before`` it knew, but for what reads a ``changed`` address.
+        """
+        found = self._situations.get(keys)
+        if found is None:
+            if len(self._situations) >= _SITUATIONS:
+                self._situations.clear()
+            found = self._situations[keys] = Situation() if before is None else self._after(before, changed)
+        return found
+
+    def _after(self, before: Situation, changed: Iterable[Address]) -> Situation:
+        found = Situation(dict(before.holds), dict(before.states))
+        for address in changed:
+            for asked in tuple(self.readers.get(address, ())):  # another thread may be opening another file
+                found.holds.pop(asked, None)
+                for plan in tuple(self.plans_asking.get(asked, ())):
+                    found.states.pop(plan, None)
+        return found
+
     # -- what is read ----------------------------------------------------------
 
     def state_reads(self, address: Address) -> frozenset[Address]:
@@ -117,7 +174,11 @@ class Conditions:
         names += [family.angular_when] if family.angular_when else []
         asked = [self.asked(name, address[1], self.scopes[address[0]]) for name in names]
         found = {
-            a for one in asked for reference in self.reads(one) if reference for a in reference.addresses
+            a
+            for one in asked
+            for reference in self.question(one).references
+            if reference
+            for a in reference.addresses
         }
         by_machine = parameter.layouts or any("machine" in self.decisions[name].always for name in names)
         if by_machine and family.machine_parameter:
@@ -149,17 +210,19 @@ class Conditions:
             return name, "", None
         return name, whole_of(instance) if reach == "whole" else instance, scope
 
-    def reads(self, asked: Asked) -> tuple[Reference | None, ...]:
-        """Return what a condition reads; None for what exists, but not on this machine type or not for this instance."""
-        found = self._reads.get(asked)
+    def question(self, asked: Asked) -> Question:
+        """Return what is asked, with what its names mean."""
+        found = self._questions.get(asked)
         if found is None:
             name, instance, scope = asked
-            condition = self._schema.family.conditions[name]
-            found = tuple(self._reference_or_none(t, instance, scope) for t in condition.reads.values())
-            for reference in found:
+            reads = self._schema.family.conditions[name].reads
+            references = tuple(self._reference_or_none(t, instance, scope) for t in reads.values())
+            for reference in references:
                 for address in reference.addresses if reference else ():
                     self.readers.setdefault(address, set()).add(asked)
-            self._reads[asked] = found
+            singles = [r.addresses[0] for r in references if r is not None and not r.is_list]
+            plain = tuple(singles) if len(singles) == len(references) else ()
+            found = self._questions[asked] = Question(self.decisions[name], tuple(reads), references, plain)
         return found
 
     def _reference_or_none(self, text: str, instance: str, scope: str | None) -> Reference | None:

@@ -6,17 +6,17 @@ until it is notified that an address changed; it never changes a value.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Mapping
 
 from .address import Address, UnknownParameterError
 from .addressing import meant
 from .catalog import Schema
-from .conditions import Asked, Conditions, Reference, StateInfo, StatePlan, conditions_of
-from .expression import Canonical, Circumstances, same_values
+from .conditions import Asked, Conditions, Reference, Situation, StateInfo, conditions_of
+from .expression import Canonical, Circumstances, Key, Keys, canonical_value, value_of
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
 from .quoting import quoted
-from .units import canonical, dimension
+from .units import dimension
 from .value import Value
 
 
@@ -33,9 +33,15 @@ class Evaluation:
         self.schema, self._value, self._asked_machine, self._application = schema, value, machine, application
         self._machine: str | None = None
         self._facts: Conditions | None = None
-        self._canonical: dict[Address, Canonical] = {}
-        self._holds: dict[Asked, bool] = {}
-        self._states: dict[StatePlan, StateInfo] = {}
+        self.keys = Keys(value)
+        """The key of each value in canonical units."""
+        self._situation: Situation | None = None
+        self._before: Situation | None = None
+        """The last one, until it is asked what the next one is."""
+        self._decided: set[Address] = set()
+        """What conditions read that has changed since then."""
+        self._model = ""
+        """The model of the control in the present situation."""
 
     @property
     def machine(self) -> str:
@@ -63,10 +69,7 @@ class Evaluation:
 
     def canonical(self, address: Address) -> Canonical:
         """Return a value in canonical units: double, choice key, bool or text; None when not set."""
-        found = self._canonical.get(address)
-        if found is None and address not in self._canonical:
-            found = self._canonical[address] = canonical_value(self._value(address))
-        return found
+        return value_of(self.keys[address])  # type: ignore[return-value]  # a list has no address
 
     def scope(self, address: Address) -> Scope | None:
         """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""
@@ -93,36 +96,66 @@ class Evaluation:
         return self._held(self._conditions.asked(name, instance, scope))
 
     def _held(self, asked: Asked) -> bool:
-        found = self._holds.get(asked)
+        holds = self._present().holds
+        found = holds.get(asked)
         if found is None:
-            found = self._holds[asked] = self._evaluate(asked)
+            found = holds[asked] = self._evaluate(asked)
         return found
 
     def _evaluate(self, asked: Asked) -> bool:
-        name, instance, _ = asked
-        names = tuple(self.condition(name).reads)
-        got: list[Canonical | list[Canonical]] = []
-        for reference in self._conditions.reads(asked):
-            if reference is None:
-                got.append(None)
-            elif reference.is_list:
-                got.append([self.canonical(a) for a in reference.addresses])
-            else:
-                got.append(self.canonical(reference.addresses[0]))
-        circumstances = Circumstances(self.machine, self._application(), instance)
-        return self._conditions.decisions[name].holds(same_values(got), names, got, circumstances)
+        if asked[0] not in self.schema.family.conditions:
+            self.condition(asked[0])  # raises
+        question, keys = self._conditions.question(asked), self.keys
+        given: tuple[Key, ...]
+        if question.plain:
+            given = tuple([keys[a] for a in question.plain])
+        else:
+            given = tuple([None if r is None else self._key(r) for r in question.references])
+        circumstances = Circumstances(self.machine, self._model, asked[1])
+        return question.decision.holds(given, question.names, circumstances)
+
+    def _key(self, reference: Reference) -> Key:
+        keys = self.keys
+        return (
+            tuple([keys[a] for a in reference.addresses])
+            if reference.is_list
+            else keys[reference.addresses[0]]
+        )
 
     # -- states ----------------------------------------------------------------
 
+    def _present(self) -> Situation:
+        found = self._situation
+        if found is None:
+            conditions, keys = self._conditions, self.keys
+            self._model = self._application()
+            deciding = (self._model, *[keys[a] for a in conditions.deciding])
+            found = self._situation = conditions.situation(deciding, self._before, self._decided)
+            self._before = None
+            self._decided.clear()
+        return found
+
     def state(self, address: Address) -> StateInfo:
         """Return whether a parameter is active, ignored, unusable or hidden, and why."""
-        facts = self._facts or self._conditions
-        plan = facts.plan_of.get(address) or facts.state_plan(address)
-        found = self._states.get(plan)
+        situation = self._situation or self._present()
+        return situation.by_address.get(address) or self._state(situation, address)
+
+    def _state(self, situation: Situation, address: Address) -> StateInfo:
+        plan = self._conditions.state_plan(address)
+        found = situation.states.get(plan)
         if found is None:
             decided = (info for asked, wanted, info in plan.steps if self._held(asked) == wanted)
-            found = self._states[plan] = next(decided, plan.otherwise)
+            found = situation.states[plan] = next(decided, plan.otherwise)
+        situation.by_address[address] = found
         return found
+
+    def known_states(self) -> Mapping[Address, StateInfo]:
+        """Return the states that were asked for already, until the next change."""
+        return (self._situation or self._present()).by_address
+
+    def how_state_is_found(self, address: Address) -> Hashable:
+        """Return what is equal for addresses whose states are the same whatever the values."""
+        return self._conditions.state_plan(address)
 
     def state_reads(self, address: Address) -> frozenset[Address]:
         """Return every address whose value can change the state of this one."""
@@ -178,25 +211,19 @@ class Evaluation:
 
     def changed(self, address: Address) -> None:
         """Forget what depended on one address."""
-        self._canonical.pop(address, None)
+        self.keys.pop(address, None)
         if address == (self.schema.family.machine_parameter, ""):
             self.forget()
-            return
-        conditions = self._conditions
-        for asked in tuple(conditions.readers.get(address, ())):  # another thread may be opening another file
-            self._holds.pop(asked, None)
-            for plan in tuple(conditions.plans_asking.get(asked, ())):
-                self._states.pop(plan, None)
+        elif address in self._conditions.decides:
+            self._before = self._before or self._situation
+            self._decided.add(address)
+            self._situation = None
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""
-        self._machine = self._facts = None
-        for memory in (
-            self._canonical,
-            self._holds,
-            self._states,
-        ):
-            memory.clear()
+        self._machine = self._facts = self._situation = self._before = None
+        self._decided.clear()
+        self.keys.clear()
 
 
 def same_value(a: Value | None, b: Value | None) -> bool:
@@ -204,12 +231,3 @@ def same_value(a: Value | None, b: Value | None) -> bool:
     if a is None or b is None or isinstance(a.value, (str, bool)) or isinstance(b.value, (str, bool)):
         return a == b
     return dimension(a.unit) == dimension(b.unit) and canonical_value(a) == canonical_value(b)
-
-
-def canonical_value(value: Value | None) -> Canonical:
-    """Return a value as rules see it: numbers as doubles in canonical units."""
-    if value is None:
-        return None
-    if isinstance(value.value, (str, bool)):
-        return value.value
-    return canonical(float(value.value), value.unit)

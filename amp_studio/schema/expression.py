@@ -6,12 +6,14 @@ What an expression came to for equal values is remembered: most machines have mo
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
+from operator import attrgetter
 from typing import Any
 
-from .address import part_of
+from .address import Address, part_of
 from .cel_engine import Context, Program, compile_expression, functions_called
+from .units import canonical
+from .value import Value
 
 Canonical = float | str | bool | None
 """A value as expressions see it: a double in canonical units, the key of a choice, a bool, a text; None is not set."""
@@ -22,74 +24,139 @@ ALWAYS_THERE = ("machine", "application", "instance", "part")
 EVALUATION_ERRORS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
 """What CEL raises for a value of a kind that an expression does not speak of."""
 
+Key = float | str | object | None
+"""By what results are looked up: the key of a value, or a tuple of keys for a list.
+
+It is the value itself but for true and false: Python takes 1 and True for equal, and CEL does not.
+"""
+_TRUE, _FALSE = object(), object()
+
+NO_RESULT = object()
+"""What an expression comes to that makes no sense of its values."""
+
 _REMEMBERED = 20_000
-"""Verdicts kept before all are forgotten: some megabytes."""
+"""Results kept before all are forgotten: some megabytes."""
 
 
-class Verdicts(dict[Hashable, bool | None]):
-    """What an expression came to for values it has met; None where it made no sense of them."""
+def key_of(value: Value | None) -> Key:
+    """Return the key of a value."""
+    try:
+        return value._key  # type: ignore[union-attr, no-any-return]
+    except AttributeError:
+        found = canonical_value(value)
+        key = (_TRUE if found else _FALSE) if found.__class__ is bool else found
+        if value is not None:
+            object.__setattr__(value, "_key", key)
+        return key
 
-    def __setitem__(self, key: Hashable, verdict: bool | None) -> None:
+
+def value_of(key: Key) -> Canonical | list[Canonical]:
+    """Return the value that has a key."""
+    if key.__class__ is tuple:
+        return [value_of(one) for one in key]  # type: ignore[misc]
+    return key is _TRUE if key is _TRUE or key is _FALSE else key  # type: ignore[return-value]
+
+
+class Keys(dict[Address, Key]):
+    """The keys of a file's values, each worked out when it is first asked for."""
+
+    def __init__(self, value: Callable[[Address], Value | None]) -> None:
+        self._value = value
+
+    def __missing__(self, address: Address) -> Key:
+        value = self._value(address)
+        try:
+            found: Key = value._key  # type: ignore[union-attr]  # most are known: this is done for every value of a file
+        except AttributeError:
+            found = key_of(value)
+        self[address] = found
+        return found
+
+
+def canonical_value(value: Value | None) -> Canonical:
+    """Return a value as rules see it: numbers as doubles in canonical units."""
+    if value is None:
+        return None
+    found = value.value
+    kind = found.__class__
+    return found if kind is str or kind is bool else canonical(float(found), value.unit)
+
+
+class Remembered(dict[Hashable, Any]):
+    """What an expression came to for values it has met."""
+
+    def __setitem__(self, key: Hashable, result: Any) -> None:
         if len(self) >= _REMEMBERED:
             self.clear()
-        super().__setitem__(key, verdict)
+        super().__setitem__(key, result)
 
 
-@dataclass(frozen=True, slots=True)
 class Circumstances:
-    """What every expression may name without reading it."""
+    """What every expression may name without reading it: ``ALWAYS_THERE``."""
 
-    machine: str
-    application: str
-    instance: str
+    __slots__ = ALWAYS_THERE
 
-    def value(self, name: str) -> Canonical:
-        """Return one of the names that are always there."""
-        if name == "part":
-            return part_of(self.instance)
-        return str(getattr(self, name))
+    def __init__(self, machine: str, application: str, instance: str) -> None:
+        self.machine, self.application, self.instance = machine, application, instance
+        self.part = part_of(instance)
 
 
-class Decision:
-    """A compiled expression that is true or not, which may call some ``functions``."""
+class Expression:
+    """A compiled expression, which may call some ``functions``."""
 
     def __init__(self, compiled: Program, functions: Mapping[str, Callable[..., Any]]) -> None:
         self.program = compiled
         self.functions = {name: functions[name] for name in sorted(functions_called(compiled))}
         named = set(compiled.variables())
         self.always = tuple(name for name in ALWAYS_THERE if name in named)
-        """Which of the names that need not be read decide it."""
-        self._verdicts = Verdicts()
+        """Which of the names that need not be read it depends on."""
+        self._always = attrgetter(*self.always) if self.always else None
+        self.remembered = Remembered()
+        """Keys of the values, with what is ``always`` there behind them -> what it came to."""
+
+    def result(
+        self, keys: tuple[Key, ...], circumstances: Circumstances, context: Callable[[], Context]
+    ) -> Any:
+        """Return what it comes to for values, given by their keys, in a ``context`` that is made when it is needed.
+
+        ``NO_RESULT`` if it makes no sense of them: neither CEL nor the functions make any of a value that is not set.
+        """
+        asked: Hashable = keys
+        if self._always is not None:
+            asked = keys, self._always(circumstances)
+        found = self.remembered.get(asked)
+        if found is None:
+            try:
+                found = self.program.execute(context())
+            except EVALUATION_ERRORS:
+                found = NO_RESULT
+            if found.__class__ not in (str, list, dict):  # which may be of any size
+                self.remembered[asked] = found
+        return found
+
+
+class Decision(Expression):
+    """An expression that is true or not."""
 
     @property
     def asks_instance(self) -> bool:
         """Whether it asks which instance, or which part, it is worked out for."""
         return "instance" in self.always or "part" in self.always
 
-    def holds(
-        self, key: Hashable, names: Sequence[str], values: Sequence[Any], circumstances: Circumstances
-    ) -> bool:
-        """Return whether it is true of values; ``key`` identifies them, and is the same for equal ones alone.
-
-        It is not where it makes no sense of them: neither CEL nor the functions make any of a value that is not set.
-        """
-        return self.verdict(key, names, values, circumstances) is True
+    def holds(self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances) -> bool:
+        """Return whether it is true of the values of its names; it is not where it makes no sense of them."""
+        return self.verdict(keys, names, circumstances) is True
 
     def verdict(
-        self, key: Hashable, names: Sequence[str], values: Sequence[Any], circumstances: Circumstances
+        self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances
     ) -> bool | None:
         """Return the same, and None where it makes no sense of the values."""
-        if self.always:
-            key = key, *[circumstances.value(name) for name in self.always]
-        if key in self._verdicts:
-            return self._verdicts[key]
-        context = context_of(self.functions, self.always, names, values, circumstances)
-        try:
-            found = self.program.execute(context) is True
-        except EVALUATION_ERRORS:
-            found = None
-        self._verdicts[key] = found
-        return found
+
+        def context() -> Context:
+            return context_of(self.functions, self.always, names, map(value_of, keys), circumstances)
+
+        found = self.result(keys, circumstances, context)
+        return None if found is NO_RESULT else found is True
 
 
 def context_of(
@@ -100,7 +167,7 @@ def context_of(
     circumstances: Circumstances,
 ) -> Context:
     """Return what an expression sees."""
-    seen: dict[str, Any] = {name: circumstances.value(name) for name in always}
+    seen: dict[str, Any] = {name: getattr(circumstances, name) for name in always}
     seen.update(zip(names, values, strict=True))
     context = Context(seen)
     for name, function in functions.items():
@@ -112,11 +179,3 @@ def context_of(
 def program(expression: str) -> Program:
     """Return a compiled CEL expression; raises ValueError for a syntax error."""
     return compile_expression(expression)
-
-
-def same_values(values: Sequence[Canonical | list[Canonical]]) -> Hashable:
-    """Return what is equal only for values that CEL cannot distinguish: Python takes 1 and True for equal."""
-    kinds = tuple(map(type, values))
-    if list not in kinds:
-        return kinds, tuple(values)
-    return kinds, tuple([same_values(v) if isinstance(v, list) else v for v in values])

@@ -13,62 +13,64 @@ from functools import cache, lru_cache
 
 from .quoting import quoted
 
+_ONE = Fraction(1)
+
 # unit -> (dimension, factor to the canonical unit of the dimension)
 UNITS: dict[str, tuple[str, Fraction]] = {
-    "": ("", Fraction(1)),
-    "mm": ("length", Fraction(1)),
+    "": ("", _ONE),
+    "mm": ("length", _ONE),
     "in": ("length", Fraction(254, 10)),
     "um": ("length", Fraction(1, 1000)),
-    "deg": ("angle", Fraction(1)),
-    "mm/min": ("velocity", Fraction(1)),
+    "deg": ("angle", _ONE),
+    "mm/min": ("velocity", _ONE),
     "in/min": ("velocity", Fraction(254, 10)),
     "mm/s": ("velocity", Fraction(60)),
     "in/s": ("velocity", Fraction(1524)),
-    "deg/min": ("angular velocity", Fraction(1)),
+    "deg/min": ("angular velocity", _ONE),
     "deg/s": ("angular velocity", Fraction(60)),
-    "mm/s2": ("acceleration", Fraction(1)),
+    "mm/s2": ("acceleration", _ONE),
     "in/s2": ("acceleration", Fraction(254, 10)),
     "mm/min/s": ("acceleration", Fraction(1, 60)),
     "in/min/s": ("acceleration", Fraction(254, 600)),
-    "deg/s2": ("angular acceleration", Fraction(1)),
+    "deg/s2": ("angular acceleration", _ONE),
     "deg/min/s": ("angular acceleration", Fraction(1, 60)),
-    "mm/s3": ("jerk", Fraction(1)),
+    "mm/s3": ("jerk", _ONE),
     "in/s3": ("jerk", Fraction(254, 10)),
-    "deg/s3": ("angular jerk", Fraction(1)),
-    "ms": ("time", Fraction(1)),
+    "deg/s3": ("angular jerk", _ONE),
+    "ms": ("time", _ONE),
     "s": ("time", Fraction(1000)),
     "us": ("time", Fraction(1, 1000)),
     "ms/100": ("time", Fraction(1, 100)),
-    "%": ("percent", Fraction(1)),
-    "V": ("voltage", Fraction(1)),
+    "%": ("percent", _ONE),
+    "V": ("voltage", _ONE),
     "mV": ("voltage", Fraction(1, 1000)),
-    "A": ("current", Fraction(1)),
-    "Hz": ("frequency", Fraction(1)),
-    "rpm": ("rotation", Fraction(1)),
-    "rev/s2": ("rotary acceleration", Fraction(1)),
-    "rpm/rev": ("rotation per turn", Fraction(1)),
-    "kbytes": ("memory", Fraction(1)),
-    "counts": ("counts", Fraction(1)),
-    "counts/s": ("count rate", Fraction(1)),
-    "counts/s2": ("count acceleration", Fraction(1)),
-    "counts/mm": ("resolution", Fraction(1)),
+    "A": ("current", _ONE),
+    "Hz": ("frequency", _ONE),
+    "rpm": ("rotation", _ONE),
+    "rev/s2": ("rotary acceleration", _ONE),
+    "rpm/rev": ("rotation per turn", _ONE),
+    "kbytes": ("memory", _ONE),
+    "counts": ("counts", _ONE),
+    "counts/s": ("count rate", _ONE),
+    "counts/s2": ("count acceleration", _ONE),
+    "counts/mm": ("resolution", _ONE),
     "counts/in": ("resolution", Fraction(10, 254)),
-    "W": ("power", Fraction(1)),
+    "W": ("power", _ONE),
     # An arc is no angle here: a degree is no exact number of radians.
-    "rad": ("arc", Fraction(1)),
+    "rad": ("arc", _ONE),
     # The gains of a loop from counts of following error to volts: proportional, integral, and with the rate of change
     # of the error or the speed, and with the acceleration, in counts.
-    "V/count": ("gain", Fraction(1)),
-    "V/count/s": ("integral gain", Fraction(1)),
-    "Vs/count": ("derivative gain", Fraction(1)),
-    "Vs2/count": ("acceleration gain", Fraction(1)),
-    "V/rpm": ("voltage per speed", Fraction(1)),
+    "V/count": ("gain", _ONE),
+    "V/count/s": ("integral gain", _ONE),
+    "Vs/count": ("derivative gain", _ONE),
+    "Vs2/count": ("acceleration gain", _ONE),
+    "V/rpm": ("voltage per speed", _ONE),
     # What the control counts a dimension in; another parameter sets how long one is (NUM P4).
-    "iu": ("internal units", Fraction(1)),
-    "um/sample": ("travel per sample", Fraction(1)),
-    "BLU": ("basic length unit", Fraction(1)),
-    "LIU": ("least input unit", Fraction(1)),
-    "pulse/rev": ("pulses per turn", Fraction(1)),
+    "iu": ("internal units", _ONE),
+    "um/sample": ("travel per sample", _ONE),
+    "BLU": ("basic length unit", _ONE),
+    "LIU": ("least input unit", _ONE),
+    "pulse/rev": ("pulses per turn", _ONE),
 }
 
 # How people write them.
@@ -110,7 +112,7 @@ def define_unit(unit: str, measures: str, factor: Fraction) -> None:
 
     Raises UnitError for one that is known already with another meaning, and for a dimension without a canonical unit.
     """
-    meaning = (measures, factor)
+    meaning = (measures, _ONE if factor == 1 else factor)
     known = UNITS.get(unit)
     if known is None and ALIASES.get(unit, ALIASES.get(unit.lower())) is not None:
         raise UnitError(f"{quoted(unit)} is how people write {ALIASES.get(unit, ALIASES.get(unit.lower()))}")
@@ -120,7 +122,7 @@ def define_unit(unit: str, measures: str, factor: Fraction) -> None:
         )
     if factor <= 0:
         raise UnitError(f"the factor of {quoted(unit)} is {factor}: it must be above 0")
-    if factor != 1 and (measures, Fraction(1)) not in UNITS.values():
+    if factor != 1 and (measures, _ONE) not in UNITS.values():
         raise UnitError(f"no unit of {measures} has the factor 1, which {quoted(unit)} could be converted to")
     UNITS[unit] = meaning
 
@@ -146,8 +148,7 @@ def dimension(unit: str) -> str:
 
 def canonical(value: float, unit: str) -> float:
     """Return ``value`` in the canonical unit of its dimension, exact before one rounding: 0.3 in is 7.62 mm."""
-    factor = UNITS[unit][1]
-    return float(value) if factor == 1 else _converted(value, unit, None)
+    return float(value) if UNITS[unit][1] is _ONE else _converted(value, unit, None)
 
 
 def convert(value: float, unit: str, to: str) -> float:

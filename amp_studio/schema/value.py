@@ -8,8 +8,14 @@ LONGEST_NUMBER = 400
 """Signs of a number with its unit: the longest double written out has some 330."""
 
 
+class _Keyed:
+    """Remembers the key of a value (``expression.key_of``), which may be in many files."""
+
+    __slots__ = ("_key",)
+
+
 @dataclass(frozen=True, slots=True)
-class Value:
+class Value(_Keyed):
     """One value in the unit it was entered in.
 
     ``value`` is a float or int, the key of a choice, a bool for a yes/no

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Protocol
 
 from amp_studio.schema import Address
 from amp_studio.schema.cel_engine import Context, Program
@@ -11,41 +11,56 @@ from amp_studio.schema.expression import EVALUATION_ERRORS
 
 from .plan import RuleCheck
 
-_Named = tuple[tuple[str, Program], ...]
+_Named = tuple[tuple[str, Program | None], ...]
 
 
-def about(
-    check: RuleCheck, context: Context, values: list[Any]
-) -> tuple[tuple[Address, ...], tuple[Address, ...]]:
+class Given(Protocol):
+    """What the expressions of a check see."""
+
+    @property
+    def values(self) -> list[Any]:
+        """The values of its names."""
+
+    @property
+    def context(self) -> Context:
+        """What the engine is given."""
+
+
+def about(check: RuleCheck, given: Given) -> tuple[tuple[Address, ...], tuple[Address, ...]]:
     """Return what is wrong, in the order of ``blames``, and what that was compared with, in that of ``compares``.
 
     Where no value answers to a condition of ``blames``, all that it names are wrong.
     """
+    if check.always_about is not None:
+        return check.always_about
     entries = check.expressions.finding
-    given = dict(zip(check.names, values, strict=True))
-    causes = dict.fromkeys(_met(check, entries.blames, context, given))
+    causes = dict.fromkeys(_met(check, entries.blames, given))
     if not causes:
         causes = dict.fromkeys(a for name, _ in entries.blames for a, _ in _values(check, name, given))
-    compared = dict.fromkeys(_met(check, entries.compares, context, given))
-    return tuple(causes), tuple(a for a in compared if a not in causes)
+    compared = dict.fromkeys(_met(check, entries.compares, given))
+    return tuple(causes), tuple([a for a in compared if a not in causes])
 
 
-def _met(check: RuleCheck, named: _Named, context: Context, given: dict[str, Any]) -> Iterator[Address]:
+def _met(check: RuleCheck, named: _Named, given: Given) -> Iterator[Address]:
     """Yield the addresses whose values answer to the conditions of their names."""
     for name, condition in named:
+        if condition is None:
+            yield check.address_of(name)
+            continue
         for at, (address, value) in enumerate(_values(check, name, given)):
-            context.update({"it": value, "at": at})
+            given.context.update({"it": value, "at": at})
             try:
-                if condition.execute(context) is True:
+                if condition.execute(given.context) is True:
                     yield address
             except EVALUATION_ERRORS:
                 continue  # a value that is not set, or of a kind that the condition does not speak of
 
 
-def _values(check: RuleCheck, name: str, given: dict[str, Any]) -> Iterator[tuple[Address, Any]]:
+def _values(check: RuleCheck, name: str, given: Given) -> Iterator[tuple[Address, Any]]:
     """Yield what a name means with its value; of a list all that are there, the others with null."""
+    value = given.values[check.names.index(name)]
     for listed_name, listed in check.lists:
         if listed_name == name:
-            yield from zip(listed.addresses, given[name], strict=True)
+            yield from zip(listed.addresses, value, strict=True)
             return
-    yield check.address_of(name), given[name]
+    yield check.address_of(name), value

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
 from amp_studio.schema.cel_engine import Context
 
 from .finding import Finding
-from .plan import RuleCheck
+from .plan import Plan, RuleCheck
 from .ranges import ValueChecks
 from .rules import RuleChecks
+
+Place = Address | int
+"""Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
+
+_NOT_LOOKED_AT = ("hidden", "ignored")
+"""States in which a value has no effect."""
 
 
 class Checks:
@@ -31,7 +37,26 @@ class Checks:
 
     def look_again(self) -> None:
         """Forget the values, which may have changed; called before the checks of a round."""
+        self._values.look_again()
         self._rules.look_again()
+
+    def of_all(self, plan: Plan) -> Iterator[tuple[Place, Finding]]:
+        """Yield all that is wrong, and where it is filed: what a full run finds."""
+        file = self._file
+        for alike in plan.alike:
+            state = file.evaluation.state(alike[0]).state
+            self._rules.look_at(alike, state == "in-force")
+            for address in alike:
+                value = file.values.get(address)
+                if value is None or (state in _NOT_LOOKED_AT and address not in file.forced):
+                    continue
+                finding = self._values.finding(address, value)
+                if finding is not None:
+                    yield address, finding
+        for first, checks in plan.by_first_read.items():
+            if first is None or self._rules.is_active(first):
+                for check, finding in self._rules.findings(checks):
+                    yield check.place, finding
 
     def of_value(self, address: Address) -> Finding | None:
         """Return what is wrong with a value by itself; one without effect is checked only if it was forced."""
@@ -39,9 +64,13 @@ class Checks:
         if value is None:
             return None
         state = self._file.evaluation.state(address).state
-        if state in ("hidden", "ignored") and address not in self._file.forced:
+        if state in _NOT_LOOKED_AT and address not in self._file.forced:
             return None
         return self._values.finding(address, value)
+
+    def of_rules(self, checks: Iterable[RuleCheck]) -> Iterator[tuple[RuleCheck, Finding]]:
+        """Yield the checks of rules that are broken, and what is wrong."""
+        return self._rules.findings(checks)
 
     def of_rule(self, check: RuleCheck) -> Finding | None:
         """Return what is wrong if a rule is broken."""

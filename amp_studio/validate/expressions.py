@@ -15,7 +15,7 @@ from typing import Any
 
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
-from amp_studio.schema.expression import ALWAYS_THERE, Decision
+from amp_studio.schema.expression import ALWAYS_THERE, Decision, Expression
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.units import UNITS
 
@@ -51,17 +51,19 @@ class RuleError(ValueError):
 class FindingExpressions:
     """The message and the fixes of a broken rule, worked out of the values it reads."""
 
-    values: tuple[tuple[str, Program], ...]
-    fixes: tuple[tuple[str, Program], ...]
+    values: tuple[tuple[str, Expression], ...]
+    fixes: tuple[tuple[str, Expression], ...]
     """Name of the value to set, and the value."""
-    effective: tuple[tuple[str, Program], ...]
+    effective: tuple[tuple[str, Expression], ...]
     """Name of the value, and what the control uses instead."""
-    blames: tuple[tuple[str, Program], ...]
-    """Name of what is at fault, and whether it is."""
-    compares: tuple[tuple[str, Program], ...]
+    blames: tuple[tuple[str, Program | None], ...]
+    """Name of what is at fault, and whether it is; None where it always is."""
+    compares: tuple[tuple[str, Program | None], ...]
     """Name of what that is compared with, and whether it is."""
     functions: tuple[str, ...]
     """Functions offered to rules that the rule calls anywhere."""
+    shown: frozenset[str]
+    """Names in the message."""
 
 
 class Expressions:
@@ -119,7 +121,8 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
         for name in sorted(named - set(functions)):
             raise RuleError(rule.id, f"{place} calls {quoted(name)}, which is no function")
         called |= named & set(functions)
-    spoken_of |= _check_names(rule)
+    shown = _check_names(rule)
+    spoken_of |= shown
     replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
     blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
     others = [
@@ -134,13 +137,18 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
             name: "true" for name in others if name in asked_of
         },  # what decides whether the rule applies: last
     }
+
+    def expression(text: str) -> Expression:
+        return Expression(program(text), functions)
+
     return FindingExpressions(
-        tuple((name, program(text)) for name, text in rule.values.items()),
-        tuple((fix.set, program(fix.value)) for fix in rule.fix),
-        tuple((used.set, program(used.value)) for used in rule.effective),
+        tuple((name, expression(text)) for name, text in rule.values.items()),
+        tuple((fix.set, expression(fix.value)) for fix in rule.fix),
+        tuple((used.set, expression(used.value)) for used in rule.effective),
         tuple(_at_hand(rule, blames)),
         tuple(_at_hand(rule, compares)),
         tuple(sorted(called)),
+        frozenset(shown),
     )
 
 
@@ -166,10 +174,13 @@ def _compiled(rule: Rule, place: str, text: str) -> Program:
         raise RuleError(rule.id, f"{place}: {str(error).splitlines()[0]}") from None
 
 
-def _at_hand(rule: Rule, conditions: dict[str, str]) -> Iterator[tuple[str, Program]]:
+def _at_hand(rule: Rule, conditions: dict[str, str]) -> Iterator[tuple[str, Program | None]]:
     """Yield names and conditions; of a list that is named without one, the values that are there."""
     for name, text in conditions.items():
-        yield name, program("it != null" if text == "true" and _is_list(rule.reads[name]) else text)
+        if text == "true":
+            yield name, program("it != null") if _is_list(rule.reads[name]) else None
+        else:
+            yield name, program(text)
 
 
 def _is_list(read: str) -> bool:

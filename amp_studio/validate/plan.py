@@ -13,6 +13,7 @@ from itertools import count
 
 from amp_studio.schema import (
     Address,
+    BuilderRule,
     Evaluation,
     Reference,
     Rule,
@@ -61,20 +62,48 @@ class RuleCheck:
     lists: tuple[tuple[str, Listed], ...]
     names: tuple[str, ...]
     """Of the single values, then of the lists."""
-    plain: tuple[Address, ...]
-    """What it reads, if that is single values active and nothing else; empty for other rules."""
+    is_own: bool
+    """Of a builder's rule."""
 
-    @property
+    @cached_property
+    def is_lenient(self) -> bool:
+        """Whether some of the single values need not be there, or active."""
+        return any(single.optional or single.any_state for single in self.singles)
+
+    @cached_property
+    def always_about(self) -> tuple[tuple[Address, ...], tuple[Address, ...]] | None:
+        """What is wrong, and what that was compared with, if it is the same whatever the values."""
+        entries = self.expressions.finding
+        if not entries.blames or any(
+            condition is not None for _, condition in (*entries.blames, *entries.compares)
+        ):
+            return None
+        causes, compared = (
+            dict.fromkeys(self.address_of(name) for name, _ in named)
+            for named in (entries.blames, entries.compares)
+        )
+        return tuple(causes), tuple(address for address in compared if address not in causes)
+
+    @cached_property
+    def reads(self) -> tuple[Address, ...]:
+        """The addresses of the single values."""
+        return tuple(single.address for single in self.singles)
+
+    @cached_property
     def addresses(self) -> tuple[Address, ...]:
         """Every address the rule reads here, single values first."""
         return (
-            *(s.address for s in self.singles),
+            *self.reads,
             *(a for _, listed in self.lists for a in listed.addresses),
         )
 
     def address_of(self, name: str) -> Address:
         """Return what a name of a single value means."""
-        return next(s.address for s in self.singles if s.name == name)
+        return self._by_name[name]
+
+    @cached_property
+    def _by_name(self) -> dict[str, Address]:
+        return {single.name: single.address for single in self.singles}
 
 
 @dataclass(frozen=True)
@@ -87,6 +116,24 @@ class Plan:
     checks: tuple[RuleCheck, ...]
     evaluation: Evaluation = field(repr=False)
     """Of a file without values."""
+
+    @cached_property
+    def alike(self) -> tuple[tuple[Address, ...], ...]:
+        """The addresses, those together whose state is always the same."""
+        found: dict[object, list[Address]] = {}
+        for address in self.addresses:
+            found.setdefault(self.evaluation.how_state_is_found(address), []).append(address)
+        return tuple(map(tuple, found.values()))
+
+    @cached_property
+    def by_first_read(self) -> Mapping[Address | None, tuple[RuleCheck, ...]]:
+        """Address -> checks that come to nothing where its value is not active; None -> the others."""
+        found: dict[Address | None, list[RuleCheck]] = {}
+        for check in self.checks:
+            found.setdefault(None if check.is_lenient or not check.reads else check.reads[0], []).append(
+                check
+            )
+        return {first: tuple(checks) for first, checks in found.items()}
 
     # What an edit needs is worked out with the first one: most files of a check are only opened.
 
@@ -162,9 +209,8 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
                 if reference.is_list
             )
             names = (*(single.name for single in singles), *(name for name, _ in lists))
-            others = lists or rule.optional or rule.any_state
-            plain = () if others else tuple(single.address for single in singles)
-            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists, names, plain))
+            is_own = isinstance(rule, BuilderRule)
+            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists, names, is_own))
     return tuple(checks)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Hashable
 from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from functools import lru_cache
@@ -24,7 +25,7 @@ from amp_studio.schema import (
     show_value,
     shown,
 )
-from amp_studio.schema.expression import Verdicts
+from amp_studio.schema.expression import Remembered
 from amp_studio.schema.model import BoundRef
 
 from .finding import Finding, Setting
@@ -47,8 +48,10 @@ class _Facts:
     """The same on an axis that turns; None where that makes no difference."""
     own_range: bool
     """Its range is the same for every instance and in every evaluation."""
-    fine: Verdicts = field(default_factory=Verdicts, repr=False)
-    """Values with nothing wrong in them, in whatever file; only where the range is its own."""
+    fine: Remembered = field(default_factory=Remembered, repr=False)
+    """Values with nothing wrong in them, in whatever file, with what their range depends on."""
+    bounded_by: dict[str, tuple[Address, ...]] = field(default_factory=dict, repr=False)
+    """Instance -> the parameters that set a bound there."""
 
 
 @lru_cache(maxsize=32)
@@ -83,12 +86,19 @@ class ValueChecks:
         self._angular = file.schema.family.angular_when
         self._spans: dict[tuple[str, str], tuple[float, float]] = {}
         """Bounds that depend on nothing, by parameter and unit."""
+        self._turning: dict[str, bool] = {}
+
+    def look_again(self) -> None:
+        """Forget what depends on values, which may have changed; called before the checks of a round."""
+        self._turning.clear()
 
     def finding(self, address: Address, value: Value) -> Finding | None:
         """Return what is wrong with a value, if anything is."""
         facts = self._facts[address[0]]
         turns = facts.turning is not None and self._turns(address)
-        key = (value.value.__class__, value.value, value.unit, turns)
+        key: Hashable = (value.value.__class__, value.value, value.unit, turns)
+        if not facts.own_range:
+            key = key, self._bounds_of(facts, address)
         if key in facts.fine:
             return None
         said = _wrong_kind(facts, value)
@@ -104,11 +114,11 @@ class ValueChecks:
                 address, value, said, Value(value.value, unit)
             )  # the control knows the figure only
         if self._within(facts, address, value):
-            if facts.own_range:
-                facts.fine[key] = True
+            facts.fine[key] = True
             return None
         said = fault(self._file.evaluation, address, value)
         if said is None:
+            facts.fine[key] = True
             return None
         # Of a code that nobody has printed the control alone knows what it does: no choice is the nearest to it.
         return self._finding(address, value, said, None if facts.keys else self._nearest(address, value))
@@ -139,7 +149,26 @@ class ValueChecks:
         return nearest if other is not None or _is_near(value, nearest) else None
 
     def _turns(self, address: Address) -> bool:
-        return self._angular is not None and self._file.evaluation.holds(self._angular, address[1], "axis")
+        found = self._turning.get(address[1])
+        if found is None:
+            found = self._angular is not None and self._file.evaluation.holds(
+                self._angular, address[1], "axis"
+            )
+            self._turning[address[1]] = found
+        return found
+
+    def _bounds_of(self, facts: _Facts, address: Address) -> Hashable:
+        """Return what is equal only where a range that depends on other values is the same."""
+        evaluation = self._file.evaluation
+        sources = facts.bounded_by.get(address[1])
+        if sources is None:
+            sources = facts.bounded_by[address[1]] = evaluation.bound_sources(address)
+        variants = [
+            evaluation.holds(variant.when, address[1], evaluation.scope(address))
+            for variant in facts.parameter.range_variants
+        ]
+        hidden = [evaluation.state(source).state == "hidden" for source in sources]
+        return *variants, *hidden, *[evaluation.keys[source] for source in sources]
 
     def _within(self, facts: _Facts, address: Address, value: Value) -> bool:
         """Return quickly whether a value lies in a range that depends on nothing; False means that it has to be asked."""

@@ -3,32 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from operator import is_
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     MASKED,
     Address,
-    BuilderRule,
+    Evaluation,
     Value,
     canonical_unit,
-    canonical_value,
     convert,
     show_value,
     shown,
     write_number,
 )
-from amp_studio.schema.cel_engine import Context, Program
+from amp_studio.schema.cel_engine import Context
+from amp_studio.schema.conditions import IN_FORCE
 from amp_studio.schema.expression import (
     ALWAYS_THERE,
-    EVALUATION_ERRORS,
-    Canonical,
+    NO_RESULT,
     Circumstances,
+    Expression,
+    Key,
     context_of,
-    same_values,
+    key_of,
+    value_of,
 )
 from amp_studio.schema.units import angular
 
@@ -42,73 +43,104 @@ _SHOWN = 4
 """Values that a message about a rule shows."""
 
 
-@dataclass(frozen=True, slots=True)
 class _Given:
-    """What the expressions of a check see: the context, and the values in it."""
+    """What the expressions of a check see: the values with their keys, and the context of the engine."""
 
-    context: Context
-    values: list[Any]
+    def __init__(self, keys: tuple[Key, ...], make_context: Callable[[list[Any]], Context]) -> None:
+        self.keys, self._make_context = keys, make_context
+
+    @cached_property
+    def values(self) -> list[Any]:
+        """The values."""
+        return list(map(value_of, self.keys))
+
+    @cached_property
+    def context(self) -> Context:
+        """What the engine is given; made only for what is not remembered."""
+        return self._make_context(self.values)
+
+
+class _Active(dict[Address, Key]):
+    """The keys of the values that are active, and None for the others; each looked up when it is first asked for."""
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        self._evaluation, self._keys, self._states = evaluation, evaluation.keys, evaluation.known_states()
+
+    def clear(self) -> None:
+        super().clear()
+        self._states = self._evaluation.known_states()
+
+    def __missing__(self, address: Address) -> Key:
+        key = self._keys[address]
+        if key is not None:
+            state = self._states.get(address) or self._evaluation.state(address)
+            if state is not IN_FORCE:
+                key = None
+        self[address] = key
+        return key
 
 
 class RuleChecks:
     """The rules of one plan over the values of one file."""
 
-    def __init__(self, file: ParameterFile, machine: str, places: Mapping[str, str]) -> None:
-        self._file, self._machine, self._places = file, machine, places
+    def __init__(self, file: ParameterFile, machine: str, places: Mapping[str, str] | None = None) -> None:
+        self._file, self._machine, self._places = file, machine, places or {}
         self._functions = rule_functions(file.schema.family.family)
-        self._given: dict[int, tuple[list[Any], bool | None]] = {}
-        """Place of a check -> the values it was given, and whether it was broken by them."""
         self._by_instance: dict[str, Circumstances] = {}
-        self._seen: dict[Address, Canonical] = {}
-        self._lists: dict[Listed, list[Canonical]] = {}
-        self._lists_before: dict[Listed, list[Canonical]] = {}
-        self._list_keys: dict[Listed, Hashable] = {}
-        """What is in the place of the lists in a key."""
+        self._seen = _Active(file.evaluation)
+        self._lists: dict[Listed, tuple[Key, ...]] = {}
 
     def look_again(self) -> None:
         """Forget the values, which may have changed; called before the checks of a round."""
         self._seen.clear()
-        self._lists_before.update(self._lists)
         self._lists.clear()
-        self._list_keys.clear()
+
+    def look_at(self, alike: Sequence[Address], is_active: bool) -> None:
+        """Look at all values of one state, which is quicker than one by one."""
+        keys = self._file.evaluation.keys
+        self._seen.update([(a, keys[a]) for a in alike] if is_active else dict.fromkeys(alike))
+
+    def is_active(self, address: Address) -> bool:
+        """Return whether a value is there and counts."""
+        return self._seen[address] is not None
+
+    def findings(self, checks: Iterable[RuleCheck]) -> Iterator[tuple[RuleCheck, Finding]]:
+        """Yield the checks of rules that are broken, and what is wrong."""
+        for check in checks:
+            keys = self._keys(check)
+            if keys is None:
+                continue
+            decision = check.expressions.broken
+            broken = None if decision.always else decision.remembered.get(keys)
+            if broken.__class__ is not bool:
+                broken = self._broken_by(check, keys)
+            if broken is None:
+                yield check, self._unusable(check)
+            elif broken:
+                yield check, self._finding(check, keys)
 
     def finding(self, check: RuleCheck) -> Finding | None:
         """Return what is wrong if the rule is broken; None too where what it needs is not set or inactive."""
-        values = self._values(check)
-        if values is None:
-            return None
-        given = self._given.get(check.place)
-        if given is not None and all(map(is_, values, given[0])):
-            broken = given[1]
-        else:
-            broken = self._broken_by(check, values)
-            self._given[check.place] = (values, broken)
-        if broken is None:
-            return self._unusable(check)
-        return self._finding(check, values) if broken else None
+        return next((finding for _, finding in self.findings((check,))), None)
 
     def is_broken(self, check: RuleCheck) -> bool:
         """Return whether there is a ``finding``, without its words."""
-        values = self._values(check)
-        return values is not None and self._broken_by(check, values) is not False
+        keys = self._keys(check)
+        return keys is not None and self._broken_by(check, keys) is not False
 
-    def _broken_by(self, check: RuleCheck, values: list[Any]) -> bool | None:
+    def _broken_by(self, check: RuleCheck, keys: tuple[Key, ...]) -> bool | None:
         """Return whether a rule is broken by values; what it came to for equal ones before is remembered.
 
         None where a builder's rule makes no sense of values that are all there. Our own are tried with all that there are.
         """
-        is_own = isinstance(check.rule, BuilderRule)
-        if is_own and _too_long(values):
-            return False
-        key = same_values(values[: len(check.singles)])
-        if check.lists:
-            key = key, *[self._list_key(listed) for _, listed in check.lists]
-        found = check.expressions.broken.verdict(key, check.names, values, self._circumstances(check))
-        return None if found is None and is_own and not _is_any_missing(values) else found is True
+        found = check.expressions.broken.verdict(keys, check.names, self._circumstances(check))
+        return None if found is None and check.is_own and not _is_any_missing(keys) else found is True
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see now."""
-        return self._context(check, self._values(check) or [None] * len(check.names))
+        keys = self._keys(check)
+        values = [None] * len(check.names) if keys is None else list(map(value_of, keys))
+        return self._context(check, values)
 
     def _context(self, check: RuleCheck, values: list[Any]) -> Context:
         """Return what every expression of a check sees."""
@@ -124,50 +156,32 @@ class RuleChecks:
 
     # -- values ----------------------------------------------------------------
 
-    def _values(self, check: RuleCheck) -> list[Canonical | list[Canonical]] | None:
-        """Return the values of a check's names; None when one it needs is not there."""
-        seen, lists = self._seen, self._lists
-        if check.plain:
-            plain: list[Canonical | list[Canonical]] = [
-                seen[a] if a in seen else self._see(a) for a in check.plain
-            ]
-            return None if None in plain else plain
-        values: list[Canonical | list[Canonical]] = []
-        for single in check.singles:
-            address = single.address
-            found = seen[address] if address in seen else self._see(address)
-            if found is None and single.any_state:
-                found = self._out_of_force(address)
-            if found is None and not single.optional:
-                return None
-            values.append(found)
-        for _, listed in check.lists:
-            values.append(lists[listed] if listed in lists else self._list(listed))
-        return values
+    def _keys(self, check: RuleCheck) -> tuple[Key, ...] | None:
+        """Return the keys of the values of a check's names; None when one it needs is not there."""
+        keys = tuple(map(self._seen.__getitem__, check.reads))
+        if None in keys and not (check.is_lenient and (keys := self._lenient_keys(check, keys))):
+            return None
+        if check.lists:
+            keys += tuple([self._lists.get(listed) or self._list(listed) for _, listed in check.lists])
+        return None if check.is_own and _too_long(keys) else keys
 
-    def _see(self, address: Address) -> Canonical:
+    def _lenient_keys(self, check: RuleCheck, keys: tuple[Key, ...]) -> tuple[Key, ...]:
+        """Return the keys with those of inactive values that count too; none where one is still missing."""
+        found = list(keys)
+        for n, single in enumerate(check.singles):
+            if found[n] is None and single.any_state:
+                found[n] = self._out_of_force(single.address)
+            if found[n] is None and not single.optional:
+                return ()
+        return tuple(found)
+
+    def _out_of_force(self, address: Address) -> Key:
         evaluation = self._file.evaluation
-        counts = evaluation.state(address).state == "in-force"
-        found = self._seen[address] = evaluation.canonical(address) if counts else None
-        return found
+        return evaluation.keys[address] if evaluation.state(address).state != "hidden" else None
 
-    def _out_of_force(self, address: Address) -> Canonical:
-        evaluation = self._file.evaluation
-        return evaluation.canonical(address) if evaluation.state(address).state != "hidden" else None
-
-    def _list_key(self, listed: Listed) -> Hashable:
-        found = self._list_keys.get(listed)
-        if found is None:
-            found = self._list_keys[listed] = same_values(self._lists[listed])
-        return found
-
-    def _list(self, listed: Listed) -> list[Canonical]:
-        """Return the values of several instances: the same list as before while they are the same."""
-        found = [self._seen[a] if a in self._seen else self._see(a) for a in listed.addresses]
-        before = self._lists_before.get(listed)
-        if before is not None and all(map(is_, found, before)):
-            found = before
-        self._lists[listed] = found
+    def _list(self, listed: Listed) -> tuple[Key, ...]:
+        seen = self._seen
+        found = self._lists[listed] = tuple([seen[a] for a in listed.addresses])
         return found
 
     # -- the finding -----------------------------------------------------------
@@ -184,45 +198,64 @@ class RuleChecks:
             OWN_FAULT, "error", (), said, compared=check.addresses, instance=f"{rule.id} {check.instance}"
         )
 
-    def _finding(self, check: RuleCheck, present: list[Any]) -> Finding:
-        rule, evaluation = check.rule, self._file.evaluation
-        given = _Given(self._context(check, present), present)
-        texts = {"instance": check.instance, "machine": self._machine}
-        texts["application"] = self._file.header.application
-        texts["part"] = check.instance.partition(".")[2]
-        for single in check.singles:
-            texts[single.name] = self._shown(single.address)
-        for name, listed in check.lists:
-            if f"{{{name}}}" in rule.message:
-                texts[name] = ", ".join(map(self._shown, listed.addresses))
-        own = [single.address for single in check.singles]
-        turns = any(evaluation.turns(address) for address in own)
-        entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
-        is_secret = self._reads_secret(check)
-        for name, expression in check.expressions.finding.values:
-            unit = rule.units.get(name, "")
-            unit = angular(unit) if turns else unit
-            # What is worked out of a secret can give it away.
-            texts[name] = MASKED if is_secret else self._text(expression, given.context, unit, entered)
-        causes, compared = (
-            tuple(a for a in addresses if evaluation.state(a).state != "hidden") or addresses
-            for addresses in about(check, given.context, present)
-        )
+    def _finding(self, check: RuleCheck, keys: tuple[Key, ...]) -> Finding:
+        rule, effective = check.rule, check.expressions.finding.effective
+        given = _Given(keys, lambda values: self._context(check, values))
         fix = self._fix(check, given)
-        safe = bool(fix) and all(entry.safe for entry in rule.fix)
+        causes, compared = about(check, given)
+        if check.is_lenient or check.lists:  # otherwise all that it reads is active
+            causes, compared = self._unhidden(causes), self._unhidden(compared)
         return Finding(
             rule.id,
             rule.severity,
             causes,
-            rule.message.format_map(texts),
+            rule.message.format_map(self._texts(check, given)),
             fix,
             rule.page,
-            safe,
-            tuple(self._set(check, given, check.expressions.finding.effective)),
+            bool(fix) and all(entry.safe for entry in rule.fix),
+            tuple(self._set(check, given, effective)) if effective else (),
             compared,
             check.instance,
-            isinstance(rule, BuilderRule),
+            check.is_own,
         )
+
+    def _unhidden(self, addresses: tuple[Address, ...]) -> tuple[Address, ...]:
+        """Return what is not hidden, or all of it where everything is."""
+        state = self._file.evaluation.state
+        return tuple([a for a in addresses if state(a).state != "hidden"]) or addresses
+
+    def _texts(self, check: RuleCheck, given: _Given) -> dict[str, str]:
+        """Return the texts of the names in the message."""
+        entries = check.expressions.finding
+        texts = {}
+        if not entries.shown.isdisjoint(ALWAYS_THERE):
+            circumstances = self._circumstances(check)
+            texts = {name: str(getattr(circumstances, name)) for name in ALWAYS_THERE}
+        for single in check.singles:
+            if single.name in entries.shown:
+                texts[single.name] = self._shown(single.address)
+        for name, listed in check.lists:
+            if name in entries.shown:
+                texts[name] = ", ".join(map(self._shown, listed.addresses))
+        if entries.values:
+            texts |= self._worked_out_texts(check, given)
+        return texts
+
+    def _worked_out_texts(self, check: RuleCheck, given: _Given) -> dict[str, str]:
+        """Return the figures of the message."""
+        own = [single.address for single in check.singles]
+        turns = any(self._file.evaluation.turns(address) for address in own)
+        entered = {value.unit for value in map(self._file.values.get, own) if value is not None}
+        is_secret = self._reads_secret(check)
+        texts = {}
+        for name, expression in check.expressions.finding.values:
+            unit = check.rule.units.get(name, "")
+            unit = angular(unit) if turns else unit
+            # What is worked out of a secret can give it away.
+            texts[name] = (
+                MASKED if is_secret else self._text(self._result(check, given, expression), unit, entered)
+            )
+        return texts
 
     def _reads_secret(self, check: RuleCheck) -> bool:
         parameters = self._file.schema.parameters
@@ -231,11 +264,12 @@ class RuleChecks:
     def _shown(self, address: Address) -> str:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
 
-    def _text(self, expression: Program, context: Context, unit: str, entered: set[str]) -> str:
+    def _result(self, check: RuleCheck, given: _Given, expression: Expression) -> Any:
+        return expression.result(given.keys, self._circumstances(check), lambda: given.context)
+
+    def _text(self, found: Any, unit: str, entered: set[str]) -> str:
         """Return what was worked out: a figure in inches where the file, or a value it comes from, is; a list in commas."""
-        try:
-            found = expression.execute(context)
-        except EVALUATION_ERRORS:
+        if found is NO_RESULT:
             return "?"
         if isinstance(found, list):
             return ", ".join(map(str, found))
@@ -250,45 +284,40 @@ class RuleChecks:
 
     def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
         """Return what the rule would change; nothing if it would not help. Whether it does harm is for a trial."""
-        fix = tuple(self._set(check, given, check.expressions.finding.fixes))
+        fixes = check.expressions.finding.fixes
+        fix = tuple(self._set(check, given, fixes)) if fixes else ()
         return fix if fix and self._mends(check, given, fix) else ()
 
     def _set(
-        self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Program], ...]
+        self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Expression], ...]
     ) -> Iterator[Setting]:
         """Yield what the rule sets, if that is another value than the present one; no secret goes elsewhere."""
-        is_secret = bool(assignments) and self._reads_secret(check)
+        is_secret = self._reads_secret(check)
         for name, expression in assignments:
             address = check.address_of(name)
             if is_secret and not self._file.schema.parameters[address[0]].secret:
                 continue
-            value = self._worked_out(address, expression, given.context)
+            value = self._value(address, self._result(check, given, expression))
             if value is not None and value != self._file.values.get(address):
                 yield Setting(address, value)
 
     def _mends(self, check: RuleCheck, given: _Given, fix: tuple[Setting, ...]) -> bool:
         """Return whether the rule is satisfied with its own suggested fixes, which were rounded as the parameter needs it."""
-        mended = {setting.address: canonical_value(setting.value) for setting in fix}
-        before = dict(zip(check.names, given.values, strict=True))
-        after: dict[str, Any] = {s.name: mended[s.address] for s in check.singles if s.address in mended}
-        for name, listed in check.lists:
+        mended = {setting.address: key_of(setting.value) for setting in fix}
+        after = list(given.keys)
+        for n, single in enumerate(check.singles):
+            after[n] = mended.get(single.address, after[n])
+        for n, (_, listed) in enumerate(check.lists, len(check.singles)):
             if not mended.keys().isdisjoint(listed.addresses):
-                after[name] = [mended.get(a, v) for a, v in zip(listed.addresses, before[name], strict=True)]
-        given.context.update(after)
-        try:
-            return check.expressions.broken.program.execute(given.context) is not True
-        except EVALUATION_ERRORS:
-            return False
-        finally:
-            given.context.update({name: before[name] for name in after})
+                before = dict(zip(listed.addresses, self._list(listed), strict=True))
+                after[n] = tuple((before | mended)[a] for a in listed.addresses)
+        return (
+            check.expressions.broken.verdict(tuple(after), check.names, self._circumstances(check)) is False
+        )
 
-    def _worked_out(self, address: Address, expression: Program, context: Context) -> Value | None:
-        """Return a value as the parameter stores it, in the unit of the present one; None where there is none."""
+    def _value(self, address: Address, found: Any) -> Value | None:
+        """Return what was worked out as the parameter stores it, in the unit of the present value; None where there is none."""
         parameter = self._file.schema.parameters[address[0]]
-        try:
-            found = expression.execute(context)
-        except EVALUATION_ERRORS:
-            return None
         if isinstance(found, (bool, str)):
             return Value(found)
         if not isinstance(found, (int, float)) or not math.isfinite(found):
@@ -301,9 +330,9 @@ class RuleChecks:
         return Value(int(number) if parameter.type in ("integer", "bits") else number, unit)
 
 
-def _is_any_missing(values: Iterable[Any]) -> bool:
+def _is_any_missing(keys: Iterable[Key]) -> bool:
     """Return whether a value, or one of a list, is not set or inactive."""
-    return any(value is None or (type(value) is list and None in value) for value in values)
+    return any(key is None or (isinstance(key, tuple) and None in key) for key in keys)
 
 
 def _listed(given: list[str]) -> str:
@@ -312,9 +341,9 @@ def _listed(given: list[str]) -> str:
     return ", ".join(given[:_SHOWN]) + more
 
 
-def _too_long(values: Iterable[Any]) -> bool:
+def _too_long(keys: Iterable[Key]) -> bool:
     """Return whether a text is longer than a builder's rule was found to bear; its own check reports that it is too long."""
     return any(
-        len(value) > LONGEST_TEXT if type(value) is str else type(value) is list and _too_long(value)
-        for value in values
+        len(key) > LONGEST_TEXT if isinstance(key, str) else isinstance(key, tuple) and _too_long(key)
+        for key in keys
     )

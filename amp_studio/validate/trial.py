@@ -15,7 +15,7 @@ from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address
 
 from .builder_rules import BuilderRules, sort_out
-from .checks import Checks
+from .checks import Checks, Place
 from .finding import SEVERITIES, Finding
 from .plan import Plan, RuleCheck, make_plan
 
@@ -23,9 +23,6 @@ MOST_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
 _ASKED = 1000
 """Steps that it takes to ask a rule at all."""
-
-Place = Address | int
-"""Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,8 +168,7 @@ class Trials:
         assert self._file is not None
         checks = Checks(self._file, self._own.places)
         plan = make_plan(self._file.schema, checks.machine, self._own.rules)
-        found = (*map(checks.of_value, plan.addresses), *map(checks.of_rule, plan.checks))
-        after = {finding.key: finding for finding in found if finding is not None}
+        after = {finding.key: finding for _, finding in checks.of_all(plan)}
         before = {finding.key for _, finding in filed.values()}
         new = [finding for key, finding in after.items() if key not in before]
         return mended.key not in after and self._are_lesser(new, mended)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Collection, Hashable, Iterable, Iterator
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile
@@ -10,10 +10,10 @@ from amp_studio.schema import Address, Rule
 from amp_studio.schema.cel_engine import Context
 
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
-from .checks import Checks
+from .checks import Checks, Place
 from .finding import SEVERITIES, Finding
 from .plan import Plan, RuleCheck, make_plan
-from .trial import Place, Trials
+from .trial import Trials
 
 _Order = tuple[int, int, str, int]
 """Severity, place of the first cause in the manual, rule, and place among the checks."""
@@ -54,10 +54,14 @@ class Validator:
             self._prepare()
         self._trials = Trials(self.file, self._plan, self.own)  # of a file in which anything may have changed
         self._light = self._present_light()
-        self._filed.clear()
-        self._unset.clear()
+        self._checks.look_again()
+        self._checks_of = None
+        self._unset = self._all_unset()
         self._unset_advice = None
-        self._check(self._plan.addresses, self._plan.checks)
+        self._filed = {
+            place: (self._order(finding, place if isinstance(place, int) else -1), finding)
+            for place, finding in self._checks.of_all(self._plan)
+        }
         return self.findings()
 
     def update(self, changed: Iterable[Address]) -> tuple[Finding, ...]:
@@ -111,7 +115,7 @@ class Validator:
 
     # -- filing ----------------------------------------------------------------
 
-    def _check(self, addresses: Iterable[Address], checks: Iterable[RuleCheck]) -> None:
+    def _check(self, addresses: Iterable[Address], checks: Collection[RuleCheck]) -> None:
         self._checks.look_again()
         self._checks_of = None
         for address in addresses:
@@ -121,11 +125,16 @@ class Validator:
             else:
                 self._filed.pop(address, None)
         for check in checks:
-            finding = self._checks.of_rule(check)
-            if finding is not None:
-                self._filed[check.place] = (self._order(finding, check.place), finding)
-            else:
-                self._filed.pop(check.place, None)
+            self._filed.pop(check.place, None)
+        for check, finding in self._checks.of_rules(checks):
+            self._filed[check.place] = (self._order(finding, check.place), finding)
+
+    def _all_unset(self) -> set[Address]:
+        evaluation, values = self.file.evaluation, self.file.values.keys()
+        active = (alike for alike in self._plan.alike if evaluation.state(alike[0]).state == "in-force")
+        missing = (address for alike in active for address in alike if address not in values)
+        parameters = self.file.schema.parameters
+        return {address for address in missing if not parameters[address[0]].optional}
 
     def _check_address(self, address: Address) -> Finding | None:
         asked = (

@@ -80,6 +80,45 @@ def test_a_condition_over_an_unset_value_does_not_hold(facts, head, machine) -> 
     assert here.evaluation.state(("device.speed", "")).state == "ignored", "because 'fast' does not hold"
 
 
+def test_files_with_equal_values_share_their_states_until_one_is_changed(facts, head, machine) -> None:
+    schema, values = facts.schema(FOUR, head + CONDITIONS), {"device.kind": Value("motor")}
+    one, other = machine(schema, values), machine(schema, values)
+    speed = ("device.speed", "")
+    assert one.evaluation.known_states() is other.evaluation.known_states()
+    one.set("device.kind", Value("scale"))
+    assert (one.evaluation.state(speed).state, other.evaluation.state(speed).state) == ("unusable", "ignored")
+    one.set("device.kind", Value("motor"))
+    assert one.evaluation.known_states() is other.evaluation.known_states(), "as they were before"
+
+
+def test_what_is_asked_first_after_a_change_is_not_taken_for_the_values_before_it(
+    facts, head, machine
+) -> None:
+    schema, values = facts.schema(FOUR, head + CONDITIONS), {"device.limit": Value(1.0)}
+    one, other = machine(schema, values), machine(schema, values)
+    one.evaluation.known_states()
+    one.set("device.limit", Value(11.0))
+    assert one.evaluation.holds("fast", "")
+    assert not other.evaluation.holds("fast", "")
+
+
+def test_another_model_is_no_news_for_a_file_with_the_same_values(facts, head, machine) -> None:
+    model = "conditions:\n  nothing: {reads: {}, when: application == 'B', why: it is a B}\n"
+    schema = facts.schema(
+        FOUR.replace("when: scale", "when: nothing").replace("fast", "nothing"), head + model
+    )
+    one, other = (
+        ParameterFile(schema, Header(application="A")),
+        ParameterFile(schema, Header(application="A")),
+    )
+    one.evaluation.known_states()
+    one.header.application = "B"
+    assert not one.evaluation.holds("nothing", ""), "it was asked for before"
+    one.evaluation.forget()
+    assert one.evaluation.holds("nothing", "")
+    assert not other.evaluation.holds("nothing", "")
+
+
 def test_a_state_knows_what_can_change_it(facts, head, machine) -> None:
     here = machine(facts.schema(FOUR, head + CONDITIONS))
     assert {("device.kind", ""), ("device.limit", "")} == here.evaluation.state_reads(("device.speed", ""))

@@ -155,7 +155,7 @@ class Edited:
 
 @given(random=st.randoms(use_true_random=False), name=st.sampled_from(MACHINES))
 @settings(
-    max_examples=1000 if EVERY_EDIT else 70,
+    max_examples=1000 if EVERY_EDIT else 40,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, name: str, a_machine) -> None:
@@ -166,20 +166,26 @@ def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, n
 
 
 @pytest.mark.parametrize("name", MACHINES)
-def test_after_thousands_of_edits_too(name: str, a_machine) -> None:
+def test_after_many_edits_too(name: str, a_machine) -> None:
     edited, random = Edited(a_machine(name)), Random(name)
-    for _ in range(500 if EVERY_EDIT else 15):
-        for _ in range(20):
+    for _ in range(500 if EVERY_EDIT else 4):
+        for _ in range(25):
             edited.edit(random, random.choice([1, 1, 1, 5]))
         assert edited.agree()
 
 
 def nasty(parameter: Parameter, schema: Schema) -> list[Value]:
-    """Return values that nobody should write into a parameter."""
+    """Return values that nobody should write into a parameter: any number in its units, some in those of others."""
     numbers = [0, -1, 2**70, 1e300, -1e300, 5e-324, 0.1, math.inf, -math.inf]
-    units = {"", "mm", "in/min", "deg", "%", *schema.units_of(parameter)}
+    own = schema.units_of(parameter)
+    others = {"", "mm", "in/min", "deg", "%"}.difference(own)
     return [
-        *(Value(number, unit) for number in numbers for unit in sorted(units)),
+        *(Value(number, unit) for number in numbers for unit in (own if EVERY_EDIT else own[:1])),
+        *(
+            Value(number, unit)
+            for number in (numbers if EVERY_EDIT else (1e300, 0.1))
+            for unit in sorted(others)
+        ),
         *(Value(text) for text in TEXTS),
         Value(True),
         Value(False),
@@ -191,9 +197,11 @@ def test_no_value_whatever_makes_it_raise(name: str, a_machine) -> None:
     file = a_machine(name)
     validator = Validator(file)
     validator.run()
+    on_the_mill = {parameter_id for parameter_id, _ in load_schema("9pc").on("mill").addresses}
     one_of_each: dict[str, list[Address]] = {}
     for address in file.addresses():
-        one_of_each.setdefault(address[0], []).append(address)
+        if EVERY_EDIT or name != "lathe" or address[0] not in on_the_mill:
+            one_of_each.setdefault(address[0], []).append(address)
     for addresses in one_of_each.values():
         address = addresses[min(3, len(addresses) - 1)]
         before = file.get(address)
@@ -230,7 +238,7 @@ def test_a_fix_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
     validator.run()
     random = Random(name)
     addresses = (
-        list(file.values) if EVERY_EDIT else random.sample(list(file.values), min(300, len(file.values)))
+        list(file.values) if EVERY_EDIT else random.sample(list(file.values), min(150, len(file.values)))
     )
     for address in addresses:
         before = file.get(address)

@@ -8,7 +8,6 @@ not be there, or when what the control uses instead breaks the rule as well.
 
 from __future__ import annotations
 
-import logging
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -18,6 +17,7 @@ from mutations import EVERY_MUTANT, variations
 from rule_stands import FAMILIES, HERE, Case, cases, read
 
 from amp_studio.schema import Rule, load_schema, program
+from amp_studio.schema.expression import Expression
 from amp_studio.validate import Finding
 from amp_studio.validate.expressions import Expressions, FindingExpressions
 from amp_studio.validate.formulas import rule_functions
@@ -52,10 +52,9 @@ class Mutant:
         """Return the expressions of the rule with this change; raises ValueError if it cannot be compiled."""
         field = PARTS[self.part]
         all_of_it = list(getattr(expressions, field))
-        all_of_it[self.n] = (all_of_it[self.n][0], program(self.text))
-        return Expressions(
-            rule, rule_functions(rule.id.partition(".")[0]), replace(expressions, **{field: tuple(all_of_it)})
-        )
+        functions = rule_functions(rule.id.partition(".")[0])
+        all_of_it[self.n] = (all_of_it[self.n][0], Expression(program(self.text), functions))
+        return Expressions(rule, functions, replace(expressions, **{field: tuple(all_of_it)}))
 
 
 def parts_of(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
@@ -139,10 +138,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ..
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_no_mutant_of_what_a_rule_tells_passes_the_tables(
-    family: str, caplog: pytest.LogCaptureFixture
-) -> None:
-    caplog.set_level(logging.CRITICAL, "cel")  # a mutant may call a formula with what it does not take
+def test_no_mutant_of_what_a_rule_tells_passes_the_tables(family: str) -> None:
     rules = {rule.id: rule for rule in load_schema(family).rules}
     left = {rule.id: tuple(mutants_of(rule)) for rule in rules.values()}
     total = sum(map(len, left.values()))

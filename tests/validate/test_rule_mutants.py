@@ -8,7 +8,6 @@ alive at the end stands in ``equivalent_mutants.yaml``, with the reason why no c
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -95,8 +94,7 @@ class Campaign:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_no_mutant_of_a_rule_passes_the_tables(family: str, caplog: pytest.LogCaptureFixture) -> None:
-    caplog.set_level(logging.CRITICAL, "cel")  # a mutant may call a formula with what it does not take
+def test_no_mutant_of_a_rule_passes_the_tables(family: str) -> None:
     campaign = Campaign(family)
     alive = [(rule, mutant) for rule, left in campaign.alive.items() for mutant in left]
     print(f"{family}: {campaign.total} mutants, {len(alive)} alive")

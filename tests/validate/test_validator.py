@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import math
 
 import pytest
@@ -14,6 +13,7 @@ from amp_studio.schema import (
     Rule,
     Value,
 )
+from amp_studio.schema.expression import Circumstances, Decision, program
 from amp_studio.validate import SEVERITIES, BuilderRules, Finding, Setting, Validator
 
 RAPID = ("feedrate.rapid", "1")
@@ -356,11 +356,18 @@ def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:
     )
 
 
-def test_a_formula_that_makes_no_sense_of_a_value_says_nothing(mill) -> None:
-    """The remainder of an infinite turn; CEL logs that, and without a handler it would be on standard error."""
+def test_a_formula_that_makes_no_sense_of_a_value_says_nothing(mill, caplog) -> None:
+    """The remainder of an infinite turn; CEL warns of every function that raises."""
     mill.set(("axis.rollover", "4"), Value(math.inf, "deg"))
     assert [finding.rule for finding in Validator(mill).run()] == ["schema.range", "9pc.format.rollover"]
-    assert any(isinstance(handler, logging.NullHandler) for handler in logging.getLogger("cel").handlers)
+    assert caplog.records == []
+
+
+def test_a_formula_that_is_wrong_itself_is_logged(caplog) -> None:
+    decision = Decision(program("wrong(speed) > 0.0"), {"wrong": lambda speed: speed.nothing})
+    assert not decision.holds((5.0,), ("speed",), Circumstances("mill", "", ""))
+    (record,) = caplog.records
+    assert "'wrong' failed: AttributeError" in record.getMessage()
 
 
 def test_a_number_in_the_place_of_a_yes_is_noticed(mill) -> None:
