@@ -172,3 +172,29 @@ def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path
     same = {"name", "scope", "numbers", "type", "quantity", "ranges", "storage", "page"}
     assert held[shown.id].model_dump(include=same) == shown.model_dump(include=same)
     assert load_schema("57c422b").family.title == compiled.family.title
+
+
+def walks(checkout: Path) -> list[tuple[str, str]]:
+    """Return module and function of every step of the walks in docs/architecture.md."""
+    text = (checkout / "docs" / "architecture.md").read_text(encoding="utf-8")
+    text = text[
+        text.index("## A value typed until it is on disk") : text.index("## How a question is answered")
+    ]
+    return re.findall(r"`([a-z_/]+\.py)`\s+`([\w.]+)`", text)
+
+
+def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None:
+    steps = walks(checkout)
+    assert len(steps) >= 30
+    lost = []
+    for module, name in steps:
+        tree = ast.parse((checkout / "amp_studio" / module).read_text(encoding="utf-8"))
+        here: list[ast.stmt] = tree.body
+        for part in name.split("."):
+            kinds = (ast.FunctionDef, ast.ClassDef)
+            found = next((n for n in here if isinstance(n, kinds) and n.name == part), None)
+            if found is None:
+                lost.append(f"{module} {name}")
+                break
+            here = found.body
+    assert lost == []
