@@ -135,6 +135,8 @@ class AxisLaw:
     """u/s of a move when none is given: the rapid feedrate. None where it is not set."""
     inposition_band: float = 0.0
     """u"""
+    rest_band: float = 0.0
+    """u: how far from the end dry friction may keep the axis for ever; a move is over within it."""
     ramps: Mapping[str, Ramp] = field(default_factory=lambda: {"none": Ramp()})
     """The ramps that a move can have by kind; the first is the axis' own for positioning."""
     monitors: Sequence[tuple[str, str]] = ()

@@ -23,6 +23,7 @@ from amp_studio.sim import (
     Source,
     Trace,
 )
+from amp_studio.sim.linear import linear_model
 from amp_studio.sim.model import with_model
 from amp_studio.sim.steady import error_at_speed
 
@@ -33,6 +34,7 @@ from .law_filters import PASS, Biquad, lopass, notch
 AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
 COUNT = "view.number_of_axes"
 PULSES, PERIOD = "axes.pulses_per_unit", "tuning.servo_period"
+D_GAIN = "servo.d_gain"
 P_GAIN, I_DELAY, D_TIME = "servo.p_gain", "servo.i_delay", "servo.d_time"
 LIMIT = "servo.torque_limits"
 VEL_FFWD, FBVEL, DAC_GAIN = "servo.vel_ffwd", "tuning.fbvel", "tuning.dac_gain"
@@ -45,7 +47,7 @@ NORMAL_DAC_GAIN = 3276.8
 _GAINS = {
     loop.P_GAIN: P_GAIN,
     loop.I_GAIN: "servo.i_gain",
-    loop.D_GAIN: "servo.d_gain",
+    loop.D_GAIN: D_GAIN,
     loop.I_LIMIT: "servo.i_limit",
     loop.VEL_FFWD: VEL_FFWD,
     loop.ACC_FFWD: "servo.acc_ffwd",
@@ -139,6 +141,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     return replace(
         axis,
         position_rate=_rate(p, whole),
+        rest_band=_rest_band(p, whole),
         predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)},
     )
 
@@ -219,6 +222,14 @@ def _rate(p: Sequence[float], machine: Machine) -> float:
     return min(undamped, stiffness / brake) if brake > 0.0 else undamped
 
 
+def _rest_band(p: Sequence[float], machine: Machine) -> float:
+    """Return how far from its target dry friction may keep the axis, u; 0 where the integral brings it there."""
+    if p[loop.I_GAIN] > 0.0:
+        return 0.0
+    volts = max(machine.static_friction, machine.coulomb_friction) + abs(machine.gravity)
+    return volts / abs(p[loop.P_GAIN] * p[loop.PULSES] * p[loop.DAC_SHARE]) + machine.position_count
+
+
 def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction:
     """Return the following error at a steady speed in u/s: what is left for P Gain, the equation of page 115 turned round.
 
@@ -237,7 +248,7 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
 def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
     return {
         "position_gain": Source(P_GAIN, page="59"),
-        "derivative_gain": Source("servo.d_gain", page="59"),
+        "derivative_gain": Source(D_GAIN, page="59"),
         "feed_forward": Source(VEL_FFWD, page="59"),
         "excess_error": Source(EXCESS, page="60"),
         "inposition_band": Source(BAND, page="60"),
@@ -249,7 +260,33 @@ def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
 
 
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
-    """Return the Vel FFwd that takes the steady error away: P Gain × error / speed more than now (page 115)."""
+    """Return D Gain where there is none, and the Vel FFwd that takes the steady error away (page 115)."""
+    return (*_damping(axis), *_feed_forward(axis, trace))
+
+
+def _damping(axis: AxisLaw) -> Sequence[Recommendation]:
+    """Return the D Gain that damps the loop aperiodically, 2 √(P Gain / pulses/s² for 1 V), where there is none."""
+    p = axis.parameters
+    if p[loop.D_GAIN] != 0.0 or p[loop.FBVEL] != 0.0 or p[loop.P_GAIN] <= 0.0:
+        return ()
+    pulses = axis.machine.acceleration_per_output * p[loop.PULSES] * p[loop.DAC_SHARE]
+    wanted = float(f"{2.0 * math.sqrt(p[loop.P_GAIN] / pulses):.2g}")
+    damped = list(_linear(p))
+    damped[loop.D_GAIN] = wanted
+    if not linear_model(replace(axis, linear_parameters=damped)).is_stable():
+        return ()
+    return (
+        Recommendation(
+            D_GAIN,
+            wanted,
+            "Vs/count",
+            "without D Gain the axis rings in every ramp (page 115); this is the aperiodic limit on the assumed machine. Its"
+            " price: every count of the encoder is heard in the output, and too much makes the motor buzz",
+        ),
+    )
+
+
+def _feed_forward(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     error, speed, p = error_at_speed(trace), trace.result.get("feedrate", (None, ""))[0], axis.parameters
     if trace.alarms or error is None or not speed or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
         return ()

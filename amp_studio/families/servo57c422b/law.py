@@ -138,7 +138,11 @@ def bind(read: AxisParameters) -> AxisLaw:
         scales=Scales(*(_scale(read, name) for name in _SCALES)),
     )
     whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
-    return replace(axis, predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)})
+    return replace(
+        axis,
+        rest_band=_rest_band(p, whole),
+        predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)},
+    )
 
 
 def _refuse_missing(read: AxisParameters) -> None:
@@ -236,6 +240,14 @@ def _linear(p: Sequence[float]) -> list[float]:
     q = list(p)
     q[loop.WHOLE_WORDS] = q[loop.DEADBAND] = 0.0
     return q
+
+
+def _rest_band(p: Sequence[float], machine: Machine) -> float:
+    """Return how far from its target dry friction may keep the axis, counts; 0 where the integral brings it there."""
+    if p[loop.INTEGRAL] > 0.0 or machine.velocity_per_output > 0.0:
+        return 0.0
+    volts = max(machine.static_friction, machine.coulomb_friction) + abs(machine.gravity)
+    return volts * loop.WORDS_PER_VOLT / abs(p[loop.VELOCITY] * p[loop.PROPORTIONAL]) + machine.position_count
 
 
 def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction:

@@ -153,7 +153,7 @@ def _until(axis: AxisLaw, moved: Move, duration: float | None) -> Until:
     blocks = len(moved.profile) // 8
     return Until(
         2.0 * end_of(moved.profile) + settle + blocks * LONGEST_WAIT * lag,
-        max(axis.inposition_band, 1.5 * axis.machine.position_count),
+        max(axis.inposition_band, axis.rest_band, 1.5 * axis.machine.position_count),
         3.0 * lag + PAUSE,
         settle,
     )

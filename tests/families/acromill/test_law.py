@@ -79,6 +79,13 @@ def test_the_steady_error_is_the_predicted_one() -> None:
     assert measured == pytest.approx(predicted, rel=0.01)
 
 
+def test_a_move_is_over_where_dry_friction_keeps_the_axis() -> None:
+    trace = simulate(file_of(axes__inposition_band=None), "step")
+    assert 1.0 < abs(float(trace.columns["following_error"][-1])) / (25.4 / 10000) < 4.88  # 0.0488 V / 0.01 V
+    assert float(trace.columns["time_s"][-1]) < 1.0
+    assert trace.result["settle_time"][0] is None
+
+
 def test_an_axis_beyond_its_excess_error_ends_with_the_alarm() -> None:
     trace = simulate(file_of(axes__excess_error_band=Value(0.01, "mm")), "step")
     assert [alarm.code for alarm in trace.alarms] == ["EXCESS ERROR"]
@@ -132,6 +139,18 @@ def test_the_advice_is_the_same_for_a_move_in_the_negative_direction() -> None:
     (advice,) = (each for each in trace.recommendations if each.parameter == "servo.vel_ffwd")
     assert advice.value == pytest.approx(0.00000296, rel=0.01)  # dry friction too: 0.099 V at 33333 pulses/s
     assert "behind" in advice.why
+
+
+def test_a_loop_without_d_gain_is_advised_one_that_stops_its_ringing() -> None:
+    # Page 115: the ringing is due to not enough DGAIN in relation to the PGAIN.
+    file = file_of(servo__d_gain=Value(0.0, "Vs/count"))
+    before = simulate(file, "step", settings={"move.distance": 10.0})
+    (advice,) = (each for each in before.recommendations if each.parameter == "servo.d_gain")
+    file.set(("servo.d_gain", "X"), Value(advice.value, advice.unit))
+    after = simulate(file, "step", settings={"move.distance": 10.0})
+    assert before.alarms
+    assert after.alarms == ()
+    assert after.result["settle_time"][0] is not None or after.result["overshoot"][0] < 0.05
 
 
 # -- the loop, one sample at a time ----------------------------------------------------------------
