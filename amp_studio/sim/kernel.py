@@ -79,6 +79,9 @@ DRIVEN_ROWS = 14
 """Rows at most before an alarm."""
 TIMING_SIZE = 15
 
+STANDSTILL = 1e-9
+"""u/s: an axis that runs out is at rest below; a drive with a velocity loop brings it to 0 in no finite time."""
+
 SAMPLES, COMMAND_TIME, SHARE, PIECE, RESTLESS, ENDED, ALARM_ROW = range(7)
 """State of the run: servo samples since the start; time, s, share of the feedrate and piece of the command; sample of the last
 motion; sample at which the command ended and row of the alarm, both -1 before."""
@@ -168,7 +171,7 @@ def run(
         io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
         if coasting > 0.0:
             coasting -= period
-            if coasting <= 0.0 or (motor == 0.0 and load == 0.0):
+            if coasting <= 0.0 or (abs(motor) < STANDSTILL and abs(load) < STANDSTILL):
                 return row
         else:
             position_sample(p, s, io)

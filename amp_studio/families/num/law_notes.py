@@ -19,10 +19,7 @@ ALWAYS = (
 )
 
 NOT_SIMULATED = (
-    (
-        "Not simulated: reversal error compensation (P18), interaxis calibration, QVN and DISC loops (P70 to P87), and how the axis"
-        " stops after an error."
-    ),
+    "Not simulated: reversal error compensation (P18), interaxis calibration, QVN and DISC loops (P70 to P87).",
 )
 
 DRIVE = {

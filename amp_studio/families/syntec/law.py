@@ -304,7 +304,7 @@ ALWAYS = (
     "The run ends at the first alarm, so MOT-023 follows MOT-019 only where one interpolation time passes both limits.",
     (
         "Not simulated, because unit or meaning is not printed: feed forward (Pr581), mechanical compensation (Pr1401), range of loss"
-        " pulse (Pr561, MOT-008); and how the axis stops after an alarm."
+        " pulse (Pr561, MOT-008)."
     ),
 )
 

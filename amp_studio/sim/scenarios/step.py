@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.kernel import STANDSTILL
 from amp_studio.sim.law import RAMPS, AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion, Until, run_axis
@@ -210,7 +211,7 @@ def _figures(axis: AxisLaw, motion: Motion, moved: Move, stable: bool) -> dict[s
         "overshoot": (max(0.0, float(forward.max()) - abs(moved.distance)), unit),
     }
     if motion.alarm_row is not None:
-        at_rest = float(motion.columns["velocity"][-1]) == 0.0
+        at_rest = abs(float(motion.columns["velocity"][-1])) < STANDSTILL
         gone = abs(float(motion.columns["position"][-1] - driven["position"][-1]))
         figures["stop_position"] = (float(motion.columns["position"][-1]) if at_rest else None, unit)
         figures["stop_distance"] = (gone if at_rest else None, unit)

@@ -86,6 +86,15 @@ def test_a_model_setting_that_num_does_not_have_is_refused(
     assert "model.voltage" in capsys.readouterr().err
 
 
+def test_the_sine_squared_ramp_of_p7n1_keeps_its_acceleration(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = new(tmp_path, "num")
+    sine = simulated(capsys, path, "step", *settings(NUM_WORDS + " P7N1=0x20"))
+    assert sine["result"]["steady_following_error"]["value"] == pytest.approx(6.0, abs=0.002)
+    assert sine["alarms"] == []
+
+
 def test_a_new_syntec_file_says_in_one_sentence_what_its_axis_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -120,3 +129,16 @@ def test_a_circle_of_a_num_mill_goes_as_fast_as_its_tolerated_error_allows(
     assert told["feedrate"]["value"] == pytest.approx(2236.07, abs=0.01)
     assert told["first_order_radius_error"]["value"] == pytest.approx(0.050, abs=1e-5)
     assert told["radius_error"]["value"] == pytest.approx(0.047, abs=0.003)
+
+
+def test_after_an_excess_error_the_velocity_drive_brakes_the_axis(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = new(tmp_path, "num")
+    words = settings(NUM_WORDS.replace("P23N0=6600", "P23N0=3000"))
+    capsys.readouterr()
+    assert run(["simulate", path, "step", *words, "--json"]) == 1
+    told = json.loads(capsys.readouterr().out)
+    # from about 50 mm/s, with a drive of 50 Hz
+    assert 0.1 < told["result"]["stop_distance"]["value"] < 5.0
+    assert told["result"]["stop_position"]["value"] is not None
