@@ -63,11 +63,6 @@ def length(pieces: Iterable[Piece]) -> float:
 def change(ramp: Ramp, before: float, after: float) -> list[Piece]:
     """Return the pieces from one velocity to another; none where the velocity may jump."""
     up = after > before
-    # A change up to the velocity step needs no ramp, and so the part of a larger one next to rest.
-    if up:
-        before = min(max(before, ramp.velocity_step), after)
-    elif before > ramp.velocity_step > after:
-        after = ramp.velocity_step
     difference = after - before
     limit = ramp.acceleration if up or ramp.deceleration == 0.0 else ramp.deceleration
     if difference == 0.0 or abs(difference) <= ramp.velocity_step:

@@ -54,12 +54,14 @@ def test_a_short_linear_move_turns_at_the_velocity_from_which_it_can_stop() -> N
     assert at(profile, end_of(profile))[0] == 10.0
 
 
-def test_a_velocity_step_needs_no_ramp() -> None:
-    profile = move(50.0, 100.0, Ramp("linear", 500.0, velocity_step=20.0))
-    assert at(profile, 0.0)[1] == 20.0
-    assert at(profile, math.nextafter(end_of(profile), 0.0))[1] == pytest.approx(20.0)
-    slow = move(5.0, 20.0, Ramp("linear", 500.0, velocity_step=20.0))
-    assert end_of(slow) == 0.25, "20 mm/s is a step of its own"
+def test_a_change_up_to_the_velocity_step_needs_no_ramp_and_a_larger_one_has_all_of_it() -> None:
+    ramp = Ramp("linear", 500.0, velocity_step=20.0)
+    slow = move(5.0, 20.0, ramp)
+    assert at(slow, 0.0)[1] == 20.0
+    assert end_of(slow) == 0.25
+    fast = move(50.0, 100.0, ramp)
+    assert at(fast, 0.0)[1] == 0.0
+    assert end_of(fast) == pytest.approx(0.2 + 30.0 / 100.0 + 0.2)
 
 
 @given(

@@ -23,7 +23,7 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
     0 as acceleration is no ramp, as deceleration the acceleration (10-8, 10-10, 10-11, 10-13). Raises SimulationError where a figure
     that the ramp needs is not set or impossible.
     """
-    step, up, down = if_set(read, STEP), not_negative(read, UP), not_negative(read, DOWN)
+    step, up, down = if_set(read, STEP) / 60.0, not_negative(read, UP), not_negative(read, DOWN)
     found = {"linear": Ramp("linear", up, down or up, velocity_step=step)}
     time, scan = _exponential(read, notes)
     if time is not None:
