@@ -123,10 +123,11 @@ def test_too_fast_a_syntec_axis_brings_mot_005(tmp_path: Path, capsys: pytest.Ca
 def test_a_circle_of_a_num_mill_goes_as_fast_as_its_tolerated_error_allows(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    # 6-32: 50 µm, 60 ms and 50 mm leave 2.236 m/min; the circle is then smaller by them, less what sampling takes away
-    words = settings("move.radius=50 move.feedrate=5000 P50N0=2000")
+    # 6-32: 50 µm and 60 ms leave the root of 2 R x 50 µm over 60 ms, 447 mm/min with 2 mm; the circle is then smaller by
+    # the 50 µm, less what sampling and drive take away
+    words = settings("move.radius=2 move.feedrate=5000 P50N0=2000")
     told = simulated(capsys, str(EXAMPLE), "circle", *words)["result"]
-    assert told["feedrate"]["value"] == pytest.approx(2236.07, abs=0.01)
+    assert told["feedrate"]["value"] == pytest.approx(447.21, abs=0.01)
     assert told["first_order_radius_error"]["value"] == pytest.approx(0.050, abs=1e-5)
     assert told["radius_error"]["value"] == pytest.approx(0.047, abs=0.003)
 
