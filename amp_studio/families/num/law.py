@@ -17,7 +17,7 @@ from amp_studio.sim.law import AxisLaw, Law, Prediction, Ramp, Source
 from amp_studio.sim.machine import Machine
 
 from . import law_sample as sample
-from .formulas import circle_speed, increments_per_sample, measured_step
+from .formulas import approach_speed, circle_speed, increments_per_sample, measured_step
 from .law_advice import advise
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
@@ -99,6 +99,10 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
     behind = abs(feedrate) * (1.0 / words.rate - words.anticipated)
     volts = words.voltage * abs(feedrate) / words.top
     increments = increments_per_sample(abs(feedrate) * 60.0, words.period * 1000.0, words.length)
+    approach = {}
+    if words.work_acceleration and words.curve_constant:
+        speed = approach_speed(words.work_acceleration, words.curve_constant * 1000.0)
+        approach["approach_speed"] = Prediction(speed, f"{words.unit}/min", "6-36")
     return {
         "steady_following_error": Prediction(behind if volts <= 10.0 else None, words.unit, "6-14"),
         "time_constant_following_error": Prediction(
@@ -106,6 +110,8 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
         ),
         "reference": Prediction(volts if volts <= 10.0 else None, "V", "6-14"),
         "increments_per_sample": Prediction(increments, "increments", "6-6"),
+        "maximum_following_error": Prediction(1.1 * words.top * words.constant, words.unit, "6-22"),
+        **approach,
     }
 
 

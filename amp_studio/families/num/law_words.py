@@ -58,6 +58,8 @@ class Words:
     voltage: float
     acceleration: float
     """u/s2: the fast one."""
+    work_acceleration: float
+    """u/s2: that of work rates; 0 where it is not set."""
     curve_constant: float
     """s: of the group, which speeds on curves go by (6-40); 0 for none."""
     curve_error: float
@@ -118,6 +120,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
         terms=terms,
         voltage=voltage,
         acceleration=acceleration,
+        work_acceleration=read.optional("servo.acceleration_work") or 0.0,
         curve_constant=(of_group or 0.0) / 1000.0,
         curve_error=_curve_error(read, turns, notes),
     )

@@ -140,6 +140,9 @@ def predicted(axis: _Axis, feedrate: float) -> Mapping[str, Prediction]:
         "steady_following_error": Prediction(behind, axis.unit, "1.5.3"),
         "pulses_per_interpolation_time": Prediction(pulses, "pulses", "1.4.1"),
     }
+    if math.isfinite(axis.limits[0]):
+        found["following_error_limit"] = Prediction(axis.limits[0], axis.unit, "1.5.3")
+        found["fatal_following_error_limit"] = Prediction(axis.limits[1], axis.unit, "1.5.4")
     if math.isfinite(most):
         found["dda_feedrate"] = Prediction(most, f"{axis.unit}/min", "1.4.2")
     return found

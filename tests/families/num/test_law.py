@@ -155,6 +155,13 @@ def test_without_a_tolerated_error_the_speed_on_circles_is_not_limited(error: fl
     assert any("P52N0" in each and why in each for each in law.assumptions)
 
 
+def test_emax_and_approach_speed_of_the_worked_examples_are_predicted() -> None:
+    predicted = bound(servo__acceleration_work_at_0=1000.0).predict(100.0)
+    assert predicted["maximum_following_error"].value == pytest.approx(6.6)  # 6-22: 6600 µm
+    assert predicted["approach_speed"].value == pytest.approx(3600.0)  # 6-36
+    assert "approach_speed" not in bound().predict(100.0)
+
+
 def test_an_axis_takes_the_approach_speed_with_the_acceleration_of_p32() -> None:
     # 6-36: 1000 mm/s² x 60 ms are 3600 mm/min: a step of that speed accelerates the axis by 1000 mm/s²
     motion = moved(

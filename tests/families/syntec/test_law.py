@@ -94,6 +94,7 @@ def test_the_alarm_limits_are_two_and_four_times_the_error_at_rapid() -> None:
     law = bound()  # 24000 mm/min / 30: 13.333 mm
     assert law.limits["MOT-019"] == pytest.approx(26.6667, abs=1e-4)
     assert law.limits["MOT-023"] == pytest.approx(53.3333, abs=1e-4)
+    assert law.predict(1.0)["following_error_limit"].value == pytest.approx(26.6667, abs=1e-4)
 
 
 def test_a_faster_homing_speed_sets_the_alarm_limits() -> None:
