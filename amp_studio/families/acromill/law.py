@@ -71,8 +71,8 @@ _NOTES = (
         " sign the motor runs away."
     ),
     (
-        "The picture of the servo loop (page 95) and all traces of appendix C are lost. Taken: I Delay holds the integral, the"
-        " derivative is held between its samples, the output is rounded to words of 1/3276.8 V."
+        "The picture of the servo loop (page 95) and all traces of appendix C are lost. Taken: I Delay stops the integral, the"
+        " derivative is constant between its samples, the output is rounded to words of 1/3276.8 V."
     ),
 )
 _FILTER_NOTE = (
@@ -82,7 +82,7 @@ _FILTER_NOTE = (
 
 
 def axes(file: ParameterFile) -> Sequence[str]:
-    """Return the axes of the machine: as many as Number of Axes says, all eight where it is not set (page 102)."""
+    """Return the axes of the machine: as many as in Number of Axes, all eight if it is not set (page 102)."""
     count = file.evaluation.canonical((COUNT, ""))
     return AXES if not isinstance(count, float) else AXES[: max(0, int(count))]
 
@@ -249,6 +249,7 @@ def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
     return {
         "position_gain": Source(P_GAIN, page="59"),
         "derivative_gain": Source(D_GAIN, page="59"),
+        "integral_gain": Source("servo.i_gain", page="59"),
         "feed_forward": Source(VEL_FFWD, page="59"),
         "excess_error": Source(EXCESS, page="60"),
         "inposition_band": Source(BAND, page="60"),

@@ -1,11 +1,11 @@
 """The servo loop of an ACR controller, one servo period at a time: PID in volts, feed-forward, filters, torque limit.
 
-What the User's Guide says: units of the gains page 59 and appendix C, page 113; order of PID, filters and torque limit
+Printed in the User's Guide: units of the gains page 59 and appendix C, page 113; order of PID, filters and torque limit
 page 128; FBVEL, taken off where the PID goes into the filters, page 135. The picture of the servo loop (page 95) is
-lost. What is not printed and assumed: the integral keeps its value while I Delay holds it; the derivative is held
+lost. What is not printed and assumed: the integral keeps its value during I Delay; the derivative is constant
 between its samples; the output is rounded to whole words of the converter.
 
-``position_sample`` is ordinary Python over arrays of floats that numba can compile; it calls nothing of its own.
+``position_sample`` is ordinary Python over arrays of floats that numba can compile; it calls no other function.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
         return
     velocity, acceleration = io[COMMAND_VELOCITY] * p[PULSES], io[COMMAND_ACCELERATION] * p[PULSES]
     motor = io[MOTOR] * p[PULSES]
-    if io[MODE] == VELOCITY_LOOP:  # D Gain alone holds the speed, as in steps 8 and 9 of page 115
+    if io[MODE] == VELOCITY_LOOP:  # D Gain alone controls the speed, as in steps 8 and 9 of page 115
         s[RUN] += velocity * p[PERIOD]
         error, held = s[RUN] - io[POSITION] * p[PULSES], 0.0
     else:

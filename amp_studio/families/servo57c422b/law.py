@@ -55,9 +55,15 @@ COMMAND_DATA = (
 
 PER_VOLT = "model.velocity_per_output"
 _SCALES = {
-    "model.proportional_scale": (65536.0, "Proportional Gain that wants 1 count a scan for 1 count of error"),
-    "model.integral_scale": (65536.0, "Integral Gain that wants 1 count a scan for 1 count of summed error"),
-    "model.feedforward_scale": (8192.0, "Feedforward Gain that wants the commanded velocity itself"),
+    "model.proportional_scale": (
+        65536.0,
+        "Proportional Gain that commands 1 count a scan for 1 count of error",
+    ),
+    "model.integral_scale": (
+        65536.0,
+        "Integral Gain that commands 1 count a scan for 1 count of summed error",
+    ),
+    "model.feedforward_scale": (8192.0, "Feedforward Gain that adds the whole commanded velocity"),
     "model.velocity_scale": (1.0, "Velocity Gain that puts out 1 word (10 V / 1984) for 1 count a scan"),
 }
 SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
@@ -269,7 +275,9 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
 
 def _sources() -> Mapping[str, Source]:
     return {
-        "position_gain": Source(PROPORTIONAL, whole=True, page="4-7"),
+        "position_gain": Source(PROPORTIONAL, whole=True, largest=_WORD[1], page="4-7"),
+        "velocity_gain": Source(VELOCITY, whole=True, largest=_WORD[1], page="4-7"),
+        "integral_gain": Source(INTEGRAL, whole=True, largest=_WORD[1], page="4-7"),
         "feed_forward": Source(FEED_FORWARD, whole=True, page="4-8"),
         "excess_error": Source(POSITION_ERROR, whole=True, page="4-8"),
         "inposition_band": Source(BAND, whole=True, page="4-10"),

@@ -1,6 +1,6 @@
-"""Cam profiles of the 57C422B: where the module wants the axis to be (pages 4-49 to 4-56).
+"""Cam profiles of the 57C422B: the commanded position of the axis (pages 4-49 to 4-56).
 
-A time cam holds travel for one interval after another; a position cam holds positions over those of a master. How the
+A time cam contains travel for one interval after another; a position cam contains positions over those of a master. How the
 module spreads a travel over the scans of its interval is not printed; taken is a constant speed.
 """
 

@@ -157,7 +157,7 @@ def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
             "lost_in_ramp": (lost, "counts"),
         },
         "With ramp velocity control the axis comes to the speed of its master and what it lost in the ramp stays lost: the"
-        " manual says nothing of catching up (page 4-21)."
+        " manual has no word of catching up (page 4-21)."
         if ramped
         else "Without ramp velocity control the axis accelerates in current limit (page 4-24).",
         rest=-SCAN,  # the master runs on

@@ -1,4 +1,4 @@
-"""Electronic gearing of the 57C422B: where the module wants the geared axis to be, scan by scan (pages 4-15, 4-20, 4-24)."""
+"""Electronic gearing of the 57C422B: the commanded position of the geared axis, scan by scan (pages 4-15, 4-20, 4-24)."""
 
 from __future__ import annotations
 

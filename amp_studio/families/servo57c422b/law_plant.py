@@ -1,6 +1,6 @@
 """The motor behind a 57C422B, which the module knows nothing of: figures that are assumed, named and settable.
 
-The manual prints no motor. What its two tuned programs (pages 4-48 and 5-5) say about one, read with the scales of
+The manual prints no motor. The evidence of its two tuned programs (pages 4-48 and 5-5), read with the scales of
 `law_sample.py`, in words (1984 is 10 V) and counts a scan (1.25 ms):
 
     program    velocity gain   feed-forward   viscous friction = gain × (feed-forward / 8192 - 1)   deadband
@@ -8,7 +8,7 @@ The manual prints no motor. What its two tuned programs (pages 4-48 and 5-5) say
     page 5-5             140           8256                                                   1.09        27
 
 The acceleration is such that both programs are stable and well damped and a velocity gain well above them makes the
-motor vibrate, as step 4 of page 5-4 says.
+motor vibrate, as in step 4 of page 5-4.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ VELOCITY = {
         "Full speed of the drive at 10 V is not in the registers: 1000000 counts/s, the most that the encoder inputs take"
         " (page A-1). Set model.velocity_per_output in counts/s for 1 V."
     ),
-    "velocity_bandwidth": "The drive closes the velocity loop with settings of its own (page 4-4).",
+    "velocity_bandwidth": "The drive closes the velocity loop with separate settings (page 4-4).",
 }
 """Figures of the machine that are assumed -> why."""
 

@@ -2,7 +2,7 @@
 
 Printed: the order of the commands and of the gains, what each needs, what it leaves, and that the axis moves both ways.
 How the module searches is not printed. Here it searches as a person would by sections 5.2.2 of the manual: a gain is
-doubled until the shaft vibrates, the edge is found by halves, and a third of it is left: ASSUMED, and said with the result.
+doubled until the shaft vibrates, the edge is found by halves, and a third of it is left: ASSUMED, and in the result.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ QUIET = 40.0
 WAY = 0.1
 """s of each of the four ramps of the move there and back."""
 REST = 0.2
-"""s of rest after it, of which the last half is looked at."""
+"""s of rest after it, of which the last half is checked."""
 
 
 @dataclass(frozen=True)

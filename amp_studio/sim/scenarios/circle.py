@@ -102,7 +102,7 @@ def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None)
 def _circle(
     axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel], settings: Settings
 ) -> _Circle:
-    size = 1000.0 if axis.unit == "counts" else 1.0  # a count stands for a thousandth
+    size = 1000.0 if axis.unit == "counts" else 1.0  # a count is taken as a thousandth
     radius = above_zero(settings, "move.radius") or RADIUS * size
     given = above_zero(settings, "move.feedrate")
     known = [each.feedrate / 2.0 for each in (axis, other) if each.feedrate]

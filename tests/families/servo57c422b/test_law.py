@@ -206,6 +206,13 @@ def test_feed_forward_takes_the_following_error_at_speed_away_and_too_much_turns
     assert errors[3] < -10.0
 
 
+def test_the_s_curve_takes_twice_the_time_of_the_trapezoid_to_accelerate_and_decelerate() -> None:
+    ramps = axis_of(command__deceleration=100_000.0).ramps  # page 4-25
+    ends = {name: end_of(move(60_000.0, 40_000.0, ramps[name])) for name in ("none", "linear", "s-curve")}
+    assert ends["linear"] - ends["none"] == pytest.approx(0.5 * (0.2 + 0.4))  # 40000 counts/s with each rate
+    assert ends["s-curve"] - ends["none"] == pytest.approx(0.2 + 0.4)
+
+
 def test_the_viscous_friction_is_what_both_programs_feed_forward_above_8192() -> None:
     first, second = 140 * (8256 / 8192 - 1), 78 * (8320 / 8192 - 1)
     assert (first, second) == pytest.approx((1.094, 1.219), abs=0.001)
