@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
+from functools import cache
+from pathlib import Path
 
 import pytest
 
 from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file
+from amp_studio.report import write_report
+from amp_studio.report.model import Sort
 from amp_studio.schema import Value
 
 LOOPS = ("digital", "analog", "sercos")
 
 
+DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
+
+
 @pytest.fixture
 def date() -> datetime:
-    return datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
+    return DATE
 
 
 def with_servos(axes: Iterable[str]) -> ParameterFile:
@@ -28,9 +35,9 @@ def with_servos(axes: Iterable[str]) -> ParameterFile:
     return file
 
 
-@pytest.fixture
-def mill() -> ParameterFile:
-    """Return a mill with a changed value, one in inches, one forced out of range and one taken away."""
+@pytest.fixture(scope="session")
+def first_mill() -> ParameterFile:
+    """Return the mill of which each test has a copy."""
     file = with_servos(["X", "Y", "Z", "B", "S"])
     file.set(("home.calibration", "1"), Value(12.5, "mm"))
     file.set(("home.calibration", "2"), Value(-0.1, "in"))
@@ -42,6 +49,34 @@ def mill() -> ParameterFile:
 
 
 @pytest.fixture
-def eight_axes() -> ParameterFile:
-    """Return a mill with every axis fitted."""
+def mill(first_mill: ParameterFile) -> ParameterFile:
+    """Return a mill with a changed value, one in inches, one forced out of range and one taken away."""
+    return first_mill.copy()
+
+
+@pytest.fixture(scope="session")
+def first_eight_axes() -> ParameterFile:
+    """Return the mill with every axis fitted of which each test has a copy."""
     return with_servos(["X", "Y", "Z", "A", "B", "C", "U", "S"])
+
+
+@pytest.fixture
+def eight_axes(first_eight_axes: ParameterFile) -> ParameterFile:
+    """Return a mill with every axis fitted."""
+    return first_eight_axes.copy()
+
+
+@pytest.fixture(scope="session")
+def printed(
+    first_mill: ParameterFile, first_eight_axes: ParameterFile, tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[str, Sort], Path]:
+    """Return what prints the mill, or the one with eight axes, in an order: once for all tests that read it."""
+    folder, files = tmp_path_factory.mktemp("printed"), {"mill": first_mill, "eight axes": first_eight_axes}
+
+    @cache
+    def path_of(which: str, sort: Sort) -> Path:
+        path = folder / f"{which}-{sort}.pdf"
+        write_report(files[which].copy(), path, sort=sort, source=folder / "mill.amp", date=DATE)
+        return path
+
+    return path_of

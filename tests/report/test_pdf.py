@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from datetime import datetime
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -28,30 +28,30 @@ def pages_of(path: Path) -> int:
     return int(found.group(1))
 
 
+def texts_of(path: Path, *options: str) -> list[str]:
+    """Return the text of each page."""
+    return said_by("pdftotext", *options, path, "-").split("\f")[:-1]
+
+
 @poppler
 @pytest.mark.parametrize("sort", SORTS)
-def test_every_page_bears_machine_file_and_its_number(
-    tmp_path: Path, mill: ParameterFile, date: datetime, sort: Sort
-) -> None:
-    path = tmp_path / "r.pdf"
-    write_report(mill, path, sort=sort, source=tmp_path / "mill.amp", date=date)
-    count = pages_of(path)
-    assert count >= 3
-    for page in range(1, count + 1):
-        text = said_by("pdftotext", "-layout", "-f", str(page), "-l", str(page), path, "-")
+def test_every_page_bears_machine_file_and_its_number(printed: Callable[..., Path], sort: Sort) -> None:
+    path = printed("mill", sort)
+    pages = texts_of(path, "-layout")
+    assert len(pages) == pages_of(path) >= 3
+    for number, text in enumerate(pages, 1):
         assert "Mill 7" in text
         assert "mill.amp" in text
-        assert f"page {page} of {count}" in text
+        assert f"page {number} of {len(pages)}" in text
         assert "2026-07-01 14:05" in text
 
 
 @poppler
 @pytest.mark.parametrize("sort", SORTS)
 def test_every_value_is_printed_and_table_heads_are_repeated(
-    tmp_path: Path, eight_axes: ParameterFile, sort: Sort
+    printed: Callable[..., Path], eight_axes: ParameterFile, sort: Sort
 ) -> None:
-    path = tmp_path / "r.pdf"
-    write_report(eight_axes, path, sort=sort)
+    path = printed("eight axes", sort)
     text = said_by("pdftotext", "-raw", path, "-")
     words = set(text.split())
     if sort != "group":
@@ -59,26 +59,23 @@ def test_every_value_is_printed_and_table_heads_are_repeated(
     assert "Set up by" in text
     assert "Released by" in text
     heads = {"Where", "Number"}  # of findings, of values
-    for page in range(2, pages_of(path) + 1):
-        assert heads & set(said_by("pdftotext", "-f", str(page), "-l", str(page), path, "-").split()), page
+    for number, page in enumerate(texts_of(path)[1:], 2):
+        assert heads & set(page.split()), number
 
 
 @poppler
+@pytest.mark.parametrize(
+    ("which", "sort", "across"),
+    [("eight axes", "group", True), ("eight axes", "number", False), ("mill", "axis", False)],
+)
 def test_many_axes_lie_across_the_page_and_few_do_not(
-    tmp_path: Path, mill: ParameterFile, eight_axes: ParameterFile
+    printed: Callable[..., Path], which: str, sort: Sort, across: bool
 ) -> None:
-    for file, sort, across in (
-        (eight_axes, "group", True),
-        (eight_axes, "number", False),
-        (mill, "axis", False),
-    ):
-        write_report(file, tmp_path / "r.pdf", sort=sort)  # type: ignore[arg-type]
-        last = str(pages_of(tmp_path / "r.pdf"))
-        size = re.search(
-            r"size:\s+([\d.]+) x ([\d.]+)", said_by("pdfinfo", "-f", last, "-l", last, tmp_path / "r.pdf")
-        )
-        assert size
-        assert (float(size.group(1)) > float(size.group(2))) == across
+    path = printed(which, sort)
+    last = str(pages_of(path))
+    size = re.search(r"size:\s+([\d.]+) x ([\d.]+)", said_by("pdfinfo", "-f", last, "-l", last, path))
+    assert size
+    assert (float(size.group(1)) > float(size.group(2))) == across
 
 
 @poppler
@@ -98,9 +95,8 @@ def test_nothing_runs_over_the_edge_of_its_column(tmp_path: Path, eight_axes: Pa
 
 
 @poppler
-def test_only_fonts_that_travel_in_the_file_are_used(tmp_path: Path, mill: ParameterFile) -> None:
-    write_report(mill, tmp_path / "r.pdf")
-    lines = said_by("pdffonts", tmp_path / "r.pdf").splitlines()[2:]
+def test_only_fonts_that_travel_in_the_file_are_used(printed: Callable[..., Path]) -> None:
+    lines = said_by("pdffonts", printed("mill", "group")).splitlines()[2:]
     assert lines
     assert all(re.search(r"\byes yes (yes|no)\b", line) for line in lines), lines
     assert {line.split("+")[1].split("-")[0] for line in lines} == {"LibertinusSerif"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
@@ -31,9 +32,16 @@ def test_a_new_file_is_printed_in_every_format_and_order(
     assert list(tmp_path.iterdir()) == [path], "nothing else may be left in the folder, not even a backup"
 
 
-@pytest.mark.parametrize("family", family_ids())
-@pytest.mark.parametrize("ending", FORMATS)
-@pytest.mark.parametrize("sort", SORTS)
+EVERY_FAMILY = [
+    (family, ending, sort)
+    for n, family in enumerate(family_ids())
+    for ending in FORMATS
+    for at, sort in enumerate(SORTS)
+    if ending != ".pdf" or at == n % len(SORTS)  # which is set from the same rows as the others
+]
+
+
+@pytest.mark.parametrize(("family", "ending", "sort"), EVERY_FAMILY)
 def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort: Sort) -> None:
     path = tmp_path / f"report{ending}"
     write_report(new_file(family), path, sort=sort)
@@ -105,9 +113,8 @@ def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill
 
 
 @pytest.mark.parametrize("sort", SORTS)
-def test_a_full_machine_is_set_in_every_order(tmp_path: Path, eight_axes: ParameterFile, sort: Sort) -> None:
-    write_report(eight_axes, tmp_path / "report.pdf", sort=sort)
-    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF-")
+def test_a_full_machine_is_set_in_every_order(printed: Callable[..., Path], sort: Sort) -> None:
+    assert printed("eight axes", sort).read_bytes().startswith(b"%PDF-")
 
 
 def test_writing_a_report_changes_nothing_in_the_file(tmp_path: Path, mill: ParameterFile) -> None:
