@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -123,7 +124,7 @@ def parser() -> argparse.ArgumentParser:
         sub.add_argument("--expect", metavar="SHA256",
                          help="only where the control contains the image with this digest, as verify and upload print it")  # fmt: skip
         sub.add_argument(
-            "--keep", type=_path, metavar="DIR", help=f"where to keep what the control contained ({kept})"
+            "--keep", type=_folder, metavar="DIR", help=f"where to keep what the control contained ({kept})"
         )
 
     sub = verb("families", "facts", "list the control families")
@@ -188,8 +189,8 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--dry-run", action="store_true", help="change nothing, show what would change")
     json_option(sub)
     sub = verb("diff", "files", "differences by parameter; A or B may be a control's address")
-    sub.add_argument("a")
-    sub.add_argument("b")
+    sub.add_argument("a", type=_file_or_address)
+    sub.add_argument("b", type=_file_or_address)
     json_option(sub)
     secrets_option(sub)
     sub = verb("merge", "files", "three-way merge by parameter", writes="output")
@@ -222,7 +223,7 @@ def parser() -> argparse.ArgumentParser:
     sub = verb("emulate", "control", "an emulated control that takes downloads and gives uploads")
     sub.add_argument("family")
     sub.add_argument("--listen", required=True, metavar="ADDRESS")
-    sub.add_argument("--state", type=_path, metavar="DIR", help="where the control keeps its memory")
+    sub.add_argument("--state", type=_folder, metavar="DIR", help="where the control keeps its memory")
     sub.add_argument("--machine", help="machine type of the parameters it starts with")
     sub.add_argument("--no-estop", action="store_true", help="start out of E-stop")
     sub.add_argument(
@@ -302,7 +303,30 @@ def _path(text: str) -> Path:
     """Return a path; an empty text, as of a variable that is not set, is not the current folder."""
     if not text:
         raise argparse.ArgumentTypeError("the path is empty")
-    return Path(text)
+    path = Path(text)
+    if text.endswith((os.sep, "/", "/.")) and not _is_folder(path):  # Path forgets what it ended with
+        raise argparse.ArgumentTypeError(f"{text} ends like a folder, and there is no such folder")
+    return path
+
+
+def _file_or_address(text: str) -> str:
+    """Return the path of a file, or the address of a control."""
+    if "://" not in text:
+        _path(text)
+    return text
+
+
+def _folder(text: str) -> Path:
+    """Return the path of a folder, which need not be there."""
+    path = Path(text)
+    return path if text and not path.exists() else _path(text)
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
 
 
 def verbs_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:

@@ -50,10 +50,15 @@ def _content_of(path: Path) -> bytes | None:
         return None
 
 
+_OF_A_FOLDER = {"project.yaml", "rules.yaml"}
+
+
 def check_output(path: Path, *inputs: Path) -> None:
     """Refuse an output that cannot be written, or with which one of the inputs would be lost; raises SaveError."""
     with _as_save_error(path):
         real = destination(path)
+    if real.name.casefold() in _OF_A_FOLDER:
+        raise SaveError(f"{path} is read with every file of its folder: choose another name for the output")
     for source in inputs:
         said = ""
         if same_file(real, source):

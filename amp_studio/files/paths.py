@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import stat
 from pathlib import Path
 
@@ -14,6 +15,8 @@ _LONGEST_NAME = 255
 """Bytes of a file name, on nearly every file system."""
 _BACKUP, _HISTORY = "{}.bak", "{}.history"
 _COMPANIONS = (_BACKUP, _HISTORY, ".{}.lock", ".{}.holder", ".{}.unsaved")
+_OF_A_FILE = re.compile(r"(.+\.amp)\.(?:bak|history)|\.(.+)\.(?:lock|holder|unsaved)", re.IGNORECASE)
+"""Names that only the program itself writes to."""
 
 
 def real_path(path: Path) -> Path:
@@ -41,6 +44,9 @@ def is_there(path: Path) -> bool:
 def destination(path: Path) -> Path:
     """Return the file that writing to a path makes or replaces; raises OSError for a path that must not be written to."""
     real = real_path(path)
+    if belongs := _OF_A_FILE.fullmatch(real.name):
+        said = f"Belongs to {belongs[1] or belongs[2]}: choose another name"
+        raise OSError(errno.EINVAL, said, str(path))
     try:
         found = os.lstat(real)
     except FileNotFoundError:

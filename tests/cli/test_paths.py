@@ -91,10 +91,10 @@ def test_an_output_that_is_the_input_by_another_name_is_refused(
         ("mill.amp", "is the input"),
         ("./mill.amp", "is the input"),
         ("below/../mill.amp", "is the input"),
-        ("mill.amp.bak", "belongs to the input"),
-        ("mill.amp.history", "belongs to the input"),
-        (".mill.amp.unsaved", "belongs to the input"),
-        (".mill.amp.lock", "belongs to the input"),
+        ("mill.amp.bak", "Belongs to mill.amp"),
+        ("mill.amp.history", "Belongs to mill.amp"),
+        (".mill.amp.unsaved", "Belongs to mill.amp"),
+        (".mill.amp.lock", "Belongs to mill.amp"),
     ],
 )
 def test_an_export_onto_the_file_itself_or_what_is_kept_beside_it_is_refused(
@@ -225,3 +225,38 @@ def test_a_path_that_nobody_can_look_at_and_an_empty_folder_end_no_other_check(
 def test_an_empty_path_is_not_the_folder_one_stands_in(amp, verb: str) -> None:
     more = {"set": ["1300=1 mm"], "export": ["-o", "out.csv"]}.get(verb, [])
     assert "the path is empty" in amp(verb, "", *more).err
+
+
+@pytest.mark.parametrize("name", [".other.amp.lock", ".other.amp.holder", ".other.amp.unsaved", "other.amp.bak", "other.amp.history",
+                                  "project.yaml", "rules.yaml", "RULES.YAML"])  # fmt: skip
+def test_nothing_is_written_under_a_name_that_the_program_keeps_for_itself(
+    amp, mill: Path, name: str
+) -> None:
+    """Not beside any other file either, whether that file is there or not."""
+    output, before = mill.parent / name, sorted(mill.parent.iterdir())
+    for words in (
+        ("export", mill, "-o", output, "--format", "csv"),
+        ("merge", mill, mill, mill, "-o", output),
+        ("new", "9pc", output),
+        ("simulate", mill, "step", "-o", output),
+    ):
+        said = amp(*words)
+        assert (said.code, said.out) == (2, "")
+        assert "choose another name" in said.err or "written to such a name" in said.err or "-o" in said.err
+    assert sorted(mill.parent.iterdir()) == before
+
+
+@pytest.mark.parametrize("ending", ["/", "//", "/."])
+def test_a_name_that_ends_like_a_folder_is_not_the_file_before_it(amp, mill: Path, ending: str) -> None:
+    content = mill.read_bytes()
+    for words in (
+        ("get", f"{mill}{ending}", "1300"),
+        ("set", f"{mill}{ending}", "1300=5"),
+        ("diff", f"{mill}{ending}", mill),
+        ("report", mill, "-o", f"{mill.parent}/new.txt{ending}"),
+        ("new", "9pc", f"{mill.parent}/new.amp{ending}"),
+    ):
+        said = amp(*words)
+        assert (said.code, "ends like a folder, and there is no such folder" in said.err) == (2, True)
+    assert (mill.read_bytes(), (mill.parent / "new.txt").exists()) == (content, False)
+    assert amp("validate", f"{mill.parent}{ending}").code in (0, 1), "a folder may be written so"

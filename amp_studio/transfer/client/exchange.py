@@ -90,6 +90,7 @@ def download(
     signature: str,
     expected: bytes | None = None,
     is_return: bool = False,
+    what: str = "Download",
     progress: Progress = quiet,
     cancel: threading.Event | None = None,
     restart_wait: float = RESTART_WAIT,
@@ -101,7 +102,7 @@ def download(
     ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
     schema's under which the image was made. ``expected`` is the SHA-256 of the image that may be replaced; None
     for whatever is there. ``is_return`` means that the control has contained this image before: one that remembers
-    what it contained decides by itself whether it takes it. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
+    what it contained decides by itself whether it takes it. ``what`` is the first word of the result. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
     where its old image is.
     """
     digest = hashlib.sha256(image)
@@ -129,7 +130,7 @@ def download(
         error.kept = kept
         raise
     try:
-        return _prove(driver, image, receipt, kept, progress, cancel, restart_wait)
+        return _prove(driver, image, receipt, kept, progress, cancel, restart_wait, what)
     except TransferError as error:
         error.at_control, error.kept = "new", kept
         raise
@@ -203,14 +204,15 @@ def _prove(
     progress: Progress,
     cancel: threading.Event | None,
     restart_wait: float,
+    what: str,
 ) -> Outcome:
-    """Wait for the restart, read back, compare."""
+    """Wait for the restart, read back, compare; ``what`` was done."""
     digest = hashlib.sha256(image).hexdigest()
     before = f" What it contained before is kept in {kept}." if kept else " It was empty before."
     restart: Literal["done", "needed"] = "needed"
     if receipt.restarting:
         if not driver.wait_restarted(receipt, restart_wait, progress, cancel):
-            text = "Download complete, but the control has not come back from its restart "
+            text = f"{what} complete, but the control has not come back from its restart "
             text += f"within {restart_wait:g} s."
             return Outcome("new", False, True, kept, "missed", digest, text + before)
         restart = "done"
@@ -220,7 +222,7 @@ def _prove(
         text = f"The control took the image, but what it contains differs from byte {at} on; "
         text += f"{AT_CONTROL_TEXT['unknown']}."
         return Outcome("unknown", False, True, kept, restart, digest, text + before)
-    text = "Download complete and read back equal"
+    text = f"{what} complete and read back equal"
     text += (
         "; the control has restarted with it."
         if restart == "done"

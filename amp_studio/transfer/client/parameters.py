@@ -59,7 +59,7 @@ def restore_copy(
     approved = read_digest(expected)
     with closing(open_driver(address, family)) as driver:
         return download(driver, copy.image, _keep_in(folder, stem), signature=copy.signature, expected=approved,
-                        is_return=copy.is_kept, progress=progress, cancel=cancel)  # fmt: skip
+                        is_return=copy.is_kept, what="Restore", progress=progress, cancel=cancel)  # fmt: skip
 
 
 def _keep_in(folder: Path, stem: str) -> Keep:

@@ -82,7 +82,9 @@ def test_whatever_a_control_holds_is_kept_replaced_and_put_back(
     assert first.read_bytes() == at_control
     assert control.active.read_bytes() == sent
 
+    assert control.said()[0].startswith("Download complete and read back equal; the control has restarted")
     assert run(["restore", str(first), "--to", control.address, "--expect", sha(sent)]) == 0
+    assert control.said()[0].startswith("Restore complete and read back equal; the control has restarted")
     assert control.active.read_bytes() == at_control
     [second] = [path for path in control.kept() if path != first]
     assert second.name.startswith("mill.before-")
