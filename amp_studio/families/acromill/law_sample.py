@@ -66,19 +66,19 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     motor = io[MOTOR] * p[PULSES]
     if io[MODE] == VELOCITY_LOOP:  # D Gain alone controls the speed, as in steps 8 and 9 of page 115
         s[RUN] += velocity * p[PERIOD]
-        error, held = s[RUN] - io[POSITION] * p[PULSES], 0.0
+        error, closed = s[RUN] - io[POSITION] * p[PULSES], 0.0
     else:
-        error, held = (io[COMMAND] - io[POSITION]) * p[PULSES], 1.0
+        error, closed = (io[COMMAND] - io[POSITION]) * p[PULSES], 1.0
 
     s[RESTING] = s[RESTING] + p[PERIOD] if velocity == 0.0 and acceleration == 0.0 else 0.0
     if p[I_DELAY] == 0.0 or s[RESTING] > p[I_DELAY]:
-        wanted = s[INTEGRAL] + held * p[I_GAIN] * error * p[PERIOD]
+        wanted = s[INTEGRAL] + closed * p[I_GAIN] * error * p[PERIOD]
         s[INTEGRAL] = min(max(wanted, -p[I_LIMIT]), p[I_LIMIT])
     s[SAMPLE_IN] -= 1.0
     if s[SAMPLE_IN] <= 0.0:
         s[DERIVATIVE] = p[D_GAIN] * (error - s[ERROR_SAMPLED]) / (p[D_PERIODS] * p[PERIOD])
         s[ERROR_SAMPLED], s[SAMPLE_IN] = error, p[D_PERIODS]
-    proportional = held * p[P_GAIN] * error
+    proportional = closed * p[P_GAIN] * error
     forward = p[VEL_FFWD] * velocity + p[ACC_FFWD] * acceleration
     volts = proportional + s[INTEGRAL] + s[DERIVATIVE] + forward
     volts -= p[FBVEL] * (motor - s[MOTOR_BEFORE]) / p[PERIOD]

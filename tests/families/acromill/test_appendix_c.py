@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 
 from amp_studio.families.acromill import formulas as acromill
 from amp_studio.families.acromill import law_plant as plant
+from amp_studio.sim.linear import linear_model
 from tests.families.acromill.appendix_c import PRINTED, TURN, VERIFIED, Scope, axis_of, index, trace
 
 BOTH_RAMPS = pytest.mark.parametrize("ramp", [PRINTED, VERIFIED], ids=["ACC 500", "100 ms"])
@@ -67,6 +68,14 @@ def test_the_delay_puts_the_limit_of_stability_between_0_08_and_one_step_more() 
     longest = brentq(lambda delay: largest_pole(0.05, 0.00005, delay) - 1.0, 0.0005, 0.0007999)
     assert shortest == pytest.approx(0.000593, abs=0.000001)
     assert longest == pytest.approx(0.000691, abs=0.000001)
+
+
+@pytest.mark.parametrize(("run", "p_gain"), [(4, 0.05), (11, 0.08), (11, 0.11)])
+def test_the_linear_model_of_the_law_has_the_same_largest_pole(run: int, p_gain: float) -> None:
+    model = linear_model(axis_of(run, servo__p_gain=p_gain))
+    d_gain = 0.00005 if run == 4 else 0.00021
+    assert abs(model.poles()[0]) == pytest.approx(largest_pole(p_gain, d_gain), abs=1e-6)
+    assert model.is_stable() == (p_gain < 0.097)
 
 
 # -- the steps -------------------------------------------------------------------------------------
