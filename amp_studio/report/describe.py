@@ -18,7 +18,8 @@ from amp_studio.schema import (
 from amp_studio.schema.model import BoundRef, Choice, StateRule
 from amp_studio.validate import Finding, Setting, Suppressed
 
-from .manual_page import entry_units, erratum_text, sharing_numbers
+from .manual_page import entry_units, erratum_text
+from .number_text import sharing_numbers
 from .wording import severity_name
 
 

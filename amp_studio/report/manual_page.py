@@ -6,7 +6,6 @@ import inspect
 import re
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby, pairwise
 
 from amp_studio.schema import (
     Address,
@@ -24,6 +23,7 @@ from amp_studio.schema import (
 from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, Range
 from amp_studio.validate import formulas
 
+from .number_text import instances_without_number, number_lines, short_span, split_count
 from .printed_table import table_lines, tables_of
 from .wording import severity_name, state_name
 
@@ -138,12 +138,12 @@ def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
 def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> list[tuple[str, str]]:
     """Return the short facts of a parameter as (title, text), for one machine type or for all of them."""
     group = schema.group_of[parameter.id]
-    found = [("Number", text) for text in _numbers(schema, parameter, machine)]
+    found = [("Number", text) for text in number_lines(schema, parameter, machine)]
     found += [
         ("Id", parameter.id),
         ("Group", f"{group.name}: {group.section}" if group.section else group.name),
     ]
-    found += [("Instances", text) for text in _instances_without_number(schema, parameter, machine)]
+    found += [("Instances", text) for text in instances_without_number(schema, parameter, machine)]
     found += [("Range", text) for text in _ranges(schema, parameter)]
     found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
     found += [("Bits", text) for text in _bits(parameter)]
@@ -172,79 +172,6 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
     pages = " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
     found.append(("Source", f"{schema.family.title}, page {pages}"))
     return found
-
-
-def _numbers(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
-    """Yield the numbers, once if they are the same on all machine types."""
-    machines = [m for m in schema.family.machines if machine in (None, m.key)]
-    texts = {m.name: _spans(schema, parameter, m.key) for m in machines}
-    if len(set(texts.values())) == 1:
-        yield next(iter(texts.values()))
-    else:
-        yield from (f"{text} on a {name.lower()}" for name, text in texts.items() if text)
-
-
-def _instances_without_number(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
-    """Yield ``fov.position@1 to fov.position@16 (Pos 1 to Pos 16)`` for instances that no number addresses."""
-    texts: dict[str, None] = {}
-    for key in [m.key for m in schema.family.machines if machine in (None, m.key)]:
-        here = schema.on(key)
-        numbers = {} if here.is_disputed(parameter.id) else here.numbers(parameter)
-        bare = [i for i in here.instances(parameter) if i and i not in numbers]
-        if bare:
-            ends = list(dict.fromkeys((bare[0], bare[-1])))
-            named = " to ".join(here.instance_label((parameter.id, i)) for i in ends)
-            texts[" to ".join(f"{parameter.id}@{i}" for i in ends) + f" ({named})"] = None
-    yield from texts
-
-
-def sharing_numbers(schema: Schema, parameter: Parameter) -> list[str]:
-    """Return the other parameters for which the manual prints numbers of this one."""
-    machines = [schema.on(m.key) for m in schema.family.machines]
-    claims = (a for m in machines for n in m.numbers(parameter).values() for a in m.claims(n))
-    return [i for i in dict.fromkeys(a[0] for a in claims) if i != parameter.id]
-
-
-def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
-    """Return ``1300, 2300 … 8300 (Axis 1 to Axis 8)``."""
-    here = schema.on(machine)
-    numbers = here.numbers(parameter)
-    if not numbers:
-        return "none" if here.layout(parameter) else ""
-    runs = []
-    for _, group in groupby(numbers.items(), key=lambda item: item[0].rpartition(".")[0]):
-        members = list(group)
-        runs += [members] if _even(members) else [[member] for member in members]
-    text = "; ".join(_run(schema, parameter, machine, run) for run in runs)
-    others = sharing_numbers(schema, parameter)
-    if not others:
-        return text
-    named = ", ".join(f"{schema.parameters[i].name} ({i})" for i in others)
-    if here.is_disputed(parameter.id):
-        return f"{text}; printed, but they address {named}"
-    return f"{text}; also printed for {named}"
-
-
-def _even(members: list[tuple[str, str]]) -> bool:
-    """Return whether the numbers have a constant step, so that first, second and last are enough."""
-    split = [_counted(number) for _, number in members]
-    steps = {b[1] - a[1] for a, b in pairwise(split)}
-    return len(split) > 2 and len({head for head, _ in split}) == len(steps) == 1 and steps != {0}
-
-
-def _counted(text: str) -> tuple[str, int]:
-    """Return a text without the digits at its end, and these digits as a number (0 without digits)."""
-    head = text.rstrip("0123456789")
-    return head, int(text[len(head) :] or 0)
-
-
-def _run(schema: Schema, parameter: Parameter, machine: str, run: list[tuple[str, str]]) -> str:
-    written = [number for _, number in run]
-    if len(written) > 3:
-        written = [written[0], f"{written[1]} … {written[-1]}"]
-    ends = (schema.on(machine).instance_label((parameter.id, run[end][0])) for end in (0, -1))
-    named = " to ".join(label for label in dict.fromkeys(ends) if label)
-    return ", ".join(written) + (f" ({named})" if named else "")
 
 
 def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
@@ -319,7 +246,7 @@ def _bits(parameter: Parameter) -> Iterator[str]:
 
 def _goes_on(a: Bit, b: Bit) -> bool:
     """Return whether a bit continues a series: Axis 3 after Axis 2."""
-    (head, number), (other, following) = _counted(a.label), _counted(b.label)
+    (head, number), (other, following) = split_count(a.label), split_count(b.label)
     plain = a.width == b.width == 1 and not a.choices and not b.choices and a.unknown == b.unknown
     return plain and head == other and following == number + 1 and b.bit == a.bit + 1
 
@@ -392,16 +319,9 @@ def erratum_text(erratum: Erratum) -> str:
     return f"{readings}. Used here: {erratum.taken.strip().rstrip('.')}. {why}"
 
 
-def _short_span(schema: Schema, parameter: Parameter, machine: str) -> str:
-    """Return ``1300…8300`` or, where there are no numbers, the instances: ``@1…@16``."""
-    own = {} if schema.on(machine).is_disputed(parameter.id) else schema.on(machine).numbers(parameter)
-    every = list(own.values()) or [f"@{i}" for i in schema.on(machine).instances(parameter) if i]
-    return "" if not every else every[0] if every[0] == every[-1] else f"{every[0]}…{every[-1]}"
-
-
 def one_line(schema: Schema, parameter: Parameter) -> str:
     """Return a parameter in one line: number, id, name, range."""
-    spans = (_short_span(schema, parameter, m.key) for m in schema.family.machines)
+    spans = (short_span(schema, parameter, m.key) for m in schema.family.machines)
     span = next((s for s in spans if s), "–")
     allowed = " / ".join(_printed_ranges(schema, parameter)) or ", ".join(
         c.label for c in parameter.choices or ()
