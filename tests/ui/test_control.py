@@ -347,7 +347,7 @@ def test_a_kept_copy_goes_back_byte_for_byte_after_a_look_at_what_that_changes(
     person.types(control.address)
     action(window, "Restore Control From Backup").trigger()
 
-    assert person.reads().startswith("Download complete and read back equal")
+    assert person.reads().startswith("Restore complete and read back equal")
     assert parameters.fetch_image(control.address) == before
     assert [title for title, _ in previews] == ["Download", "Restore"]
     assert previews[1][1] > 100
@@ -373,7 +373,7 @@ def test_garbage_that_was_kept_is_asked_about_before_it_goes_back(
         action(window, "Restore Control From Backup").trigger()
         assert "cannot be shown" in person.asked[-1]
         assert (parameters.fetch_image(control.address) == garbage) is held
-    assert person.reads().startswith("Download complete and read back equal")
+    assert person.reads().startswith("Restore complete and read back equal")
 
 
 def test_a_copy_that_was_changed_is_not_put_back(window: MainWindow, person: Person, tmp_path: Path) -> None:
