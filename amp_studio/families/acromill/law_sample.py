@@ -98,5 +98,5 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     io[OUTPUT] = volts
     io[MONITOR], io[MONITOR + 1] = proportional, s[INTEGRAL]
     io[MONITOR + 2], io[MONITOR + 3] = s[DERIVATIVE], forward
-    if p[EXCESS] > 0.0 and abs(error) > p[EXCESS]:
+    if p[EXCESS] > 0.0 and closed * abs(error) > p[EXCESS]:
         io[STOP] = EXCESS_ERROR

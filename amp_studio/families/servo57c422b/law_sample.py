@@ -33,8 +33,8 @@ from amp_studio.sim.signals import (
     OUTPUT,
     OUTPUT_TEST,
     POSITION,
+    POSITION_LOOP,
     STOP,
-    VELOCITY_LOOP,
 )
 
 SCAN = 0.00125
@@ -54,9 +54,9 @@ POSITION_ERROR, VELOCITY_ERROR = 8, 9
 PARAMETERS = 10
 
 # State.
-BEFORE, SUM = 0, 1
-"""Counts at the last scan; sum of the errors, counts."""
-STATE = 2
+BEFORE, SUM, WANTED, CUT = 0, 1, 2, 3
+"""Counts at the last scan; sum of the errors, counts; counts a scan; words that the clamp took off the last output."""
+STATE = 4
 
 POSITION_FAULT, VELOCITY_FAULT = 1.0, 2.0
 """STOP: register 73, bits 4 and 5."""
@@ -65,33 +65,40 @@ MONITORS = (("wanted_velocity", "counts/scan"), ("velocity_error", "counts/scan"
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
-    """One scan: from command and measured position to volts."""
-    position, commanded = io[POSITION], io[COMMAND_VELOCITY] * SCAN
-    velocity = io[MOTOR] - s[BEFORE]  # the same encoder
+    """The position loop in one scan: from command and measured position to the wanted velocity."""
+    commanded = io[COMMAND_VELOCITY] * SCAN
+    s[WANTED] = commanded
+    if io[MODE] == POSITION_LOOP:
+        error = io[COMMAND] - io[POSITION]
+        if error * s[CUT] <= 0.0:  # a clamped output lets the sum only shrink
+            s[SUM] += error
+        s[WANTED] = p[FEED_FORWARD] * commanded + p[PROPORTIONAL] * error + p[INTEGRAL] * s[SUM]
+        if p[POSITION_ERROR] >= 0.0 and abs(error) > p[POSITION_ERROR]:
+            io[STOP] = POSITION_FAULT
+
+
+def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """The velocity loop in the same scan: from wanted and measured velocity to volts."""
+    commanded, velocity = io[COMMAND_VELOCITY] * SCAN, io[MOTOR] - s[BEFORE]
     s[BEFORE] = io[MOTOR]
+    word = p[VELOCITY] * (s[WANTED] - p[CURRENT_REFERENCE] * velocity)
     if io[MODE] == OUTPUT_TEST:  # the direct drive reference of register 28
         word = io[COMMAND] * WORDS_PER_VOLT
-        io[OUTPUT] = min(max(word, -p[CLAMP]), p[CLAMP]) / WORDS_PER_VOLT
-        return
-    error, wanted = 0.0, commanded
-    if io[MODE] != VELOCITY_LOOP:
-        error = io[COMMAND] - position
-        wanted = p[FEED_FORWARD] * commanded + p[PROPORTIONAL] * error + p[INTEGRAL] * (s[SUM] + error)
-    word = p[VELOCITY] * (wanted - p[CURRENT_REFERENCE] * velocity)
-    if word > 0.0:
+    elif word > 0.0:
         word += p[DEADBAND]
     elif word < 0.0:
         word -= p[DEADBAND]
     cut = min(max(word, -p[CLAMP]), p[CLAMP])
-    if cut == word or word * error < 0.0:  # a clamped output lets the sum only shrink
-        s[SUM] += error
+    s[CUT] = word - cut
     if p[WHOLE_WORDS] > 0.0:
         cut = 1.0 * math.floor(cut + 0.5)
     io[OUTPUT] = cut / WORDS_PER_VOLT
-    io[MONITOR], io[MONITOR + 1], io[MONITOR + 2] = wanted, commanded - velocity, cut
-    if io[MODE] == VELOCITY_LOOP:
-        return
-    if p[POSITION_ERROR] >= 0.0 and abs(error) > p[POSITION_ERROR]:
-        io[STOP] = POSITION_FAULT
-    elif p[VELOCITY_ERROR] >= 0.0 and abs(commanded - velocity) > p[VELOCITY_ERROR]:
+    io[MONITOR], io[MONITOR + 1], io[MONITOR + 2] = s[WANTED], commanded - velocity, cut
+    if io[MODE] == POSITION_LOOP and 0.0 <= p[VELOCITY_ERROR] < abs(commanded - velocity):
         io[STOP] = VELOCITY_FAULT
+
+
+def whole_sample(p: Vector, s: Vector, io: Vector) -> None:
+    """Both in one, for a velocity reference: the velocity loop is in the drive."""
+    position_sample(p, s, io)
+    velocity_sample(p, s, io)

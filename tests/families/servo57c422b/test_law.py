@@ -261,7 +261,7 @@ def volts(io: dict[int, float], s: list[float] | None = None, **p: float) -> flo
     signals = [0.0] * 24
     for place, value in io.items():
         signals[place] = value
-    loop.position_sample(parameters, [0.0] * loop.STATE if s is None else s, signals)
+    loop.whole_sample(parameters, [0.0] * loop.STATE if s is None else s, signals)
     return signals[OUTPUT] if signals[STOP] == 0.0 else -99.0
 
 
@@ -290,8 +290,9 @@ def test_the_integral_sums_the_error_scan_by_scan_and_waits_while_the_output_is_
     assert [volts({COMMAND: 10.0}, s, INTEGRAL=0.5) * 198.4 for _ in range(3)] == pytest.approx(
         [5.0, 10.0, 15.0]
     )
-    assert volts({COMMAND: 10.0}, s, INTEGRAL=0.5, CLAMP=12.0) * 198.4 == pytest.approx(12.0)
-    assert s[loop.SUM] == 30.0
+    for _ in range(3):
+        assert volts({COMMAND: 10.0}, s, INTEGRAL=0.5, CLAMP=12.0) * 198.4 == pytest.approx(12.0)
+    assert s[loop.SUM] == 40.0
 
 
 def test_the_deadband_is_added_in_the_direction_of_the_output() -> None:
