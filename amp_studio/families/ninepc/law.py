@@ -25,6 +25,7 @@ from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
 from .law_figures import Loop, predictions
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
+from .law_tune import tune
 
 TITLE = "9/PC axis"
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
@@ -221,4 +222,4 @@ def _bounded(source: Source, unit: str) -> Source:
     return Source(source.parameter, source.scale, source.unit, source.whole, largest, source.page)
 
 
-LAW = Law(bind, settings=SETTINGS, advise=advise)
+LAW = Law(bind, settings=SETTINGS, advise=advise, own={"tune": tune})

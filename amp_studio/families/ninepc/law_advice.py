@@ -22,6 +22,8 @@ APERIODIC = 4.0
 Automation, 2001)."""
 INTEGRAL_SHARE = 10.0
 """The tuning procedure ends with an integral gain 5 to 10 times below the proportional one (A-9)."""
+ORDER_PRICE = "Less is left for a faster move or a lower gain."
+SLOWER = "Every change of speed takes longer."
 LOOSE = 2.0
 """Ratio of excess error to the recommended one from which it is too large. A choice of this program."""
 
@@ -54,7 +56,7 @@ class Move:
         return shown(value, self.axis.unit)
 
     def advise(
-        self, name: str, value: float, unit: str, why: str, *, up: bool = True
+        self, name: str, value: float, unit: str, why: str, price: str, *, up: bool = True
     ) -> Iterator[Recommendation]:
         """Yield the value in unit and bounds of the parameter behind a figure."""
         source = self.axis.sources.get(name, Source(name))
@@ -65,7 +67,9 @@ class Move:
             value = source.largest
             why = f"{why[:-1]}; the upper limit of {source.parameter} is {shown(value)}."
         why = f"{why[:-1]} (page {source.page})." if source.page else why
-        yield Recommendation(source.parameter, value, unit if source.unit is None else source.unit, why)
+        yield Recommendation(
+            source.parameter, value, unit if source.unit is None else source.unit, why, price
+        )
 
 
 def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
@@ -97,7 +101,8 @@ def _excess_error(m: Move) -> Iterator[Recommendation]:
     else:
         late = shown((now - wanted) / m.rapid, "s", 3)
         why = f"{speed}; at {m.length(now)} a blocked axis is detected {late} later than with 110 % of the error."
-    yield from m.advise("excess_error", wanted, m.axis.unit, why)
+    price = "A blocked axis is detected later." if now < wanted else ORDER_PRICE
+    yield from m.advise("excess_error", wanted, m.axis.unit, why, price)
 
 
 def _order(m: Move) -> Iterator[Recommendation]:
@@ -107,13 +112,13 @@ def _order(m: Move) -> Iterator[Recommendation]:
         return
     limits = "each limit of the following error must not be above the next one"
     why = f"Lower the feedrate suppression point together with the excess error: {limits}."
-    yield from m.advise("feedrate_suppression", highest, m.axis.unit, why)
+    yield from m.advise("feedrate_suppression", highest, m.axis.unit, why, ORDER_PRICE)
     point = m.axis.limits.get("gain break point", math.inf)
     cutting = m.p[samples.CUTTING] or 0.5 * m.feedrate
     wanted = max(cutting / m.loop.rate, 2.0 * m.axis.inposition_band)
     if highest <= point < math.inf and wanted < highest:
         why = f"Lower the gain break point too, to the following error at the cutting feedrate: {limits}."
-        yield from m.advise("gain_break_point", wanted, m.axis.unit, why)
+        yield from m.advise("gain_break_point", wanted, m.axis.unit, why, ORDER_PRICE)
 
 
 def _suppression(m: Move) -> Iterator[Recommendation]:
@@ -126,7 +131,8 @@ def _suppression(m: Move) -> Iterator[Recommendation]:
         f" {m.speed(m.feedrate)} alone needs {m.length(following_error(m.loop, m.feedrate))}. A value equal to the excess error switches"
         " suppression off; a value between them keeps it as a warning."
     )
-    yield from m.advise("feedrate_suppression", limit, m.axis.unit, why)
+    price = "A following error that grows no longer slows the axis before the alarm."
+    yield from m.advise("feedrate_suppression", limit, m.axis.unit, why, price)
 
 
 def _step(m: Move) -> float:
@@ -151,15 +157,15 @@ def _ramp(m: Move) -> Iterator[Recommendation]:
     if limited > 0.0 and now > available > 0.0:
         why = (
             f"The torque was at its limit for {shown(limited, 's', 3)} with {shown(now, unit)}; {shown(available, unit)} is 80 % of what the torque"
-            f" allows at {m.speed(m.feedrate)}. Every change of speed takes longer with it."
+            f" allows at {m.speed(m.feedrate)}."
         )
-        yield from m.advise(steeper, min(available, natural), unit, why, up=False)
+        yield from m.advise(steeper, min(available, natural), unit, why, SLOWER, up=False)
     elif now > natural:
         why = (
             f"A ramp of {shown(now, unit)} is steeper than the servo's response of {shown(1000.0 * response_time(m.loop), 'ms')} to"
             f" {m.speed(speed)} and acts like a step in speed; the axis can follow up to {shown(natural, unit)}."
         )
-        yield from m.advise(steeper, natural, unit, why, up=False)
+        yield from m.advise(steeper, natural, unit, why, SLOWER, up=False)
 
 
 def _available(m: Move) -> float:
@@ -189,15 +195,25 @@ def _loops(m: Move) -> Iterator[Recommendation]:
     if ratio < APERIODIC:
         why = (
             f"{ran}: the velocity loop is only {shown(ratio, digits=2)} times as fast as the position loop; from 4 times on the position loop does"
-            " not overshoot. A higher gain is stiffer and louder, and nearer to oscillation."
+            " not overshoot."
         )
-        yield from m.advise("velocity_proportional_gain", gain * APERIODIC / ratio, "", why)
+        price = "A higher gain is louder and nearer to oscillation."
+        yield from m.advise("velocity_proportional_gain", gain * APERIODIC / ratio, "", why, price)
     elif p[samples.INTEGRAL] * INTEGRAL_SHARE > p[samples.PROPORTIONAL]:
-        why = f"{ran}: the integral gain is more than a tenth of the proportional gain. A lower one corrects loads later."
-        yield from m.advise("velocity_integral_gain", gain / INTEGRAL_SHARE, "", why, up=False)
+        why = f"{ran}: the integral gain is more than a tenth of the proportional gain."
+        yield from m.advise(
+            "velocity_integral_gain",
+            gain / INTEGRAL_SHARE,
+            "",
+            why,
+            "A lasting load is corrected later.",
+            up=False,
+        )
     elif p[samples.INTEGRAL] > 0.0 and p[samples.DISCHARGE] < 2.0:
         why = f"{ran}: the sum of the velocity error was still large; with 2 it discharges twice as fast as it charges."
-        yield from m.advise("integrator_discharge", 2.0, "", why)
+        yield from m.advise(
+            "integrator_discharge", 2.0, "", why, "Too high a rate makes changes of speed rough."
+        )
 
 
 def _gain(m: Move, place: int) -> float:
@@ -214,9 +230,15 @@ def _gain_break(m: Move) -> Iterator[Recommendation]:
     if point < wanted:
         why = (
             f"The gain break is at {m.speed(point * m.loop.rate)}, below the maximum cutting feedrate {m.speed(m.p[samples.CUTTING])}: contours above"
-            " that speed are not accurate. A higher point is harder on the mechanism."
+            " that speed are not accurate."
         )
-        yield from m.advise("gain_break_point", wanted, m.axis.unit, why)
+        yield from m.advise(
+            "gain_break_point",
+            wanted,
+            m.axis.unit,
+            why,
+            "The full gain at higher speeds is harder on the mechanism.",
+        )
 
 
 def _band(m: Move) -> Iterator[Recommendation]:
@@ -227,4 +249,6 @@ def _band(m: Move) -> Iterator[Recommendation]:
         f"One count is {m.length(count)}: inside a band of {m.length(m.axis.inposition_band)} the in-position state is not reliable; use"
         " at least two counts."
     )
-    yield from m.advise("inposition_band", 2.0 * count, m.axis.unit, why)
+    yield from m.advise(
+        "inposition_band", 2.0 * count, m.axis.unit, why, "The axis may stop that much further away."
+    )

@@ -1,181 +1,172 @@
-"""Appendix A of the manual, step by step, on a light and on a heavy axis (A-8 to A-10).
-
-The tuning program moves at the cutting feedrate and waits; the ramp is just below what the servo can do. An oscillation is judged by its
-persistence: the torque swings through a quarter of its limits at the end of the constant speed, or at rest.
-"""
+"""Appendix A of the manual, step by step, on a light and on a heavy axis (A-8 to A-10)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
-import numpy as np
 import pytest
 
-from amp_studio.sim.law import Ramp
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.ramps import end_of, move
+from amp_studio.families.ninepc import law_samples as samples
+from amp_studio.families.ninepc.law_tune import (
+    SLIGHT,
+    SWING,
+    Chart,
+    Tuned,
+    chart,
+    highest,
+    lowered,
+    procedure,
+    tune,
+)
+from amp_studio.sim import SimulationError
+from amp_studio.sim.law import AxisLaw
 
-from .conftest import Axis
+from .conftest import Axis, Values
 
 FEEDRATE = 250.0
 """mm/s: 1500 turns a minute."""
-SWING = 100.0
-"""% of rated torque, a quarter of both limits."""
-SLIGHT = 0.02
-"""Share of the feedrate: a slight overshoot."""
-
-
-class Chart(NamedTuple):
-    """What the strip chart recorder shows of one run."""
-
-    overshoot: float
-    """Share of the feedrate."""
-    moving: float
-    """Swing of the torque in % at the end of the constant speed."""
-    resting: float
-
-    @property
-    def clean(self) -> bool:
-        return self.overshoot < SLIGHT and self.moving < SWING and self.resting < SWING
-
-
-Tuning = Callable[[float, float], Chart]
-MACHINES = {
-    "light": ({"servo.motor_type": "b410g"}, 1.0),
-    "heavy": ({"servo.motor_type": "b420e", "servo.load_inertia_ratio": "r3"}, 0.6),
+MACHINES: dict[str, Values] = {
+    "light": {"servo.motor_type": "b410g"},
+    "heavy": {"servo.motor_type": "b420e", "servo.load_inertia_ratio": "r3", "servo.initial_gain": 0.6},
 }
-"""Values and position gain: 5974 and 1423 rad/s2 at rated torque."""
+"""5974 and 1423 rad/s2 at rated torque."""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """An axis on which the procedure is done, and where it ended."""
+
+    law: AxisLaw
+    end: Tuned
+
+    def at(self, proportional: float, integral: float) -> Chart:
+        return chart(self.law, FEEDRATE, proportional, integral)
 
 
 @pytest.fixture(scope="module", params=list(MACHINES))
-def tuning(request: pytest.FixtureRequest, axis: Axis) -> Tuning:
-    values, gain = MACHINES[request.param]
-
-    def run(proportional: float, integral: float, limit: float = 200.0) -> Chart:
-        law = axis(
-            {
-                **values,
-                "servo.initial_gain": gain,
-                "servo.velocity_proportional_gain": proportional,
-                "servo.velocity_integral_gain": integral,
-                "servo.max_torque_positive": limit,
-                "servo.max_torque_negative": limit,
-            },
-            coulomb_friction=5.0,
-            static_friction=8.0,
-        )
-        ramp = min(0.8 * 200.0 * law.machine.acceleration_per_output, FEEDRATE * gain / 0.12)
-        profile = move(FEEDRATE * (FEEDRATE / ramp + 0.8 + 0.3 / gain), FEEDRATE, Ramp("linear", ramp, ramp))
-        end = end_of(profile)
-        columns = run_axis(law, profile, Until(end + 0.8 / gain), engine="compiled", thin=True).columns
-        time, torque = columns["time_s"], columns["output"]
-        braking = end - FEEDRATE / ramp
-        steady = (time > braking - 0.15) & (time < braking)
-        return Chart(
-            float(columns["velocity"][time < braking].max()) / FEEDRATE - 1.0,
-            float(np.ptp(torque[steady])),
-            float(np.ptp(torque[-150:])),
-        )
-
-    return run
+def bench(request: pytest.FixtureRequest, axis: Axis) -> Bench:
+    law = axis(MACHINES[request.param], coulomb_friction=5.0, static_friction=8.0)
+    return Bench(law, procedure(law, FEEDRATE))
 
 
-def highest(tuning: Tuning) -> float:
-    """Return the highest proportional gain without an integral one that is clean, to 10 % (steps 2 to 4)."""
-    gain = 1500.0
-    while tuning(gain * 1.1, 0.0).clean:
-        gain *= 1.1
-    return gain
+def test_step_1_1500_without_integral_is_overdamped(bench: Bench) -> None:
+    seen = bench.at(1500.0, 0.0)
+    assert seen.overshoot < 1e-3
+    assert max(seen.moving, seen.resting) < 0.01
 
 
-def lowered(tuning: Tuning, proportional: float, integral: float) -> float | None:
-    """Return the first clean proportional gain below, None if there is none down to an eighth (step 6)."""
-    gain = proportional
-    while gain > proportional / 8.0:
-        if tuning(gain, integral).clean:
-            return gain
-        gain /= 1.1
-    return None
-
-
-def ended(tuning: Tuning) -> tuple[float, float, float]:
-    """Raise the integral gain and lower the proportional one in turn; return both at the end and the integral gain that no
-    proportional gain stops (steps 5 to 7).
-    """
-    proportional = highest(tuning)
-    integral, last = proportional / 50.0, 0.0
-    while (found := lowered(tuning, proportional, integral)) is not None:
-        proportional, last, integral = found, integral, integral * 1.1
-    return proportional, last, integral
-
-
-def test_step_1_1500_without_integral_is_overdamped(tuning: Tuning) -> None:
-    chart = tuning(1500.0, 0.0)
-    assert chart.overshoot < 1e-3
-    assert max(chart.moving, chart.resting) < 1.0
-
-
-def test_steps_2_to_4_a_higher_gain_ends_in_a_sharp_overshoot_that_a_lower_one_removes(
-    tuning: Tuning,
-) -> None:
-    gain = highest(tuning)
-    over, below = tuning(gain * 1.1, 0.0), tuning(gain / 1.1, 0.0)
+def test_steps_2_to_4_a_higher_gain_ends_in_a_sharp_overshoot_that_a_lower_one_removes(bench: Bench) -> None:
+    gain = bench.end.highest
     assert gain > 2.0 * 1500.0
-    assert over.overshoot > SLIGHT
-    assert below.overshoot < 0.1 * SLIGHT
+    assert bench.at(gain * 1.1, 0.0).overshoot > SLIGHT
+    assert bench.at(gain / 1.1, 0.0).overshoot < 0.1 * SLIGHT
 
 
 def test_steps_5_to_7_the_gains_end_5_to_10_times_apart_and_then_nothing_stops_the_oscillation(
-    tuning: Tuning,
+    bench: Bench,
 ) -> None:
-    first = highest(tuning)
-    proportional, integral, too_high = ended(tuning)
-    assert 5.0 < proportional / integral < 10.0
-    assert proportional < 0.8 * first
-    assert tuning(proportional, integral).clean
-    charts = [tuning(first / 1.3**k, 1.2 * too_high) for k in range(9)]
-    assert all(chart.moving > SWING for chart in charts)
+    end = bench.end
+    assert 5.0 < end.proportional / end.integral < 10.0
+    assert end.proportional < 0.8 * end.highest
+    assert bench.at(end.proportional, end.integral).clean
+    charts = [bench.at(end.highest / 1.3**k, 1.1 * end.unstoppable) for k in range(9)]
+    assert all(seen.moving > SWING for seen in charts)
 
 
-def test_it_oscillates_in_motion_before_it_does_at_rest(tuning: Tuning) -> None:
+def test_each_higher_integral_gain_brings_an_overshoot_that_a_lower_proportional_one_removes(
+    bench: Bench,
+) -> None:
+    # Step 6, page A-9.
+    integral = 0.9 * bench.end.integral
+    assert not bench.at(bench.end.highest, integral).clean
+    found = lowered(bench.law, FEEDRATE, bench.end.highest, integral)
+    assert found is not None
+    assert found < bench.end.highest
+
+
+def test_it_oscillates_in_motion_before_it_does_at_rest(bench: Bench) -> None:
     # Page A-10: first at the commanded velocity, with a higher integral gain at rest too; friction makes the difference.
-    proportional, integral, _ = ended(tuning)
-    charts = [tuning(proportional, integral * more) for more in (1.1, 1.5)]
+    charts = [bench.at(bench.end.proportional, bench.end.integral * more) for more in (1.1, 1.5)]
     assert charts[0].moving > SWING > charts[0].resting
     assert min(charts[1].moving, charts[1].resting) > SWING
 
 
-def test_the_bounded_oscillation_grows_with_the_torque_limit(tuning: Callable[..., Chart]) -> None:
-    proportional, integral, _ = ended(tuning)
-    swings = [tuning(proportional, 2.0 * integral, limit).moving for limit in (100.0, 200.0)]
-    assert swings[1] / swings[0] == pytest.approx(2.0, rel=0.1)
+def test_the_bounded_oscillation_grows_with_the_torque_limit(bench: Bench) -> None:
+    # The swing stays the same share of the limit, whatever it is.
+    p = list(bench.law.parameters)
+    p[samples.LIMIT_POSITIVE] = p[samples.LIMIT_NEGATIVE] = 100.0
+    weaker = chart(
+        replace(bench.law, parameters=p), FEEDRATE, bench.end.proportional, 2.0 * bench.end.integral
+    )
+    usual = bench.at(bench.end.proportional, 2.0 * bench.end.integral)
+    assert weaker.moving == pytest.approx(usual.moving, rel=0.1)
 
 
 def test_chatter_of_a_light_axis_is_larger_than_the_overshoot_of_a_heavy_one(axis: Axis) -> None:
     # Page A-9: the same loss of stability throws a light axis further.
-    sizes = []
-    for values, _ in MACHINES.values():
-        law = axis({**values, "servo.velocity_proportional_gain": 65535.0}, coulomb_friction=5.0)
-        ramp = FEEDRATE / 0.12
-        profile = move(FEEDRATE, FEEDRATE, Ramp("linear", ramp, ramp))
-        columns = run_axis(law, profile, Until(0.8), engine="compiled", thin=True).columns
-        sizes.append(float(columns["velocity"].max()) / FEEDRATE - 1.0)
-    assert sizes[0] > 3.0 * sizes[1] > 3.0 * SLIGHT
+    light, heavy = (
+        chart(axis(values, coulomb_friction=5.0), FEEDRATE, 65535.0, 0.0).overshoot
+        for values in MACHINES.values()
+    )
+    assert light > 3.0 * heavy > 3.0 * SLIGHT
+
+
+# -- where it does not fit -------------------------------------------------------------------------
 
 
 def test_an_axis_too_heavy_for_its_position_gain_is_not_overdamped_at_1500_and_the_result_says_so(
     axis: Axis,
 ) -> None:
-    heavy = axis({"servo.motor_type": "b420e", "servo.load_inertia_ratio": "r3"})
-    said = " ".join(heavy.assumptions)
-    assert "too heavy for its position gain" in said
-    assert "Proportional Gain 2300 on this axis" in said
+    heavy = axis({**MACHINES["heavy"], "servo.initial_gain": 1.0})
+    assert chart(heavy, FEEDRATE, 1500.0, 0.0).overshoot > SLIGHT
+    assert highest(heavy, FEEDRATE) > 10000.0  # the procedure goes on upwards all the same
+    text = " ".join(heavy.assumptions)
+    assert "too heavy for its position gain" in text
+    assert "Proportional Gain 2300 on this axis" in text
     assert "too heavy" not in " ".join(axis().assumptions)
 
 
-def test_what_does_not_fit_is_said_with_the_result(axis: Axis) -> None:
+def test_what_does_not_fit_is_in_the_result(axis: Axis) -> None:
     assert "7xx motors" in " ".join(axis({"servo.motor_type": "b720e"}).assumptions)
     assert "smooth overshoot" in " ".join(axis().assumptions)
     assert "smooth overshoot" not in " ".join(axis({"servo.velocity_integral_gain": 100.0}).assumptions)
     assert "not stable" in " ".join(axis({"servo.velocity_proportional_gain": 17408.0}).assumptions)
+
+
+# -- the scenario ----------------------------------------------------------------------------------
+
+
+def test_tune_recommends_half_of_where_the_procedure_ends(bench: Bench) -> None:
+    trace = tune(bench.law, {})
+    end = trace.result["velocity_proportional_gain"][0]
+    assert end is not None
+    assert end == pytest.approx(bench.end.proportional, rel=0.01)
+    told = {each.parameter: each.value for each in trace.recommendations}
+    assert told["servo.velocity_proportional_gain"] == int(0.5 * end)
+    assert set(told) == {"servo.velocity_proportional_gain", "servo.velocity_integral_gain"}
+    assert "A-8 to A-10" in trace.assumptions[0]
+
+
+def test_tune_goes_without_torque_filter_and_discharge_as_table_a_a_wants_it(axis: Axis) -> None:
+    law = axis({"servo.torque_filter": 50.0, "servo.integrator_discharge": 8.0})
+    assert tune(law, {}).result == tune(axis(), {}).result
+
+
+@pytest.mark.parametrize(
+    ("values", "settings", "words"),
+    [
+        ({"servo.position_loop_type": "open"}, {}, "no digital velocity loop inside a closed position loop"),
+        ({"servo.loop_type": "sercos"}, {}, "no digital velocity loop"),
+        ({"servo.max_torque_positive": 0.0}, {}, "it cannot move"),
+        ({"feedrate.max_cutting": None, "feedrate.rapid": None}, {}, "Give a feedrate"),
+        ({}, {"move.feedrate": 0.0}, "must be above 0"),
+        ({}, {"move.speed": 1.0}, "move.speed"),
+        ({}, {}, "No proportional gain keeps axis 1 from overshoot"),
+    ],
+)
+def test_an_axis_that_cannot_be_tuned_says_why(
+    axis: Axis, values: Values, settings: Values, words: str, request: pytest.FixtureRequest
+) -> None:
+    law = axis(values, delay=0.5) if words.startswith("No proportional") else axis(values)
+    with pytest.raises(SimulationError, match=words):
+        tune(law, settings)
