@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim.axis_parameters import AxisParameters
@@ -21,6 +22,7 @@ from .formulas import approach_speed, circle_speed, increments_per_sample, measu
 from .law_advice import advise
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
+from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
 from .law_words import FILTER, VOLTAGE, Words, above, read_words
 
 SCALE = "model.scale"
@@ -48,6 +50,20 @@ def axes(file: ParameterFile) -> tuple[str, ...]:
 
 def bind(read: AxisParameters) -> AxisLaw:
     """Return the law of one axis; raises SimulationError naming the words that are missing or impossible."""
+    law, length = _alone(read)
+    address = drive_axis(read)
+    if address is None:
+        return law
+    if not is_synchronised(read):
+        note = f"The axis copies the reference of drive axis {address} (P27) without a correction (P28); its own words move it here."
+        return replace(law, assumptions=(*law.assumptions, note))
+    leader = read.of(address)
+    refuse_chain(read, leader)
+    return synchronised(law, read, _alone(leader)[0], length)
+
+
+def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
+    """Return one axis without its drive axis, and its internal unit in u."""
     notes: list[str] = []
     try:
         words = read_words(read, notes)
@@ -60,8 +76,10 @@ def bind(read: AxisParameters) -> AxisLaw:
     ramps = _ramps(read, words.acceleration, notes)
     linear = list(parameters)
     linear[sample.WHOLE], linear[sample.FRICTION], linear[sample.TOLERANCE] = 0.0, 0.0, -1.0
-    linear[sample.EMAX] = linear[sample.SYNC_LIMIT] = math.inf
-    return AxisLaw(
+    linear[sample.EMAX] = math.inf
+    swept = list(parameters)
+    swept[sample.TOLERANCE] = -1.0
+    law = AxisLaw(
         axis=read.axis,
         unit=words.unit,
         title="NUM 1020/1040/1060: position loop with KVAR and speed anticipation, reference of 15 bits, velocity drive",
@@ -91,7 +109,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
         assumed=assumed,
         linear_parameters=linear,
+        sweep_parameters=swept,
     )
+    return law, words.length
 
 
 def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:

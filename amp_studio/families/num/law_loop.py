@@ -10,7 +10,7 @@ from amp_studio.sim.law import AlarmText
 from amp_studio.sim.rounding import shown
 
 from . import law_sample as sample
-from .law_words import Words, above
+from .law_words import Words
 
 
 def loop(
@@ -24,7 +24,7 @@ def loop(
     p[sample.FRICTION], p[sample.FRICTION_LEFT] = _friction(read, words, notes)
     p[sample.EMAX] = read.number("servo.max_following_error") * words.length
     p[sample.TOLERANCE] = _tolerance(read, words, notes)
-    p[sample.LEADER_GAIN], p[sample.CORRECTION], p[sample.SYNC_LIMIT] = _synchronised(read, words, notes)
+    p[sample.SYNC_LIMIT] = math.inf
     limit = shown(p[sample.EMAX], words.unit)
     alarms = {
         int(sample.EXCESS_ERROR): AlarmText(
@@ -36,9 +36,6 @@ def loop(
             "40 to 71",
             f"Dynamic movement control (P57N{read.axis}): the speed is not between 0.875 and 1.125 times the one that follows"
             f" from the following error and {words.constant * 1000.0:g} ms, less and more the tolerance (6-24).",
-        ),
-        int(sample.SYNCHRONISATION): AlarmText(
-            "39", f"The synchronisation error is above threshold 1 (P24N{read.axis}); CN_PRET falls (6-30)."
         ),
     }
     band = read.number("servo.in_position_window") * words.length
@@ -89,29 +86,3 @@ def _tolerance(read: AxisParameters, words: Words, notes: list[str]) -> float:
         " 6-24 is lost."
     )
     return tolerance / 1000.0
-
-
-def _synchronised(read: AxisParameters, words: Words, notes: list[str]) -> tuple[float, float, float]:
-    """Return (gain of the drive axis in 1/s, correction 0 to 1, threshold 1 in u); a gain of 0 for an axis on its own."""
-    leader = read.value("axes.drive_axis")
-    enabled = int(read.optional("axes.synchronised", everywhere=True) or 0.0) >> int(read.axis) & 1
-    if leader in (None, "none") or not enabled:
-        if leader not in (None, "none"):
-            notes.append(
-                f"The axis copies the reference of {leader} (P27) without a correction (P28): a move is simulated without"
-                " its drive axis (4-30)."
-            )
-        return 0.0, 0.0, math.inf
-    at = str(leader).removeprefix("axis-")
-    if at == read.axis:
-        raise SimulationError(f"Axis {at} is synchronised with itself in P27", "axes.drive_axis")
-    own = [read.optional(name, at=at) for name in ("servo.loop_gain", "servo.max_speed")]
-    gain = (own[0] or 0.0) / 1000.0 / words.length * 10.0 / sample.FULL_POINTS * (own[1] or 0.0) / 60.0 / 9.0
-    above(gain, "servo.loop_gain", f"The gain of drive axis {at} (P21, P30)")
-    correction, threshold = read.optional("servo.sync_correction"), read.optional("servo.sync_error")
-    notes.append(
-        f"ASSUMED: the drive axis {at} of the synchronised pair moves by its own KVAR, with a drive without lag, and pulls"
-        " the driven axis by the control alone, not by the machine (4-30, 6-30)."
-    )
-    limit = math.inf if threshold is None else threshold * words.length
-    return gain, (250.0 if correction is None else correction) / 1000.0, limit

@@ -33,11 +33,11 @@ MOST_TERMS = 13
 
 # Parameters
 GAIN, CONSTANT, PERIOD, SHARE, TERMS, FRICTION, FRICTION_LEFT, EMAX, TOLERANCE, VOLTS = range(10)
-LEADER_GAIN, CORRECTION, SYNC_LIMIT, WHOLE = 10, 11, 12, 13
+LEADER, CORRECTION, SYNC_LIMIT, WHOLE = 10, 11, 12, 13
 PARAMETERS = 14
 
 # State
-REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, LEADER, THEORETICAL = range(6)
+REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL = range(6)
 RING = 6
 STATES = RING + MOST_TERMS
 
@@ -55,7 +55,8 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
     p: GAIN in points per u, CONSTANT of the loop and PERIOD in s, SHARE of the speed reference 0 to 1, TERMS of the
     filter, FRICTION amplitude in u and what a sample leaves of it, EMAX in u, TOLERANCE in u per sample (negative: no
-    check), VOLTS for 1 u/s; LEADER_GAIN in 1/s (0: not synchronised), CORRECTION 0 to 1, SYNC_LIMIT in u;
+    check), VOLTS for 1 u/s; number of samples of the LEADER (0: not synchronised), whose
+    measured positions in u come behind the parameters, CORRECTION 0 to 1, SYNC_LIMIT in u;
     WHOLE: 0 for a converter without steps (the linear model).
     """
     if io[MODE] == VELOCITY_LOOP or io[MODE] == OUTPUT_TEST:
@@ -76,9 +77,9 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     moved = io[POSITION] - s[MEASURED]
 
     apart = 0.0
-    if p[LEADER_GAIN] > 0.0:
-        apart = s[LEADER] - io[POSITION]
-        s[LEADER] += p[LEADER_GAIN] * p[PERIOD] * (reference - s[LEADER]) + p[SHARE] * step
+    if p[LEADER] > 0.0 and s[SAMPLE] < p[LEADER]:
+        apart = p[PARAMETERS + int(s[SAMPLE])] - io[POSITION]
+        s[SAMPLE] += 1.0
 
     amplitude = s[AMPLITUDE]
     if step > 0.0:

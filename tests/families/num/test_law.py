@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -262,8 +261,8 @@ def test_a_drive_set_to_another_voltage_has_another_gain() -> None:
     assert law.position_rate == pytest.approx(15.0, abs=0.001)
 
 
-def pair(threshold: float) -> Callable[[], Motion]:
-    law = bound(
+def paired(threshold: float) -> AxisLaw:
+    return bound(
         "1",
         **{
             name.replace("@0", "_at_1").replace(".", "__"): value
@@ -281,14 +280,27 @@ def pair(threshold: float) -> Callable[[], Motion]:
             "servo__movement_tolerance_at_1": 0.0,
         },
     )
-    return lambda: moved(law, 100.0)
 
 
 def test_a_synchronised_pair_keeps_what_the_correction_of_a_quarter_leaves() -> None:
-    motion = pair(160.0)()  # 6-30: 1 ms at 100 mm/s, over 1.25
+    motion = moved(paired(160.0), 100.0)  # 6-30: 1 ms at 100 mm/s, over 1.25
     assert motion.columns["synchronisation_error"][-1] == pytest.approx(-0.08, abs=0.003)
+    predicted = paired(160.0).predict(100.0)
+    assert predicted["synchronisation_error"].value == pytest.approx(-0.08, abs=1e-3)
+    assert predicted["steady_following_error"].value == pytest.approx(5.92, abs=1e-3)
+    assert steady(motion) == pytest.approx(5.92, abs=0.003)
     assert motion.stop == 0
 
 
 def test_threshold_1_of_a_synchronised_pair_is_error_39() -> None:
-    assert pair(50.0)().stop == 3
+    assert moved(paired(50.0), 100.0).stop == 3
+
+
+def test_a_drive_axis_that_is_driven_itself_is_refused() -> None:
+    with pytest.raises(SimulationError, match="Drive axis 0 of axis 0 is a driven axis itself"):
+        bound(axes__drive_axis_at_0="axis-0", axes__synchronised=1.0)
+
+
+def test_a_copied_reference_without_correction_is_named() -> None:
+    law = bound(axes__drive_axis_at_0="axis-1", axes__synchronised=0.0)
+    assert any("copies the reference of drive axis 1" in each for each in law.assumptions)

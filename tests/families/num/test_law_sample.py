@@ -164,17 +164,21 @@ def test_an_axis_that_moves_backwards_is_checked_the_same_way() -> None:
     assert axis.alarm == law.DYNAMIC_CHECK
 
 
+def led(positions: list[float], **figures: float) -> Axis:
+    """Return an axis whose drive axis is measured at these positions, sample by sample."""
+    return Axis([*mill(LEADER=float(len(positions)), **figures), *positions])
+
+
 def test_a_synchronised_axis_keeps_the_share_of_the_difference_that_the_correction_leaves() -> None:
-    # 6-30: the driven axis has 50 ms, the drive axis 60 ms: V (T - T') / (1 + c)
-    axis = Axis(mill(GAIN=4915.0 * 60.0 / 50.0, CONSTANT=0.05, LEADER_GAIN=1.0 / 0.06, CORRECTION=0.25))
+    # 6-30: the driven axis has 50 ms, the drive axis follows 60 ms late: V (T - T') / (1 + c)
+    late = [100.0 * (k * PERIOD - 0.06) for k in range(600)]
+    axis = led(late, GAIN=4915.0 * 60.0 / 50.0, CONSTANT=0.05, CORRECTION=0.25)
     axis.run(at(100.0), 600)
-    apart = axis.io[signals.MONITOR + law.SYNC_ERROR]
-    assert apart == pytest.approx(-0.8, abs=0.003)
+    assert axis.io[signals.MONITOR + law.SYNC_ERROR] == pytest.approx(-0.8, abs=0.003)
 
 
 def test_threshold_1_is_an_alarm_of_a_synchronised_axis() -> None:
-    axis = Axis(mill(LEADER_GAIN=1.0 / 0.06, SYNC_LIMIT=0.160))  # 6-30: 160 µm
-    axis.sample(0.0, 0.0)
+    axis = led([0.0, 0.0], SYNC_LIMIT=0.160)  # 6-30: 160 µm
     axis.sample(0.0, 0.160)
     assert axis.alarm == 0.0
     axis.sample(0.0, 0.161)
