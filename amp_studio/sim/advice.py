@@ -27,6 +27,8 @@ AMPLE = (75.0, 14.0)
 """deg, dB of a loop with a reserve."""
 KEPT = (60.0, 10.0, 0.7)
 """deg, dB, damping ratio that a loop keeps when its reserve is used."""
+NEAR = 3.0
+"""An oscillation this many times faster than the position loop is that of another loop."""
 WORTH = 1.25
 """A reserve below this factor is not worth a change."""
 POINTS = 240
@@ -61,10 +63,11 @@ class Loops:
     def of(cls, axis: AxisLaw, points: int = POINTS) -> Loops:
         """Return the loops of an axis."""
         models = axis_model(axis)
+        outer = models.cut.margins(points)
         return cls(
             models.inner.margins(points) if models.inner else None,
-            models.cut.margins(points),
-            _damping(models.whole),
+            outer,
+            _damping(models.whole, outer.phase_frequency),
             models.inner is None or models.inner.is_stable(drift=True),
             models.whole.is_stable(),
         )
@@ -85,9 +88,10 @@ def _keeps(margins: Margins, phase: float, gain: float) -> bool:
     )
 
 
-def _damping(model: LinearModel) -> float:
-    """Return the damping ratio of the slowest oscillation, which the position loop makes; 1 for none."""
-    pairs = model.oscillations()
+def _damping(model: LinearModel, crossing: float | None) -> float:
+    """Return the damping ratio of the slowest oscillation near the frequency where the position loop has gain 1; 1 for none."""
+    nearest = math.inf if crossing is None else NEAR * 2.0 * math.pi * crossing
+    pairs = [pair for pair in model.oscillations() if pair[0] < nearest]
     return min(pairs)[1] if pairs else 1.0
 
 

@@ -316,7 +316,7 @@ def _frequency_curves(trace: Trace, before: Trace | None, what: str) -> Iterable
             yield Curve(f"{words} before", *_known(before, old), "before")
         model = f"{loop}_{what}_model"
         if model in trace.columns:
-            yield Curve(f"{words}, linear model", *_known(trace, model), role)
+            yield Curve(f"{words}, model", *_known(trace, model), role)
         if old in trace.columns:
             yield Curve(f"{words}, swept", *_known(trace, old), role, dots=True)
 

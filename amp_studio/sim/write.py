@@ -40,8 +40,8 @@ def _heading(trace: Trace) -> list[str]:
     ]
 
 
-def plot_png(trace: Trace) -> bytes:
-    """Return the plot as PNG, drawn by Typst."""
+def plot_png(trace: Trace, before: Trace | None = None) -> bytes:
+    """Return the plot as PNG, drawn by Typst; ``before`` is drawn under the trace."""
     import typst  # needed for a PNG only
 
     page = (
@@ -49,7 +49,7 @@ def plot_png(trace: Trace) -> bytes:
         '#image(bytes(sys.inputs.at("plot")), format: "svg")\n'
     )
     image = typst.compile(
-        page.encode(), format="png", ppi=PIXELS_PER_INCH, sys_inputs={"plot": plot_svg(trace)}
+        page.encode(), format="png", ppi=PIXELS_PER_INCH, sys_inputs={"plot": plot_svg(trace, before)}
     )
     if not isinstance(image, bytes):
         raise SimulationError("the plot did not fit on one page")
@@ -79,7 +79,9 @@ def trace_text(trace: Trace) -> str:
     return "\n".join(lines)
 
 
-def write_trace(trace: Trace, path: Path, notify: Notify = lambda _note: None) -> None:
+def write_trace(
+    trace: Trace, path: Path, notify: Notify = lambda _note: None, *, before: Trace | None = None
+) -> None:
     """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``notify`` is called with each lost file attribute.
 
     Raises SimulationError for another ending, SaveError where it cannot.
@@ -88,9 +90,9 @@ def write_trace(trace: Trace, path: Path, notify: Notify = lambda _note: None) -
     if ending == ".csv":
         content = trace_csv(trace).encode()
     elif ending == ".svg":
-        content = plot_svg(trace).encode()
+        content = plot_svg(trace, before).encode()
     elif ending == ".png":
-        content = plot_png(trace)
+        content = plot_png(trace, before)
     else:
         raise SimulationError(
             f"{path.name}: unknown format of a trace. Use the file extension {', '.join(ENDINGS)}"

@@ -1,4 +1,4 @@
-"""The options menu: units of display and entry, control type, what is shown, the panels; and the step plot."""
+"""The options menu: units of display and entry, control type, what is shown, the panels; and the motion window."""
 
 from __future__ import annotations
 
@@ -31,9 +31,7 @@ class ViewActions:
         self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
         self.secrets = self._option("Show Se&crets", self._show_secrets)
         self.secrets.setToolTip("Show passwords in clear text, also in exports")
-        self.step_action = act(
-            "&Step Response…", self._step, "F9", "file", icons.SP_MediaPlay, "Step Response"
-        )
+        self.motion_action = act("&Motion…", self._motion, "F9", "file", icons.SP_MediaPlay, "Motion")
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
         menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too, self.secrets])
@@ -45,8 +43,8 @@ class ViewActions:
             panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
         panels.insertAction(panels.actions()[0], act("&Table", self._to_table, "Ctrl+1"))
         menu.addSeparator()
-        menu.addAction(self.step_action)
-        self.toolbar: list[QAction] = [self.switch, self.step_action]
+        menu.addAction(self.motion_action)
+        self.toolbar: list[QAction] = [self.switch, self.motion_action]
 
     def _option(self, text: str, act: Callable[[], None], shortcut: str | None = None) -> QAction:
         action = self.window.action(text, act, shortcut)
@@ -144,7 +142,7 @@ class ViewActions:
         if self.window.table_view is not None:
             self.window.table_view.setFocus()
 
-    def _step(self) -> None:
-        from .step_view import StepView
+    def _motion(self) -> None:
+        from .motion_view import MotionView
 
-        StepView(self._workspace(), self.window.selected(), self.window.go_to, self.window).show()
+        MotionView(self._workspace(), self.window.selected(), self.window.go_to, self.window).show()

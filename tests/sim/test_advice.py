@@ -88,7 +88,7 @@ def test_applied_recommendations_make_a_file_sound_again() -> None:
     file = open_file(EXAMPLES / "acromill-router" / "ROUTER.amp").file
     before = simulate(file, "frequency", "X")
     assert [alarm.code for alarm in before.alarms] == ["UNSTABLE"]
-    assert {each.parameter for each in before.recommendations} == {"servo.p_gain", "servo.d_gain"}
+    assert {each.parameter for each in before.recommendations} >= {"servo.p_gain", "servo.d_gain"}
     for each in before.recommendations:
         file.set(address_of(file, each.parameter, "X"), Value(each.value, each.unit))
     after = simulate(file, "frequency", "X")

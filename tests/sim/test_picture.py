@@ -99,8 +99,8 @@ def test_a_bode_plot_has_both_loops_and_the_limit_of_stability() -> None:
     gain, phase = picture.panels
     assert picture.x_log
     assert [curve.name for curve in gain.curves if len(curve.x)] == [
-        "closed loop, linear model",
-        "open loop, linear model",
+        "closed loop, model",
+        "open loop, model",
     ]
     assert ("−180 deg", -180.0) in phase.levels
     ET.fromstring(plot_svg(SCENARIOS["frequency"].run(tiny(gain=3000.0), {})))

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import Document, Header, ParameterFile
 from amp_studio.schema import Schema, Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.step_view import StepView
+from amp_studio.ui.motion_view import MotionView
 from amp_studio.ui.workspace import Workspace
 
 from .conftest import Person, action
@@ -62,11 +62,10 @@ def test_what_it_does_not_have_is_off_or_told(wide: MainWindow) -> None:
     assert not action(wide, "Configure Axis Type").isEnabled()
     wide.view.switch.trigger()
     assert wide.workspace.file.header.units == "metric"
-    wide.view.step_action.trigger()
-    assert (
-        wide.findChild(StepView).summary.text()
-        == "No axis is fitted. Choose an axis type with Axis > Configure Axis Type."
-    )
+    wide.view.motion_action.trigger()
+    shown = wide.findChild(MotionView).summary.text()
+    assert "the servo of family" in shown
+    assert "known: 57c422b, 9pc, acromill, num, syntec" in shown
 
 
 def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:

@@ -1,0 +1,98 @@
+"""The settings of a simulation: those of the scenario, and the machine that the control does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QWidget
+
+from amp_studio.schema import canonical, dimension, shown, unit_named
+from amp_studio.schema.values import read_number
+
+MODE = "move.mode"
+RAMPS = (
+    ("", "as configured"),
+    ("linear", "linear ramp"),
+    ("exponential", "exponential"),
+    ("s-curve", "S-curve"),
+    ("sine-squared", "sine squared"),
+    ("none", "no ramp"),
+)
+LENGTHS = ("move.distance", "move.radius", "move.amplitude")
+FEEDRATE, SECOND = "move.feedrate", "move.second_axis"
+
+
+class SettingsForm(QWidget):
+    """One field for each setting; an empty field takes the default."""
+
+    def __init__(self, changed: Callable[[], None]) -> None:
+        super().__init__()
+        self._changed = changed
+        self._units = ("mm", "mm/min")
+        self.fields: dict[str, QLineEdit | QComboBox] = {}
+        self._layout = QFormLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+
+    def offer(
+        self, settings: Mapping[str, str], units: tuple[str, str], axes: Iterable[tuple[str, str]] = ()
+    ) -> None:
+        """Show the fields of these settings (name -> what it is) and keep what is in them; ``units`` of length and feedrate."""
+        texts = {name: field.text() for name, field in self.fields.items() if isinstance(field, QLineEdit)}
+        if list(settings) == list(self.fields) and units == self._units and SECOND not in settings:
+            return
+        while self._layout.rowCount():
+            self._layout.removeRow(0)
+        self._units, self.fields = units, {}
+        for name, meaning in settings.items():
+            field = self._choice(name, axes) if name in (MODE, SECOND) else self._line(name, meaning)
+            if isinstance(field, QLineEdit):
+                field.setText(texts.get(name, ""))
+            field.setToolTip(meaning)
+            field.setAccessibleName(_title(name))
+            self._layout.addRow(_title(name), field)
+            self.fields[name] = field
+
+    def _line(self, name: str, meaning: str) -> QLineEdit:
+        field = QLineEdit()
+        unit = self._unit(name)
+        default = meaning.partition("default: ")[2] or "automatic"
+        field.setPlaceholderText(f"{shown(unit)}, empty: {default}" if unit else f"empty: {default}")
+        field.returnPressed.connect(self._changed)
+        return field
+
+    def _choice(self, name: str, axes: Iterable[tuple[str, str]]) -> QComboBox:
+        field = QComboBox()
+        choices = RAMPS if name == MODE else (("", "the next one"), *axes)
+        for key, title in choices:
+            field.addItem(title, key)
+        field.currentIndexChanged.connect(lambda _: self._changed())
+        return field
+
+    def _unit(self, name: str) -> str:
+        return self._units[0] if name in LENGTHS else self._units[1] if name == FEEDRATE else ""
+
+    def values(self) -> dict[str, float | str]:
+        """Return what is given, in canonical units; raises ValueError with one sentence for a wrong unit or no number."""
+        found: dict[str, float | str] = {}
+        for name, field in self.fields.items():
+            if isinstance(field, QComboBox):
+                if field.currentData():
+                    found[name] = str(field.currentData())
+                continue
+            if not field.text().strip():
+                continue
+            number, rest = read_number(field.text())
+            unit = self._unit(name)
+            named = unit_named(rest) if rest and unit else unit
+            if unit and dimension(named) != dimension(unit):
+                raise ValueError(
+                    f"Give the {_title(name).lower()} of this axis in {shown(unit)}, not in {shown(named)}."
+                )
+            found[name] = canonical(number, named) if named else number
+        return found
+
+
+def _title(name: str) -> str:
+    words = name.partition(".")[2].replace("_", " ")
+    return "Ramp" if name == MODE else words[:1].upper() + words[1:]

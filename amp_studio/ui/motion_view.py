@@ -1,0 +1,363 @@
+"""The motion window: a scenario on one axis with the values of the file, before and after a change."""
+
+from __future__ import annotations
+
+import html
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import ParameterFile, RangeError, axis_title
+from amp_studio.schema import Address, Value, angular
+from amp_studio.sim import (
+    SCENARIOS,
+    Recommendation,
+    SimulationError,
+    Trace,
+    address_of,
+    law_of,
+    model_settings,
+    simulate,
+    simulated_axes,
+    write_trace,
+)
+from amp_studio.sim.picture import picture_of, settling_span
+
+from .motion_plot import MotionPlot
+from .motion_results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
+from .motion_settings import SettingsForm
+from .pages import LINK
+from .task import Progress, Task
+from .theme import severity_ink
+from .workspace import Workspace
+
+_ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
+
+
+class MotionView(QWidget):
+    """Simulates with the present values, and again after every edit; the trace that was first lies under the new one."""
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        address: Address | None,
+        show: Callable[[Address], None],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent, Qt.WindowType.Window)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(f"Motion — {workspace.path.name}")
+        self.resize(1220, 800)
+        self._workspace, self._show_parameter = workspace, show
+        self._task: Task | None = None
+        self._again = False
+        self._asked: tuple[object, ...] = ()
+        self._impossible: SimulationError | None = None
+        self.trace: Trace | None = None
+        self.before: Trace | None = None
+        self._make_widgets()
+        self._arrange()
+        self._fill(address[1] if address else "")
+        self._connect()
+        self.run()
+
+    def _make_widgets(self) -> None:
+        self.scenario, self.axis = QComboBox(), QComboBox()
+        for box in (self.scenario, self.axis):
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.settings, self.machine = SettingsForm(self.run), SettingsForm(self.run)
+        self.run_button, self.save_button = QPushButton("&Run"), QPushButton("&Save…")
+        self.settling, self.all_of_it = QPushButton("&Zoom to Settling"), QPushButton("Show &All")
+        self.compare, self.keep = QCheckBox("&Before"), QPushButton("&Keep as Before")
+        self.compare.setChecked(True)
+        self.compare.setToolTip("Draw the trace from before the changes under the present one")
+        self.keep.setToolTip("Compare with the present trace from now on")
+        self.summary, self.values = QLabel(), QLabel()
+        self.summary.setWordWrap(True)
+        self.summary.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
+        self.values.setTextFormat(Qt.TextFormat.RichText)
+        self.values.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.plot = MotionPlot()
+        self.figures, self.assumptions = FiguresPage(self._follow), AssumptionsPage()
+        self.recommendations = RecommendationsPage(self.apply, self._follow)
+        for button in (self.save_button, self.settling, self.all_of_it, self.keep):
+            button.setEnabled(False)
+
+    def _arrange(self) -> None:
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form.addRow("S&cenario", self.scenario)
+        form.addRow("A&xis", self.axis)
+        tools = QHBoxLayout()
+        for widget in (self.settling, self.all_of_it, self.compare, self.keep):
+            tools.addWidget(widget)
+        tools.addStretch()
+        tools.addWidget(self.run_button)
+        tools.addWidget(self.save_button)
+        machine = QWidget()
+        column = QVBoxLayout(machine)
+        note = QLabel(
+            "What the control does not know. An empty field takes what is assumed or given by parameters."
+        )
+        note.setWordWrap(True)
+        column.addWidget(note)
+        column.addWidget(self.machine)
+        column.addStretch()
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        pages = (
+            (self.figures, "Figures"),
+            (self.recommendations, "Recommended"),
+            (self.assumptions, "Assumed"),
+        )
+        for page, title in (*pages, (machine, "Machine"), (self.values, "Cursors")):
+            self.tabs.addTab(page, title)
+        side = QWidget()
+        right = QVBoxLayout(side)
+        right.setContentsMargins(0, 0, 0, 0)
+        right.addLayout(form)
+        right.addWidget(self.settings)
+        right.addWidget(self.tabs, 1)
+        left = QWidget()
+        picture = QVBoxLayout(left)
+        picture.setContentsMargins(0, 0, 0, 0)
+        picture.addLayout(tools)
+        picture.addWidget(self.plot, 1)
+        middle = QSplitter()
+        middle.addWidget(left)
+        middle.addWidget(side)
+        middle.setStretchFactor(0, 1)
+        middle.setSizes([790, 430])
+        outer = QVBoxLayout(self)
+        outer.addWidget(self.summary)
+        outer.addWidget(middle, 1)
+
+    def _connect(self) -> None:
+        self.scenario.currentIndexChanged.connect(self._choose)
+        self.axis.currentIndexChanged.connect(self._choose)
+        self.run_button.clicked.connect(self.run)
+        self.save_button.clicked.connect(self.save)
+        self.settling.clicked.connect(self._zoom_to_settling)
+        self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
+        self.compare.toggled.connect(self._redraw)
+        self.keep.clicked.connect(self._keep_before)
+        self.plot.read.connect(self.values.setText)
+        self.summary.linkActivated.connect(lambda url: self._follow(QUrl(url)))
+        self._workspace.changed.connect(self._after_edit)
+        self._workspace.closed.connect(self.close)
+
+    # -- what can be chosen --------------------------------------------------------
+
+    def _fill(self, wanted: str) -> None:
+        """Fill the scenarios and axes of the file; keep the axis ``wanted`` where it is there."""
+        file = self._workspace.file
+        scenarios, axes, self._impossible = _possible(file)
+        titled = [(axis, axis_title(file, axis) if file.schema.family.axes else axis) for axis in axes]
+        names = [(name, name.capitalize()) for name in scenarios]
+        _refill(self.scenario, names, str(self.scenario.currentData() or "step"))
+        _refill(self.axis, titled, wanted)
+        chosen = SCENARIOS.get(str(self.scenario.currentData()))
+        others = [each for each in titled if each[0] != self.axis.currentData()]
+        self.scenario.setToolTip(chosen.title if chosen else "")
+        self.settings.offer(chosen.settings if chosen else {}, self._units(), others)
+        self.machine.offer(model_settings(), ("", ""))
+
+    def _units(self) -> tuple[str, str]:
+        """Return the units of distance and feedrate for the chosen axis."""
+        file, axis = self._workspace.file, self.axis.currentData()
+        family = file.schema.family
+        system = family.units.get(file.header.units, {})
+        length, velocity = system.get("length", "mm"), system.get("velocity", "mm/min")
+        turns = family.axes is not None and axis and file.evaluation.turns((family.axes.type, str(axis)))
+        return (angular(length), angular(velocity)) if turns else (length, velocity)
+
+    def _choose(self, *_: object) -> None:
+        """Take another scenario or axis; what was before belongs to the old one."""
+        self.before = None
+        self._fill(str(self.axis.currentData()))
+        self.run()
+
+    def _after_edit(self, _: list[Address]) -> None:
+        """Update the choices and simulate again."""
+        self._fill(str(self.axis.currentData()))
+        self.run()
+
+    # -- running -------------------------------------------------------------------
+
+    def run(self, *_: object) -> None:
+        """Simulate in a separate thread; a run requested meanwhile follows."""
+        if self._task is not None:
+            self._again = True
+            return
+        if self._impossible is not None:
+            self._fail(self._impossible)
+            return
+        try:
+            settings = {**self.settings.values(), **self.machine.values()}
+        except ValueError as error:
+            self._fail(error)
+            return
+        file, axis = self._workspace.file.copy(), self.axis.currentData()
+        scenario = str(self.scenario.currentData() or "step")
+        asked = (scenario, axis, tuple(settings.items()))
+        if asked != self._asked:
+            self.before, self._asked = None, asked
+
+        def work(_: Progress, __: threading.Event) -> Trace:
+            return simulate(file, scenario, str(axis) if axis else None, settings)
+
+        self.summary.setText("Simulating …")
+        self._task = Task(work)
+        self._task.done.connect(self._show_result)
+        self._task.failed.connect(self._fail)
+        self._task.finished.connect(self._ended)
+        self._task.begin()
+
+    def _ended(self) -> None:
+        self._task = None
+        if self._again:
+            self._again = False
+            self.run()
+
+    def _fail(self, error: Exception) -> None:
+        """Show what is true, with a way to the parameter that has to be set."""
+        text = html.escape(str(error))
+        parameter = getattr(error, "parameter", "")
+        schema = self._workspace.file.schema
+        if parameter in schema.parameters:
+            text += f' <a href="{LINK}{parameter}">Go to {html.escape(name_of(schema, parameter))}</a>'
+        self.summary.setText(f'<span style="color:{severity_ink("error").name()}">{text}</span>')
+
+    def _show_result(self, trace: Trace) -> None:
+        self.trace = trace
+        self.before = self.before or trace
+        for button in (self.save_button, self.all_of_it, self.keep):
+            button.setEnabled(True)
+        self.settling.setEnabled(settling_span(trace) is not None)
+        assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
+        plural = "figure of the machine is" if assumed == 1 else "figures of the machine are"
+        warning = f" <b>{assumed} {plural} assumed</b>, see Assumed." if assumed else ""
+        self.summary.setText(f"{html.escape(trace.model)}.{warning}")
+        self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
+        count = len(trace.recommendations)
+        self.tabs.setTabText(1, f"Recommended ({count})" if count else "Recommended")
+        self.assumptions.show_trace(trace)
+        self._redraw()
+
+    def _other(self) -> Trace | None:
+        """Return the trace to compare with, if it is another one and wanted."""
+        return self.before if self.compare.isChecked() and self.before is not self.trace else None
+
+    def _redraw(self, *_: object) -> None:
+        if self.trace is not None:
+            self.plot.draw(picture_of(self.trace, self._other()))
+            self.figures.show_trace(self.trace, self._other())
+
+    def _zoom_to_settling(self) -> None:
+        self.plot.zoom(settling_span(self.trace) if self.trace else None)
+
+    def _keep_before(self) -> None:
+        self.before = self.trace
+        self._redraw()
+
+    # -- recommendations -------------------------------------------------------------
+
+    def _address(self, parameter: str) -> Address | None:
+        axis = self.trace.axis if self.trace else ""
+        return address_of(self._workspace.file, parameter, axis)
+
+    def _may_apply(self, parameter: str) -> bool:
+        return self._workspace.may_edit and self._address(parameter) is not None
+
+    def apply(self, found: Sequence[Recommendation]) -> None:
+        """Set recommended values as one undoable step; the run after it follows from the change."""
+        wanted: dict[Address, Value | None] = {}
+        for each in found:
+            address = self._address(each.parameter)
+            if address is None:
+                continue
+            old = self._workspace.file.get(address)
+            whole = old is not None and isinstance(old.value, int) and each.value.is_integer()
+            wanted[address] = Value(int(each.value) if whole else each.value, each.unit)
+        try:
+            self._workspace.edit("Apply Recommendation", wanted)
+        except RangeError as error:
+            self._fail(error)
+
+    def _follow(self, url: QUrl) -> None:
+        address = self._address(url.toString().removeprefix(LINK))
+        if address is None:
+            parameter = url.toString().removeprefix(LINK)
+            instances = self._workspace.file.machine_schema.instances(
+                self._workspace.file.schema.parameters[parameter]
+            )
+            axis = str(self.axis.currentData())
+            address = (parameter, axis if axis in instances else instances[0])
+        self._show_parameter(address)
+
+    # -- files -----------------------------------------------------------------------
+
+    def save(self) -> None:
+        """Write the trace as CSV, or its picture as SVG or PNG."""
+        if self.trace is None:
+            return
+        name = f"{self._workspace.path.stem}-{self.trace.scenario}-{self.trace.axis}.svg"
+        text, chosen = QFileDialog.getSaveFileName(
+            self, "Save", str(self._workspace.path.with_name(name)), _ENDINGS
+        )
+        if not text:
+            return
+        path = Path(text)
+        path = path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
+        notes: list[str] = []
+        try:
+            write_trace(self.trace, path, notes.append, before=self._other())
+        except (OSError, ValueError) as error:
+            self._fail(error)
+        else:
+            self.summary.setText(html.escape("; ".join([f"{path} written", *notes])))
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ignore the result of a run that has not finished."""
+        if self._task is not None:
+            self._task.done.disconnect(self._show_result)
+            self._task.failed.disconnect(self._fail)
+            self._task.finished.disconnect(self._ended)
+        super().closeEvent(event)
+
+
+def _possible(file: ParameterFile) -> tuple[list[str], tuple[str, ...], SimulationError | None]:
+    """Return scenarios and axes of a file, and why nothing can be simulated, if so."""
+    try:
+        law = law_of(file.schema.family.family)
+    except SimulationError as error:
+        return [], (), error
+    scenarios = [*(name for name in law.scenarios if name in SCENARIOS), *law.own]
+    axes = simulated_axes(file)
+    return scenarios, axes, None if axes else SimulationError(law.without_axes)
+
+
+def _refill(box: QComboBox, entries: Sequence[tuple[str, str]], wanted: str) -> None:
+    """Fill a box without a signal and choose an entry by its key, else the first."""
+    box.blockSignals(True)
+    box.clear()
+    for key, title in entries:
+        box.addItem(title, key)
+    box.setCurrentIndex(max(box.findData(wanted), 0))
+    box.blockSignals(False)

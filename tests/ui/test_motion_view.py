@@ -1,0 +1,248 @@
+"""The motion window follows the file as it is edited."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QUrl
+from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit
+from pytestqt.qtbot import QtBot
+
+from amp_studio.schema import Value
+from amp_studio.sim import Recommendation
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.motion_view import MotionView
+from amp_studio.ui.task import Task
+
+from .conftest import WAIT_MS, action
+
+
+@pytest.fixture
+def view(window: MainWindow, qtbot: QtBot) -> MotionView:
+    """Return the open step view with its first trace."""
+    window.go_to(("servo.excess_error", "2"))
+    action(window, "Motion").trigger()
+    view = window.findChild(MotionView)
+    settled(view, qtbot)
+    return view
+
+
+def settled(view: MotionView, qtbot: QtBot) -> None:
+    """Wait until no run is on its way."""
+    qtbot.waitUntil(lambda: view._task is None, timeout=WAIT_MS)
+
+
+def field(view: MotionView, name: str) -> QLineEdit:
+    """Return the field of a setting."""
+    found = view.settings.fields[f"move.{name}"]
+    assert isinstance(found, QLineEdit)
+    return found
+
+
+def choose(view: MotionView, scenario: str, qtbot: QtBot) -> None:
+    """Choose a scenario and wait for its trace."""
+    view.scenario.setCurrentIndex(view.scenario.findData(scenario))
+    settled(view, qtbot)
+
+
+def test_it_begins_with_the_selected_axis_and_draws_a_trace(view: MotionView) -> None:
+    assert view.axis.currentData() == "2"
+    assert view.trace.axis == "2"
+    assert [len(panel.listDataItems()) for panel in view.plot.panels] == [2, 1, 2, 1]
+    assert "steady following error" in view.figures.toPlainText()
+    assert view.save_button.isEnabled()
+
+
+def test_it_draws_anew_after_an_edit_and_after_its_undo(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    """The lower the gain, the larger the following error."""
+    before = view.trace.result["steady_following_error"][0]
+    old = view.trace
+    window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.95)})
+    qtbot.waitUntil(lambda: view.trace is not old, timeout=WAIT_MS)
+    settled(view, qtbot)
+    assert view.trace.result["steady_following_error"][0] == pytest.approx(before / 0.95, rel=0.01)
+
+    window.edits.undo.trigger()
+    settled(view, qtbot)
+    assert view.trace.result["steady_following_error"][0] == pytest.approx(before)
+
+
+def test_edits_while_it_runs_end_with_the_last(view: MotionView, window: MainWindow, qtbot: QtBot) -> None:
+    for gain in (0.99, 0.98, 0.97, 0.95):
+        window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(gain)})
+    settled(view, qtbot)
+    once = view.trace.result["steady_following_error"][0]
+    view.run()
+    settled(view, qtbot)
+    assert view.trace.result["steady_following_error"][0] == once
+
+
+def test_distance_and_feedrate_take_units_and_a_decimal_comma(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    field(view, "distance").setText("2 in")
+    field(view, "feedrate").setText("1500,5")
+    view.run()
+    settled(view, qtbot)
+    assert view.trace.result["distance"] == (50.8, "mm")
+    assert view.trace.result["feedrate"][0] == 1500.5
+
+    window.view.switch.trigger()  # to inch: a bare number is an inch now
+    field(view, "distance").setText("2")
+    field(view, "feedrate").clear()
+    view.run()
+    settled(view, qtbot)
+    assert view.trace.result["distance"][0] == pytest.approx(50.8)
+    assert field(view, "distance").placeholderText().startswith("in,")
+
+
+def test_a_wrong_unit_is_told_in_place(view: MotionView, qtbot: QtBot) -> None:
+    field(view, "distance").setText("90 deg")
+    view.run()
+    assert "Give the distance of this axis in mm, not in °" in view.summary.text()
+    view.axis.setCurrentIndex(view.axis.findData("4"))  # rotary
+    settled(view, qtbot)
+    assert view.trace.axis == "4"
+    assert view.trace.result["distance"][0] == 90.0
+
+
+def test_an_axis_that_is_deleted_is_no_longer_offered(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.workspace.edit("type", {("axis.type", "2"): Value("unfitted")})
+    settled(view, qtbot)
+    assert view.axis.findData("2") == -1
+
+
+def test_what_cannot_be_simulated_is_shown_with_a_way_to_what_has_to_be_set(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.workspace.edit("gain", {("servo.initial_gain", "2"): None})
+    settled(view, qtbot)
+    assert 'href="param:servo.initial_gain"' in view.summary.text()
+    view.summary.linkActivated.emit("param:servo.initial_gain")
+    assert window.selected() == ("servo.initial_gain", "2")
+
+
+def test_every_scenario_of_the_family_can_be_chosen_and_has_its_own_settings(
+    view: MotionView, qtbot: QtBot
+) -> None:
+    assert {"step", "frequency", "circle"} <= {
+        view.scenario.itemData(n) for n in range(view.scenario.count())
+    }
+    choose(view, "frequency", qtbot)
+    assert [panel.label for panel in view.plot.picture.panels] == ["gain", "phase"]
+    assert "move.points" in view.settings.fields
+    choose(view, "circle", qtbot)
+    assert view.plot.picture.rings
+    assert "radius error" in view.figures.toPlainText()
+    choose(view, "step", qtbot)
+    assert "move.distance" in view.settings.fields
+
+
+def test_the_trace_before_an_edit_lies_under_the_one_after_it(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.5)})
+    settled(view, qtbot)
+    assert view.plot.picture.panels[1].curves[0].role == "before"
+    assert "before" in view.figures.toPlainText()
+    view.compare.setChecked(False)
+    assert view.plot.picture.panels[1].curves[0].role == "actual"
+    view.compare.setChecked(True)
+    view.keep.click()
+    assert view.plot.picture.panels[1].curves[0].role == "actual"
+
+
+def test_a_cursor_moves_through_all_panels_and_its_values_are_shown(view: MotionView) -> None:
+    view.plot.cursors[0][2].setValue(0.4)
+    assert {line.value() for line in view.plot.cursors[0]} == {0.4}
+    error = np.interp(0.4, view.trace.columns["time_s"], view.trace.columns["following_error"])
+    assert f"{error:.5g}" in view.values.text()
+
+
+def test_zoom_to_settling_shows_the_end_of_the_move_and_all_of_it_comes_back(view: MotionView) -> None:
+    view.settling.click()
+    (low, _), (bottom, top) = view.plot.panels[1].viewRange()
+    assert low > view.trace.columns["time_s"][-1] / 2
+    assert top - bottom < view.trace.result["peak_following_error"][0] / 2
+    view.all_of_it.click()
+    (low, _), (bottom, top) = view.plot.panels[1].viewRange()
+    assert low < 0.1
+    assert top > view.trace.result["peak_following_error"][0]
+
+
+def test_a_peak_of_one_row_is_drawn_however_far_the_view_is(view: MotionView) -> None:
+    items = [item for plot in view.plot.panels for item in plot.listDataItems()]
+    assert {item.opts["downsampleMethod"] for item in items} == {"peak"}
+
+
+def test_a_recommendation_is_applied_as_one_undoable_change_and_run_again(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    address = ("servo.inposition_band", "2")
+    before, old = window.workspace.file.get(address), view.trace
+    view.apply([Recommendation("servo.inposition_band", 0.05, "mm", "why", "price")])
+    qtbot.waitUntil(lambda: view.trace is not old, timeout=WAIT_MS)
+    settled(view, qtbot)
+    assert window.workspace.file.get(address) == Value(0.05, "mm")
+    window.edits.undo.trigger()
+    settled(view, qtbot)
+    assert window.workspace.file.get(address) == before
+
+
+def test_a_recommendation_out_of_range_is_refused_in_place(view: MotionView) -> None:
+    view.apply([Recommendation("servo.inposition_band", -0.05, "mm", "why")])
+    assert view.summary.text()
+    assert view._workspace.file.get(("servo.inposition_band", "2")) != Value(-0.05, "mm")
+
+
+def test_every_recommendation_has_its_price_and_a_button(view: MotionView) -> None:
+    found = [
+        Recommendation("servo.gain_break_point", 5.0, "mm", "Because.", "A little."),
+        Recommendation("no.parameter", 1.0, "", "x"),
+    ]
+    view.recommendations.show_all(view._workspace.file.schema, found, view._may_apply)
+    texts = [label.text() for label in view.recommendations.findChildren(QLabel)]
+    assert "Price: A little." in texts
+    assert [button.text() for button in view.recommendations.buttons] == ["Apply"]
+
+
+@pytest.mark.parametrize("ending", ["svg", "csv", "png"])
+def test_the_trace_is_saved(view: MotionView, tmp_path: Path, monkeypatch, ending: str) -> None:
+    path = tmp_path / f"step.{ending}"
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *_: (str(path), f"({ending.upper()} (*.{ending})")
+    )
+    view.save()
+    assert path.stat().st_size > 500
+
+
+def test_a_recommendation_leads_to_its_parameter(view: MotionView, window: MainWindow) -> None:
+    view.figures.anchorClicked.emit(QUrl("param:servo.gain_break_point"))
+    assert window.selected() == ("servo.gain_break_point", "2")
+
+
+def test_closing_it_while_it_runs_ends_well(view: MotionView, window: MainWindow, qtbot: QtBot) -> None:
+    view.run()
+    assert view._task is not None
+    with qtbot.waitSignal(view.destroyed, timeout=WAIT_MS):
+        view.close()
+    window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.5)})
+    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+
+
+def test_closing_the_program_while_it_runs_ends_well(view: MotionView, window: MainWindow) -> None:
+    view.run()
+    assert Task.running
+    assert window.close()
+    assert not Task.running
+
+
+def test_it_closes_with_its_file(view: MotionView, window: MainWindow, qtbot: QtBot) -> None:
+    with qtbot.waitSignal(view.destroyed, timeout=WAIT_MS):
+        window.files.close()
