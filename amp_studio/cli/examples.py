@@ -48,6 +48,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "restore": ("amp-studio restore uploaded.img --to tcp://127.0.0.1:8193",),
     "simulate": (
+        f"amp-studio simulate {MILL} --list",
         f"amp-studio simulate {MILL} step --axis X",
         f"amp-studio simulate {MILL} step --axis X --set move.distance=50 -o trace.csv",
     ),

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .examples import EXAMPLES
 
-SCENARIOS = ("step", "frequency", "circle")
+SCENARIOS = ("step", "velocity", "frequency", "circle")
 """Scenarios of ``simulate``; the room of the simulator knows them, and loading it takes a second."""
 
 EXIT_CODES = (

@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import asdict
 
-from amp_studio.files import axis_instances, open_file
-from amp_studio.schema import InvalidValueError, axis_meant, canonical, unit_named
-from amp_studio.schema.values import read_number
-from amp_studio.sim import named_parameter, simulate, simulated_axes, trace_summary, trace_text, write_trace
+from amp_studio.files import ParameterFile, axis_instances, open_file
+from amp_studio.schema import axis_meant
+from amp_studio.sim import (
+    listing,
+    named_parameter,
+    simulate,
+    simulated_axes,
+    trace_summary,
+    trace_text,
+    write_trace,
+)
 
 from .console import assignments, note, print_json
+from .errors import UsageError
 from .files import wanted
 from .output import check_replaced
+
+SETTING_GROUPS = ("move", "model", "tune", "gear", "cam")
+"""First words of settings that are no parameters."""
 
 
 def simulate_verb(options: argparse.Namespace) -> int:
@@ -20,6 +32,10 @@ def simulate_verb(options: argparse.Namespace) -> int:
     if options.output:
         check_replaced(options.output, options.path)
     file = open_file(options.path).file
+    if options.list:
+        return _list(file, as_json=options.json)
+    if options.scenario is None:
+        raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     settings, own = _settings(options.assignments)
     told: list[str] = []
     for address, value in wanted(file, own, told.append).items():
@@ -46,15 +62,28 @@ def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
     settings: dict[str, float | str] = {}
     own = []
     for param, text in assignments(texts):
-        if param.partition(".")[0] not in ("move", "model", "tune", "gear", "cam"):
-            own.append(f"{param}={text}")
-            continue
-        try:
-            number, unit = read_number(text)
-            settings[param] = canonical(number, unit_named(unit)) if unit.strip() else number
-        except InvalidValueError:
+        if param.partition(".")[0] in SETTING_GROUPS:
             settings[param] = text
+        else:
+            own.append(f"{param}={text}")
     return settings, own
+
+
+def _list(file: ParameterFile, *, as_json: bool) -> int:
+    """Print what can be simulated with a file."""
+    found = listing(file)
+    if as_json:
+        print_json(asdict(found))
+        return 0
+    print(f"axes: {', '.join(found.axes) or 'none'}")
+    for scenario in found.scenarios:
+        print(f"{scenario.name}: {scenario.title}")
+        for name, text in scenario.settings.items():
+            print(f"  {name:24}{text}")
+    print("the machine, in every scenario:")
+    for name, text in found.model.items():
+        print(f"  {name:32}{text}")
+    return 0
 
 
 def demo_verb(options: argparse.Namespace) -> int:

@@ -280,7 +280,9 @@ def parser() -> argparse.ArgumentParser:
     secrets_option(sub)
     sub = verb("simulate", "motion", "check settings in motion", writes="output")
     sub.add_argument("path", type=_path)
-    sub.add_argument("scenario")
+    sub.add_argument("scenario", nargs="?")
+    sub.add_argument("--list", action="store_true",
+                     help="list the scenarios of this family, its axes, and what can be set")  # fmt: skip
     sub.add_argument("--axis")
     sub.add_argument("--set", action="append", default=[], metavar="PARAM=VALUE", dest="assignments")
     sub.add_argument("-o", "--output", type=_path)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .errors import SimulationError
 from .law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source, law_of, simulated_families
+from .listing import Listing, listing
 from .machine import Machine
 from .model import model_settings
 from .scenarios import SCENARIOS, Scenario
@@ -28,6 +29,7 @@ __all__ = [
     "AxisParameters",
     "Figure",
     "Law",
+    "Listing",
     "Machine",
     "ParameterValue",
     "Prediction",
@@ -41,6 +43,7 @@ __all__ = [
     "address_of",
     "bind_axis",
     "law_of",
+    "listing",
     "model_settings",
     "named_parameter",
     "plot_png",

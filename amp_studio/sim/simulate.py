@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.schema import Address
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.registration import load_part, registration_of
 
 from .advice import recommendations
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
+from .doubts import doubts
 from .errors import SimulationError
 from .law import AxisLaw, Law, law_of
+from .listing import known_settings
 from .model import with_model
 from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND
+from .settings import read_settings, refuse_other_unit
 from .trace import Trace
 from .trial import Trial
 
@@ -28,30 +32,34 @@ def simulate(
 ) -> Trace:
     """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
-    ``settings`` are settings of the scenario and of the model (``move.feedrate``), in canonical units.
+    ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` says,
+    or texts with a unit.
     Raises SimulationError with the parameter that is missing or impossible.
     """
-    given: Mapping[str, ParameterValue] = settings or {}
-    family = file.schema.family.family
-    own = {name: value for name, value in given.items() if not name.startswith("model.")}
-    law = law_of(family)
+    law = law_of(file.schema.family.family)
     if scenario not in {**SCENARIOS, **law.own}:
         raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
     if scenario not in (*law.scenarios, *law.own):
         raise SimulationError(
             f"{file.schema.family.name} has no scenario '{scenario}': {', '.join(law.scenarios)}"
         )
+    given, written = read_settings(settings or {}, known_settings(law, scenario))
+    own = {name: value for name, value in given.items() if not name.startswith("model.")}
     model = {name: value for name, value in given.items() if name not in own}
-    bound = bind_axis(file, law, axis, model)
+    read: list[Address] = []
+    bound = bind_axis(file, law, axis, model, read.append)
+    refuse_other_unit(written, bound.axis, bound.unit)
+    doubtful = doubts(file, read, model)
     if scenario in law.own:
         trace = law.own[scenario](bound, own)
-        return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
+        advice = (*trace.recommendations, *law.advise(bound, trace))
+        return replace(trace, recommendations=advice, doubts=doubtful)
     chosen = SCENARIOS[scenario]
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
     advice = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
-    return replace(trace, recommendations=advice)
+    return replace(trace, recommendations=advice, doubts=doubtful)
 
 
 def _second(
@@ -59,7 +67,7 @@ def _second(
 ) -> AxisLaw | None:
     """Return the second axis: the one of that name, else the next one that can be simulated and moves in the same unit."""
     if name is not None:
-        return bind_axis(file, law, str(name), model)
+        return bind_axis(file, law, f"{name:g}" if isinstance(name, float) else str(name), model)
     axes = tuple(law.axes(file))
     place = axes.index(first.axis)
     for other in (*axes[place + 1 :], *axes[:place]):
@@ -84,8 +92,10 @@ def bind_axis(
     law: Law,
     axis: str | None = None,
     overrides: Mapping[str, ParameterValue] | None = None,
+    note: Callable[[Address], None] = lambda _address: None,
 ) -> AxisLaw:
-    """Return one axis of a file with its machine; ``overrides`` are values by parameter id or ``model.*``.
+    """Return one axis of a file with its machine; ``overrides`` are values by parameter id or ``model.*``, ``note`` is called
+    with each address that is read.
 
     Raises SimulationError for an axis that is not fitted, a value that is missing, an override that is not used.
     """
@@ -96,15 +106,21 @@ def bind_axis(
     if chosen not in fitted:
         raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
     read = AxisParameters(
-        _values(file), chosen, overrides or {}, file.schema.tables, file.machine, file.header.application
+        _values(file, note),
+        chosen,
+        overrides or {},
+        file.schema.tables,
+        file.machine,
+        file.header.application,
     )
     bound = with_model(law.bind(read), read)
     read.refuse_unused()
     return bound
 
 
-def _values(file: ParameterFile) -> ReadParameter:
+def _values(file: ParameterFile, note: Callable[[Address], None]) -> ReadParameter:
     def value(parameter_id: str, instance: str) -> ParameterValue:
+        note((parameter_id, instance))
         return file.evaluation.canonical((parameter_id, instance))
 
     return value

@@ -52,6 +52,8 @@ class Trace:
     assumptions: tuple[str, ...]
     limits: Mapping[str, Figure]
     """Named limits of the following error, to draw beside the curves."""
+    doubts: tuple[str, ...] = ()
+    """What is wrong or doubtful about the values that the axis was made of, each a sentence."""
 
     @property
     def rows(self) -> int:

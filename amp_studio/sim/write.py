@@ -59,6 +59,7 @@ def plot_png(trace: Trace, before: Trace | None = None) -> bytes:
 def trace_text(trace: Trace) -> str:
     """Return the result as text for the terminal: alarms, figures, recommendations, assumptions."""
     lines = [f"{trace.scenario}{', axis ' + trace.axis if trace.axis else ''}: {trace.model}"]
+    lines += [f"DOUBTFUL: {doubt}" for doubt in trace.doubts]
     lines += [f"ALARM at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
     width = max(len(name) for name in trace.result)
     for name, (value, unit) in trace.result.items():
@@ -117,6 +118,7 @@ def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, 
             }
             for a in trace.recommendations
         ],
+        "doubts": list(trace.doubts),
         "assumptions": list(trace.assumptions),
         "trace": {"columns": list(trace.columns), "rows": trace.rows},
     }

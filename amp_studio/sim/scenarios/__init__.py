@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from . import circle, frequency, step
+from . import circle, frequency, step, velocity
 from .scenario import Scenario
 
 SCENARIOS: dict[str, Scenario] = {
-    each.name: each for each in (step.SCENARIO, frequency.SCENARIO, circle.SCENARIO)
+    each.name: each for each in (step.SCENARIO, velocity.SCENARIO, frequency.SCENARIO, circle.SCENARIO)
 }
 
 __all__ = ["SCENARIOS", "Scenario"]

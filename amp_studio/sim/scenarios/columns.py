@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.linear import Margins
 from amp_studio.sim.motion import Motion
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.signals import DIVERGED, EMERGENCY_STOP
@@ -30,16 +31,17 @@ def column_units(axis: AxisLaw) -> dict[str, str]:
 
 
 def alarms_of(
-    axis: AxisLaw, motion: Motion, stable: bool = True, margin: float | None = None
+    axis: AxisLaw, motion: Motion, stable: bool = True, margins: Margins | None = None
 ) -> tuple[Alarm, ...]:
-    """Return the alarm that ended a run, after the one for a loop that is not stable: ``margin`` is its gain margin in dB."""
+    """Return the alarm that ended a run, after the one for a loop that is not stable: ``margins`` are its own."""
     alarms = []
     if not stable or motion.stop == int(DIVERGED):
         moment = 0.0 if motion.alarm_row is None else float(motion.columns["time_s"][motion.alarm_row])
-        gain = "" if margin is None or margin >= 0.0 else f": its gain margin is {shown(margin, 'dB', 3)}"
         alarms.append(
             Alarm(
-                "UNSTABLE", 0.0 if not stable else moment, f"The loop of axis {axis.axis} is not stable{gain}"
+                "UNSTABLE",
+                0.0 if not stable else moment,
+                f"The loop of axis {axis.axis} is not stable{_margins(margins)}",
             )
         )
     if motion.stop != 0 and motion.stop != int(DIVERGED):
@@ -50,3 +52,11 @@ def alarms_of(
             text = axis.alarms[motion.stop]
             alarms.append(Alarm(text.code, moment, text.message))
     return tuple(alarms)
+
+
+def _margins(margins: Margins | None) -> str:
+    if margins is None:
+        return ""
+    known = (("gain margin", margins.gain, "dB"), ("phase margin", margins.phase, "deg"))
+    said = [f"{shown(value, unit, 3)} {name}" for name, value, unit in known if value is not None]
+    return f": {' and '.join(said)}" if said else ", whatever its gain is"

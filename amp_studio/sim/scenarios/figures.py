@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import linear_model
+from amp_studio.sim.linear import Margins, axis_model
 from amp_studio.sim.motion import Motion
 
 Series = npt.NDArray[np.float64]
@@ -96,9 +96,9 @@ def grows(series: Series, count: float) -> bool:
     return swings[1] > max(swings[0], NOISE_COUNTS * count) * (1.0 + 1e-6) and swings[1] > 1e-9
 
 
-def stability(axis: AxisLaw) -> tuple[bool, float | None]:
-    """Return (whether the loop is stable, its gain margin in dB where it is not), of the linear model."""
-    model = linear_model(axis)
-    if model.is_stable():
+def stability(axis: AxisLaw) -> tuple[bool, Margins | None]:
+    """Return (whether the loop is stable, its margins where it is not), of the linear model."""
+    models = axis_model(axis)
+    if models.whole.is_stable():
         return True, None
-    return False, model.margins().gain
+    return False, models.cut.margins()

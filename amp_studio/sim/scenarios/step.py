@@ -26,7 +26,7 @@ SETTINGS = {
     "move.feedrate": "feedrate of the move (mm/min or deg/min); default: the rapid feedrate",
     "move.mode": f"ramp: {', '.join(RAMPS)}; default: the axis' ramp for positioning",
     "move.duration": "time to simulate (s); default: until the axis is at rest",
-    "move.override": "feedrate from move.override_time on (% of the programmed one); 0 for feedhold",
+    "move.override": "share of the feedrate from move.override_time on (%); 0 for feedhold",
     "move.override_time": "when the override changes (s)",
     "move.resume_time": "when the override goes back to 100 % (s)",
     "move.blocks": "number of equal blocks that the move has",
@@ -71,7 +71,7 @@ def run_step(axis: AxisLaw, settings: Settings) -> Trace:
         coast=COAST,
         emergency=math.inf if emergency is None else emergency,
     )
-    stable, margin = stability(axis)
+    stable, margins = stability(axis)
     return Trace(
         scenario="step",
         axis=axis.axis,
@@ -79,7 +79,7 @@ def run_step(axis: AxisLaw, settings: Settings) -> Trace:
         columns=per_minute(motion.columns),
         units=column_units(axis),
         result=_figures(axis, motion, moved, stable),
-        alarms=alarms_of(axis, motion, stable, margin),
+        alarms=alarms_of(axis, motion, stable, margins),
         recommendations=(),
         assumptions=(*assumptions(axis), *([RUN_OUT] if motion.alarm_row is not None else [])),
         limits={name: (level, axis.unit) for name, level in axis.limits.items() if math.isfinite(level)},

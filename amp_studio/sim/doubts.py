@@ -1,0 +1,52 @@
+"""What is wrong or doubtful about the values that a simulated axis was made of: said with the result, not refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address
+from amp_studio.validate import Validator
+
+MOST = 8
+"""Findings that are told one by one."""
+
+
+def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[str] = ()) -> tuple[str, ...]:
+    """Return a sentence for each value that is outside its range, inactive or not set, and for a file with errors.
+
+    ``read`` are the addresses that the axis was made of; those in ``overridden`` came from elsewhere.
+    """
+    replaced = frozenset(overridden)
+    addresses = dict.fromkeys(
+        address for address in read if address[0] in file.schema.parameters and address[0] not in replaced
+    )
+    errors = [finding for finding in Validator(file).run() if finding.severity == "error"]
+    own = [finding for finding in errors if not addresses.keys().isdisjoint(finding.addresses)]
+    said = [finding.message for finding in own[:MOST]]
+    if len(errors) > len(said):
+        others = len(errors) - len(said)
+        said.append(
+            f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is trusted"
+        )
+    return (*said, *_states(file, addresses))
+
+
+def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
+    unset = []
+    for address in addresses:
+        name = _named(file, address)
+        state = file.evaluation.state(address)
+        if address not in file.values:
+            if state.state == "in-force" and not file.schema.parameters[address[0]].optional:
+                unset.append(name)
+        elif state.state != "in-force":
+            why = f": {state.why}" if state.why else ""
+            yield f"{name} is inactive, and the simulation used it{why}"
+    if unset:
+        yield f"Not set, and simulated as if there were none: {', '.join(unset)}"
+
+
+def _named(file: ParameterFile, address: Address) -> str:
+    parameter, instance = address
+    return f"{file.schema.parameters[parameter].name} ({parameter}{'@' + instance if instance else ''})"

@@ -1,0 +1,70 @@
+"""Settings of a scenario and of the machine as a person writes them: ``50 mm``, ``0.5 s``, ``linear``.
+
+The unit of a setting is in its description, in brackets: "(mm or deg)", "(s)". A number without a unit is in that unit.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from amp_studio.schema import InvalidValueError, canonical, dimension, unit_named
+from amp_studio.schema.units import UNITS
+from amp_studio.schema.values import read_number
+
+from .axis_parameters import ParameterValue
+from .errors import SimulationError
+
+_BRACKETS = re.compile(r"\(([^()]*)\)")
+_ANGULAR = {"mm": "deg", "mm/min": "deg/min", "mm/s2": "deg/s2"}
+
+
+def units_of(description: str) -> tuple[str, ...]:
+    """Return the units that a description names."""
+    said = [part for found in _BRACKETS.findall(description) for part in found.split(" or ")]
+    return tuple(part for part in said if part in UNITS)
+
+
+def read_settings(
+    given: Mapping[str, ParameterValue], known: Mapping[str, str]
+) -> tuple[dict[str, ParameterValue], dict[str, str]]:
+    """Return the settings as numbers in their units, other texts as they are; and the unit that each was written in.
+
+    ``known`` are the descriptions. Raises SimulationError for a unit that does not fit.
+    """
+    values: dict[str, ParameterValue] = {}
+    written: dict[str, str] = {}
+    for name, value in given.items():
+        values[name] = value
+        if isinstance(value, str):
+            try:
+                number, unit = read_number(value)
+            except InvalidValueError:
+                continue  # a word, as of a ramp
+            values[name] = number
+            if unit.strip():
+                values[name], written[name] = _converted(name, number, unit, units_of(known.get(name, "")))
+    return values, written
+
+
+def _converted(name: str, number: float, unit: str, units: tuple[str, ...]) -> tuple[float, str]:
+    try:
+        own = unit_named(unit)
+    except ValueError as error:
+        raise SimulationError(f"{name}: {error}", name) from None
+    for wanted in units:
+        if dimension(wanted) == dimension(own):
+            return canonical(number, own) / canonical(1.0, wanted), wanted
+    takes = f"in {' or '.join(units)}" if units else "as a number without a unit"
+    raise SimulationError(f"{name} is given in {own}; give it {takes}", name)
+
+
+def refuse_other_unit(written: Mapping[str, str], axis: str, unit: str) -> None:
+    """Raise SimulationError for a length given to an axis that turns, or an angle to one that does not."""
+    for name, used in written.items():
+        turns, moves = used in _ANGULAR.values(), used in _ANGULAR
+        if (turns and unit != "deg") or (moves and unit == "deg"):
+            other = f"{unit}{used[3 if turns else 2 :]}"
+            raise SimulationError(
+                f"{name} is given in {used}, and axis {axis} moves in {unit}: give it in {other}", name
+            )
