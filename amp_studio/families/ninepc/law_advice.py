@@ -14,12 +14,15 @@ from amp_studio.sim.trace import Recommendation, Trace
 
 from . import law_samples as samples
 from .law_figures import Loop, following_error, printed_excess_error, response_time
+from .law_units import highest_rate, lag_of
 
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear. A choice of this program."""
 APERIODIC = 4.0
 """Least ratio of velocity loop to position loop without overshoot (Gross, Hamann, Wiegärtner, Electrical Feed Drives in
 Automation, 2001)."""
+SAFE = 0.5
+"""Share of the loop rate at which it oscillates: 6 dB."""
 INTEGRAL_SHARE = 10.0
 """The tuning procedure ends with an integral gain 5 to 10 times below the proportional one (A-9)."""
 ORDER_PRICE = "Less is left for a faster move or a lower gain."
@@ -81,6 +84,8 @@ def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
     gain = p[samples.GAIN] * 60.0 / 1000.0
     loop = Loop(gain, p[samples.BREAK_POINT], p[samples.BREAK_RATIO], p[samples.FEED_FORWARD])
     move = Move(axis, trace, loop, feedrate)
+    if any(alarm.code == "UNSTABLE" for alarm in trace.alarms):
+        return tuple(_loops(move))  # no other figure of such a move means anything
     parts = (_excess_error, _order, _suppression, _ramp, _loops, _gain_break, _band)
     return tuple(each for part in parts for each in part(move))
 
@@ -190,9 +195,19 @@ def _loops(m: Move) -> Iterator[Recommendation]:
     if over <= max(m.axis.inposition_band, 2.0 * p[samples.COUNT]) or p[samples.PROPORTIONAL] == 0.0:
         return
     ran = f"The axis overshot the end position by {m.length(over)}"
-    ratio = p[samples.PROPORTIONAL] * m.axis.machine.acceleration_per_output / m.loop.rate
-    gain = _gain(m, samples.PROPORTIONAL)
-    if ratio < APERIODIC:
+    rate = p[samples.PROPORTIONAL] * m.axis.machine.acceleration_per_output
+    ratio, gain = rate / m.loop.rate, _gain(m, samples.PROPORTIONAL)
+    most = SAFE * highest_rate(_lag(m), _integral_time(m))
+    if ratio < APERIODIC and APERIODIC * m.loop.rate > most:
+        why = (
+            f"{ran}: the velocity loop is only {shown(ratio, digits=2)} times as fast as the position loop, and on this axis it cannot be made 4 times"
+            " as fast without oscillating."
+        )
+        price = "The following error grows in proportion."
+        yield from m.advise(
+            "position_gain", m.loop.gain * most / APERIODIC / m.loop.rate, "", why, price, up=False
+        )
+    elif ratio < APERIODIC:
         why = (
             f"{ran}: the velocity loop is only {shown(ratio, digits=2)} times as fast as the position loop; from 4 times on the position loop does"
             " not overshoot."
@@ -214,6 +229,18 @@ def _loops(m: Move) -> Iterator[Recommendation]:
         yield from m.advise(
             "integrator_discharge", 2.0, "", why, "Too high a rate makes changes of speed rough."
         )
+
+
+def _lag(m: Move) -> float:
+    """Return the lag of the velocity loop in s, the torque filter included."""
+    passes = m.p[samples.FILTER]
+    cutoff = -math.log1p(-passes) / (2.0 * math.pi * m.p[samples.PERIOD]) if passes < 1.0 else math.inf
+    return lag_of(m.axis.machine.delay, m.axis.machine.bandwidth, cutoff)
+
+
+def _integral_time(m: Move) -> float:
+    integral = m.p[samples.INTEGRAL]
+    return m.p[samples.PROPORTIONAL] / integral * m.p[samples.PERIOD] if integral > 0.0 else math.inf
 
 
 def _gain(m: Move, place: int) -> float:

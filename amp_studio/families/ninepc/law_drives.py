@@ -20,12 +20,12 @@ from .law_reading import above_zero, demand, if_set, not_negative
 from .law_units import (
     CURRENT_LOOP,
     DELAY,
-    LAG,
     NOMINAL,
     VELOCITY_PERIOD,
     Inertia,
     acceleration_for,
     inertia_of,
+    lag_of,
     standard_gains,
     torque_for,
 )
@@ -46,6 +46,7 @@ FRICTION = {
 VOLTS_POSITIVE, VOLTS_NEGATIVE = "servo.analog_positive_voltage", "servo.analog_negative_voltage"
 MAX_ACCELERATION = "servo.max_acceleration"
 OWN_ACCELERATION, OWN_GAIN = "model.acceleration_per_output", "model.position_gain"
+OWN_DELAY, OWN_BANDWIDTH = "model.delay", "model.current_bandwidth"
 
 FILTER_OFF = 10000.0
 """Hz: as high as possible is off (7-69)."""
@@ -90,7 +91,8 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     )
     p[samples.TORQUE_UNIT] = torque_for(1.0, travel)
     p[samples.PERIOD] = common["servo_period"] / max(1, round(common["servo_period"] / VELOCITY_PERIOD))
-    lag = LAG + _torque(read, p, notes)
+    delay, bandwidth = if_set(read, OWN_DELAY, 1e3 * DELAY) / 1e3, if_set(read, OWN_BANDWIDTH, CURRENT_LOOP)
+    lag = lag_of(delay, bandwidth, _torque(read, p, notes))
     rate = 0.0 if p[samples.OPEN] else loop.rate
     notes += [notes_of.GAINS, notes_of.VELOCITY_LOOP, notes_of.LIMITS]
     notes += notes_of.gain_notes(proportional, integral, inertia.acceleration, rate, lag, motor)
@@ -184,7 +186,7 @@ def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tu
 
 
 def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
-    """Set discharge, limits, offset, filter and friction compensation; return the lag in s that the filter adds."""
+    """Set discharge, limits, offset, filter and friction compensation; return the cutoff of the filter in Hz."""
     p[samples.DISCHARGE] = read.number(DISCHARGE)
     demand(read, DISCHARGE, p[samples.DISCHARGE], p[samples.DISCHARGE] >= 1.0, "must be 1 or more")
     for name, place in ((LIMIT_POSITIVE, samples.LIMIT_POSITIVE), (LIMIT_NEGATIVE, samples.LIMIT_NEGATIVE)):
@@ -201,11 +203,11 @@ def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
     cutoff = read.optional(FILTER)
     p[samples.FILTER] = 1.0
     if cutoff is None or cutoff >= FILTER_OFF:
-        return 0.0
+        return math.inf
     demand(read, FILTER, cutoff, cutoff > 0.0, "must be above 0")
     p[samples.FILTER] = -math.expm1(-2.0 * math.pi * cutoff * p[samples.PERIOD])
     notes.append(notes_of.FILTER)
-    return 1.0 / (2.0 * math.pi * cutoff)
+    return cutoff
 
 
 def _dry(p: list[float]) -> float:

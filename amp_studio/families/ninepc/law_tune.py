@@ -77,7 +77,7 @@ class Tuned:
 
 
 def with_gains(axis: AxisLaw, proportional: float, integral: float) -> AxisLaw:
-    """Return the axis with other gains and set as Table A.A wants it: no torque filter, discharge rate 1, no torque offset."""
+    """Return the axis with other gains and set as in Table A.A: no torque filter, discharge rate 1, no torque offset."""
     p = list(axis.parameters)
     p[samples.PROPORTIONAL] = proportional * p[samples.TORQUE_UNIT]
     p[samples.INTEGRAL] = integral * p[samples.TORQUE_UNIT]

@@ -40,8 +40,18 @@ DELAY = 1.5e-3
 """s from a sample to its torque command: computing and transfer."""
 CURRENT_LOOP = 200.0
 """Hz: the current loop."""
-LAG = VELOCITY_PERIOD + DELAY + 1.0 / (2.0 * math.pi * CURRENT_LOOP)
-"""s: the whole lag of the velocity loop; half a sample of hold and half of difference make the first."""
+
+
+def lag_of(delay: float, bandwidth: float, torque_filter: float = math.inf) -> float:
+    """Return the whole lag of the velocity loop in s: half a sample of hold and half of difference, the delay in s, current loop (0: ideal)
+    and torque filter in Hz.
+    """
+    current = 1.0 / (2.0 * math.pi * bandwidth) if bandwidth > 0.0 else 0.0
+    return VELOCITY_PERIOD + delay + current + 1.0 / (2.0 * math.pi * torque_filter)
+
+
+LAG = lag_of(DELAY, CURRENT_LOOP)
+"""s: of an axis without torque filter."""
 NOMINAL = 1000.0
 """rad/s2 at rated torque of the axis that the printed bounds are about."""
 SEPARATE = 3.0

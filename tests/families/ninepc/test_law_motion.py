@@ -18,8 +18,9 @@ from amp_studio.families.ninepc.law_figures import (
     sentence_excess_error,
 )
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.motion import Motion, Until, run_axis
+from amp_studio.sim.motion import Engine, Motion, Until, run_axis
 from amp_studio.sim.profiles import POLYNOMIAL
+from amp_studio.sim.ramps import move
 from amp_studio.sim.scenarios.step import run_step
 from amp_studio.sim.trace import Trace
 
@@ -298,6 +299,51 @@ def test_an_overshoot_of_a_slow_velocity_loop_asks_for_four_times_the_position_l
     assert told["servo.velocity_proportional_gain"] == pytest.approx(
         4.0 * 1000.0 / 60.0 * 65536.0 / 5974.3, rel=0.01
     )
+
+
+def test_where_the_velocity_loop_cannot_be_fast_enough_the_position_gain_goes_down(axis: Axis) -> None:
+    values: Values = {"servo.initial_gain": 20.0, "servo.velocity_proportional_gain": 2000.0}
+    trace = step(axis(values), distance=60.0, feedrate=6000.0)
+    told = {each.parameter: each for each in advise(axis(values), trace)}
+    # Half of the 476 1/s at which a lag of 3.3 ms oscillates, a quarter of that in 1000/min.
+    assert told["servo.initial_gain"].value == pytest.approx(0.5 * 476.0 / 4.0 * 60.0 / 1000.0, rel=0.01)
+    assert "servo.velocity_proportional_gain" not in told
+    assert told["servo.initial_gain"].price
+
+
+def test_a_loop_that_is_not_stable_gets_advice_about_its_loops_alone(axis: Axis) -> None:
+    law = axis({"servo.velocity_proportional_gain": 30000.0, "servo.excess_error": 200.0})
+    trace = step(law, distance=20.0, feedrate=6000.0)
+    assert [alarm.code for alarm in trace.alarms] == ["UNSTABLE"]
+    assert not {each.parameter for each in advise(law, trace)} & {
+        "servo.excess_error",
+        "servo.inposition_band",
+    }
+
+
+def test_the_lag_that_is_set_counts_in_what_the_result_says_about_the_gains(axis: Axis) -> None:
+    fast: Values = {"servo.velocity_proportional_gain": 8000.0}
+    assert any("not stable" in note for note in axis(fast).assumptions)
+    quick: Values = {"model.delay": 0.1, "model.current_bandwidth": 0.0}
+    assert not any("not stable" in note for note in axis(fast, quick).assumptions)
+
+
+def test_a_finer_step_and_machine_code_change_nothing(axis: Axis) -> None:
+    law = axis(
+        {"servo.velocity_integral_gain": 100.0},
+        coulomb_friction=3.0,
+        static_friction=5.0,
+        viscous_friction=0.1,
+    )
+    profile = move(20.0, 100.0, law.ramps["linear"])
+
+    def run(engine: Engine, refine: int) -> Series:
+        motion = run_axis(law, profile, Until(0.5), engine=engine, refine=refine)
+        return motion.columns["position"][:: motion.rows_per_servo_period]
+
+    usual = run("compiled", 1)
+    assert np.abs(run("compiled", 4) - usual).max() < 2e-3
+    assert np.array_equal(run("plain", 1), usual)
 
 
 def test_a_band_below_one_count_and_a_gain_break_below_the_cutting_feedrate_are_raised(axis: Axis) -> None:
