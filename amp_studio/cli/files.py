@@ -32,6 +32,7 @@ from amp_studio.schema import (
     field_at,
     field_value,
     meant,
+    real_value,
     show_value,
     with_field,
     write_value,
@@ -153,7 +154,13 @@ def _row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]
         "value": plain, "unit": value.unit if value else file.evaluation.unit(address, file.header.units), "raw": raw,
         "default": file.is_default(address), "state": file.evaluation.state(address).state,
         "forced": address in file.forced,
-    } | ({"secret": True, "set": value is not None} if parameter.secret else {})  # fmt: skip
+    } | ({"secret": True, "set": value is not None} if parameter.secret else {}) | _real(file, address)  # fmt: skip
+
+
+def _real(file: ParameterFile, address: Address) -> dict[str, Any]:
+    """Return what a value in internal units is in mm or degrees."""
+    real = real_value(file.evaluation, address, file.get(address))
+    return {} if real is None else {"real": {"value": real.value, "unit": real.unit}}
 
 
 def get_verb(options: argparse.Namespace) -> int:
@@ -182,6 +189,8 @@ def get_verb(options: argparse.Namespace) -> int:
             shown = show_value(parameter, file.get(address), secrets=options.secrets)
             if file.get(address) is None and rows[-1]["unit"]:
                 shown += f" (in {unit_shown(rows[-1]['unit'])})"
+            real = real_value(file.evaluation, address, file.get(address))
+            shown += f" = {show_value(parameter, real)}" if real else ""
             print(f"{file.machine_schema.named(address):52} {shown}{mark}{state}")
     if options.json:
         print_json({"values": rows})

@@ -14,6 +14,7 @@ from amp_studio.schema import (
     Value,
     angular,
     fault,
+    read_real,
     read_value,
     same_value,
     written,
@@ -149,8 +150,14 @@ class ParameterFile:
         return all(same_value(self.get(a), self.default(a)) for a in own)
 
     def read(self, address: Address, text: str) -> Value:
-        """Read a value a person wrote for an instance; raises InvalidValueError."""
+        """Read a value a person wrote for an instance; raises InvalidValueError.
+
+        A length for a parameter in internal units is counted in them.
+        """
         unit = self.evaluation.unit(address, self.header.units)
+        counted = read_real(self.evaluation, address, text, unit)
+        if counted is not None:
+            return counted
         return read_value(self.schema.parameters[address[0]], text, unit)
 
     # -- changing --------------------------------------------------------------

@@ -27,6 +27,7 @@ from .model import (
     Suppression,
     Table,
 )
+from .scales import Size, read_real, real_value, size_of
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
 from .value import InvalidValueError, Value
 from .values import (
@@ -63,6 +64,7 @@ __all__ = [
     "Reference",
     "Rule",
     "Schema",
+    "Size",
     "StateInfo",
     "Suppression",
     "Table",
@@ -98,10 +100,13 @@ __all__ = [
     "read_address",
     "read_entries",
     "read_number",
+    "read_real",
     "read_value",
+    "real_value",
     "same_value",
     "show_value",
     "shown",
+    "size_of",
     "unit_named",
     "unknown",
     "with_field",

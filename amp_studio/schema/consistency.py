@@ -61,6 +61,12 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
     if family.axis_names is not None and family.axis_names.param not in ids:
         what = f"there is no parameter '{family.axis_names.param}'"
         yield Inconsistency(None, ("axis_names", "param"), what)
+    for unit, scale in family.scales.items():
+        for kind in ("length", "angle"):
+            size = getattr(scale, kind)
+            if size is not None and size.param not in ids:
+                what = f"there is no parameter '{size.param}'"
+                yield Inconsistency(None, ("scales", unit, kind, "param"), what)
     for key in ("machine_parameter", "unit_parameter"):
         named = getattr(family, key)
         if named is not None and named not in ids:

@@ -211,6 +211,12 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
     return Value(number, unit)
 
 
+def read_exact(text: str) -> tuple[Fraction, str]:
+    """Read a number as ``read_number`` does, exactly; returns it and the rest of the text. Raises InvalidValueError."""
+    number, rest = read_number(text)
+    return Fraction(Decimal(_digits(text)[0])) if number else Fraction(0), rest
+
+
 def exact_number(text: str) -> Fraction:
     """Return the number that bare digits with a decimal point mean, exactly; raises InvalidValueError.
 

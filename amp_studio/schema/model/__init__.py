@@ -23,6 +23,8 @@ from .family import (
     Family,
     MachineType,
     ScopeInfo,
+    UnitScale,
+    UnitSize,
 )
 from .group import Group, GroupState
 from .parameter import (
@@ -111,5 +113,7 @@ __all__ = [
     "Table",
     "Tables",
     "Unit",
+    "UnitScale",
+    "UnitSize",
     "ValueType",
 ]

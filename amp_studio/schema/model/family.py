@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, model_validator
 
-from amp_studio.schema.units import define_unit
+from amp_studio.schema.units import UNITS, define_unit
 
 from .parameter import Bit, Choice, Effect
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
@@ -82,6 +82,34 @@ class OwnUnit(Model):
     """To the unit of the dimension that has 1, exactly: a number in quotes or a fraction (``10/254``)."""
 
 
+class UnitSize(Model):
+    """What one of a unit is: another parameter sets it."""
+
+    param: ParameterId
+    sizes: dict[str, str] = {}
+    """A choice or a number of it -> a length or an angle, as ``0.001 mm``; without any, its own value is the size."""
+    otherwise: str | None = None
+    """The size with any other value; without it there is none."""
+
+    @model_validator(mode="after")
+    def _are_sizes(self) -> UnitSize:
+        for text in (*self.sizes.values(), *filter(None, [self.otherwise])):
+            number, _, unit = text.partition(" ")
+            if not re.fullmatch(r"\d+(\.\d+)?", number) or not float(number) or unit not in UNITS:
+                raise ValueError(f"'{text}' is no size: write a number and a unit, as 0.001 mm")
+        if self.otherwise is not None and not self.sizes:
+            raise ValueError("'otherwise' is for values without an entry in 'sizes', which has none")
+        return self
+
+
+class UnitScale(Model):
+    """A unit whose size another parameter sets."""
+
+    length: UnitSize
+    angle: UnitSize | None = None
+    """On an axis that turns."""
+
+
 def _defined(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
     """Make the units known to whatever is read after them."""
     for unit, meaning in own.items():
@@ -111,6 +139,8 @@ class Family(Model):
     scopes: dict[Scope, ScopeInfo]
     units: dict[str, dict[str, Unit]]
     """Per unit system (``metric``, ``inch``) the unit of each quantity."""
+    scales: dict[Unit, UnitScale] = {}
+    """Units whose size another parameter sets (internal units): what they are in mm or degrees."""
     unit_parameter: ParameterId | None = None
     """The parameter whose choice keys are the unit systems, where the control keeps bare figures in the chosen one."""
     angular_when: str | None = None

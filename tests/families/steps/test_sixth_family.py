@@ -57,6 +57,24 @@ def test_its_rule_resolves_blu_through_the_increment_system(
     assert run(["validate", str(path)]) == 0, "70000 BLU are 7 mm under IS-C"
 
 
+def test_what_one_blu_is_follows_from_the_increment_system_without_a_line_of_code(
+    path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["set", str(path), "10=12.5 mm"]) == 0
+    capsys.readouterr()
+    assert run(["get", str(path), "10"]) == 0
+    assert "12500 BLU = 12.5 mm" in capsys.readouterr().out
+    assert run(["set", str(path), "1=IS-C"]) == 0
+    capsys.readouterr()
+    assert run(["get", str(path), "10", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["values"]
+    assert (row["value"], row["unit"], row["real"]) == (12500, "BLU", {"value": 1.25, "unit": "mm"})
+    assert run(["set", str(path), "10=0.5 in"]) == 0
+    assert open_file(path).file.values["axis.limit", "X"].value == 127000
+    assert run(["set", str(path), "10=0.00005 mm"]) == 2
+    assert "0.00005 mm is no whole number of BLU, each 0.0001 mm: Stroke Limit" in capsys.readouterr().err
+
+
 def test_its_own_unit_is_entered_converted_and_checked_like_any_other(
     path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
