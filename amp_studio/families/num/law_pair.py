@@ -33,6 +33,12 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
 
     It gets the reference of its drive axis, whose motion is simulated first, and the correction (4-30).
     """
+    if leader.unit != law.unit:
+        raise SimulationError(
+            f"Drive axis {leader.axis} moves in {leader.unit}, driven axis {read.axis} in {law.unit}: they cannot be"
+            " synchronised",
+            "axes.drive_axis",
+        )
     correction, threshold = read.optional("servo.sync_correction"), read.optional("servo.sync_error")
     p = list(law.parameters)
     p[sample.CORRECTION] = (BASIC_CORRECTION if correction is None else correction) / 1000.0

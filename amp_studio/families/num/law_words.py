@@ -96,6 +96,8 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
             f"P9N{read.axis} gives the axis no group, and so no time constant of P56 (or P66)",
             "axes.assignment",
         )
+    if not constant and of_group is None:
+        raise _unset(read, [f"servo.group_time_constant@{named}"])
     above(constant, "servo.group_time_constant", "The time constant of P56 (or P66)")
     acceleration = read.number("servo.acceleration_fast")
     above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
@@ -143,10 +145,14 @@ def _demand(read: AxisParameters, of_control: Sequence[str], of_axis: Sequence[s
     missing = [name for name in of_control if read.value(name, everywhere=True) is None]
     missing += [f"{name}@{read.axis}" for name in of_axis if read.value(name) is None]
     if missing:
-        raise SimulationError(
-            f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
-            missing[0].partition("@")[0],
-        )
+        raise _unset(read, missing)
+
+
+def _unset(read: AxisParameters, missing: list[str]) -> SimulationError:
+    return SimulationError(
+        f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
+        missing[0].partition("@")[0],
+    )
 
 
 def _dividers(read: AxisParameters, turns: bool, notes: list[str]) -> tuple[float, float]:

@@ -296,6 +296,7 @@ def _alarms(axis: _Axis) -> dict[int, AlarmText]:
 
 
 ALWAYS = (
+    "The BLU is 0.001 mm or deg, as delivered on a metric machine (1.2.6).",
     (
         "In every interpolation time the control sends the whole pulses of what was commanded up to its start, evenly spread (1.4.1);"
         " the following error is counted from the pulses that have left the card."

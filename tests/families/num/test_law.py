@@ -296,6 +296,19 @@ def test_threshold_1_of_a_synchronised_pair_is_error_39() -> None:
     assert moved(paired(50.0), 100.0).stop == 3
 
 
+def test_a_linear_axis_is_not_synchronised_with_a_rotary_one() -> None:
+    words = {f"{name[:-1]}1": value for name, value in MILL.items() if name.endswith("@0")}
+    changes = {name.replace("@", "_at_").replace(".", "__"): value for name, value in words.items()}
+    changes |= {"axes__assignment_at_1": 7.0, "axes__drive_axis_at_0": "axis-1", "axes__synchronised": 1.0}
+    with pytest.raises(SimulationError, match="Drive axis 1 moves in deg, driven axis 0 in mm"):
+        bound(**changes)
+
+
+def test_a_group_without_a_time_constant_is_named() -> None:
+    with pytest.raises(SimulationError, match=r"not set: servo\.group_time_constant@1$"):
+        bound(servo__group_time_constant_at_1=None)
+
+
 def test_a_drive_axis_that_is_driven_itself_is_refused() -> None:
     with pytest.raises(SimulationError, match="Drive axis 0 of axis 0 is a driven axis itself"):
         bound(axes__drive_axis_at_0="axis-0", axes__synchronised=1.0)
