@@ -99,7 +99,7 @@ def run_axis(
     if not (until.duration / step <= MOST_STEPS and until.duration / step / stride <= MOST_ROWS):
         longest = min(MOST_STEPS, MOST_ROWS * stride) * step
         raise SimulationError(
-            f"The move takes about {until.duration:.0f} s, more than can be simulated ({longest:.0f} s)."
+            f"The move takes about {until.duration:.6g} s, more than can be simulated ({longest:.6g} s)."
             " Give a shorter distance or a higher feedrate"
         )
     machine, timing = machine_array(axis.machine, step), _timing(axis, until, samples, substeps, step)

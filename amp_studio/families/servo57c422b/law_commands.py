@@ -58,6 +58,8 @@ _SEARCH = {
 }
 _PAUSE = 0.1
 """s of rest after each move."""
+_FASTEST = 1e9
+"""Counts/s of a reference."""
 _LONGEST = 60.0
 """Most seconds of a cam or a geared run."""
 
@@ -141,6 +143,10 @@ def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
         )
     ratio = upper / lower
     speed = above_zero(settings, "gear.speed") or (axis.feedrate or 0.0) / abs(ratio)
+    if speed > _FASTEST:
+        raise SimulationError(
+            f"gear.speed is {speed:g}; at most {_FASTEST:g} counts/s are simulated", "gear.speed"
+        )
     time = above_zero(settings, "gear.time") or 1.0
     ramped = module.bit("gearing.modes", 3)
     sign = -1 if module.bit("control.mode", 4) else 1
@@ -169,16 +175,23 @@ def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
     refuse_unknown(settings, CAM)
     module = _module(axis)
     points = int(module.needed("cam.points", "it counts the points of the cam (page 4-54)"))
-    cycles = int(number(settings, "cam.cycles") or (2 if module.bit("cam.mode", 3) else 1))
-    if points < 1 or cycles < 1:
-        raise SimulationError("A cam needs at least one point and one cycle", "cam.points")
+    asked = number(settings, "cam.cycles")
+    cycles = (2.0 if module.bit("cam.mode", 3) else 1.0) if asked is None else asked
+    if cycles < 1.0 or cycles != math.floor(cycles):
+        raise SimulationError(f"cam.cycles is {cycles:g}; it must be a whole number from 1 on", "cam.cycles")
+    most = 956 if module.bit("cam.mode", 8) else 1915 if module.bit("cam.mode", 0) else 3830
+    if not 1 <= points <= most:
+        raise SimulationError(
+            f"{module.names['cam.points']} is {points}; this kind of cam has 1 to {most} points (page 4-57)",
+            "cam.points",
+        )
     if module.bit("cam.mode", 8):
         positions, note = (
             _position_cam(module, settings, points),
             "Straight lines between the points (page 4-51).",
         )
     else:
-        positions = _time_cam(module, settings, points, cycles)
+        positions = _time_cam(module, settings, points, int(cycles))
         note = "A constant speed in each interval of the cam: what the module does between points is not printed."
     return _followed(axis, "cam", positions, {"points": (float(points), "")}, note)
 
@@ -229,6 +242,10 @@ def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
     module = _module(axis)
     asked = number(settings, "move.distance")
     distance = module.needed("command.position", "the distance of the move") if asked is None else asked
+    if not 1.0 <= abs(distance) < 2.0**31:
+        raise SimulationError(
+            f"The distance is {distance:g}; it must be 1 count to {2**31 - 1}", "move.distance"
+        )
     play = module.needed("output.backlash", "the compensation (page 4-21)")
     moves = backlash_moves(round(distance), round(play))
     rows: list[float] = []

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from amp_studio.sim import AxisLaw, SimulationError
+from amp_studio.sim.linear import linear_model
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.pieces import Piece
 from amp_studio.sim.profiles import POLYNOMIAL
@@ -58,6 +59,7 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
 
     Raises SimulationError where the shaft vibrates at the least gain.
     """
+    faults = {place: axis.parameters[place] for place in (loop.POSITION_ERROR, loop.VELOCITY_ERROR)}
     axis = with_figures(axis, {loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0, loop.INTEGRAL: 0.0})
     found = {"gain.deadband": deadband(axis)}
     axis = with_figures(axis, {loop.DEADBAND: found["gain.deadband"]})
@@ -80,8 +82,13 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
         math.floor(share * share / 4.0 * scales.integral)
     )  # the aperiodic limit of both
     found["gain.proportional"] = gain
-    tuned = {loop.PROPORTIONAL: share, loop.INTEGRAL: found["gain.integral"] / scales.integral}
-    return Left(found, with_figures(axis, tuned))
+    integral = found["gain.integral"] / scales.integral
+    tuned = with_figures(axis, {loop.PROPORTIONAL: share, loop.INTEGRAL: integral, **faults})
+    if not linear_model(tuned).is_stable():
+        raise SimulationError(
+            "The search ended at gains that are not stable: this axis has to be tuned by hand (page 5-2)"
+        )
+    return Left(found, tuned)
 
 
 def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float) -> Left:
@@ -166,7 +173,13 @@ def _breakaway(axis: AxisLaw, start: float, end: float) -> float:
     ramp = [0.0, math.inf, volts, rise, 0.0, 0.0, POLYNOMIAL, 0.0]
     motion = run_axis(axis, ramp, Until(4.0), mode=OUTPUT_TEST)
     moved = np.flatnonzero(np.abs(motion.columns["measured_position"]) >= 1.0)
-    return float(motion.columns["output"][moved[0] if moved.size else -1]) * loop.WORDS_PER_VOLT
+    if moved.size == 0:
+        raise SimulationError(
+            f"The axis does not move with {abs(end) / loop.WORDS_PER_VOLT:.3g} V: its friction is above"
+            " Maximum Voltage Reference",
+            "output.max_voltage",
+        )
+    return float(motion.columns["output"][moved[0]]) * loop.WORDS_PER_VOLT
 
 
 def vibrates(axis: AxisLaw, increment: float, mode: float) -> bool:

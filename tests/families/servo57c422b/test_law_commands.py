@@ -75,6 +75,19 @@ def test_tune_gains_needs_its_increment() -> None:
         run(module(command__position=None), "tune")
 
 
+@pytest.mark.parametrize(
+    ("model", "message"),
+    [
+        ({"model.coulomb_friction": 20.0}, "its friction is above Maximum Voltage Reference"),
+        ({"model.delay": 50.0}, "The shaft vibrates at a Velocity Gain of 25"),
+        ({"model.acceleration_per_output": 1.0}, "gains that are not stable"),
+    ],
+)
+def test_a_motor_that_cannot_be_tuned_is_said_in_a_sentence(model: dict[str, float], message: str) -> None:
+    with pytest.raises(SimulationError, match=message):
+        simulate(module(), "tune", settings=model)
+
+
 def test_tune_dynamics_finds_what_the_axis_can_do_up_to_its_registers() -> None:
     # Page 4-30: registers 19 to 24 limit what is found and then contain it.
     at_limit = run(module(), "tune", tune__command="dynamics")
@@ -169,8 +182,32 @@ def test_a_position_cam_follows_its_master() -> None:
     assert float(trace.columns["command_position"][-1]) == pytest.approx(100.0)
 
 
+@pytest.mark.parametrize(
+    ("scenario", "setting", "value", "message"),
+    [
+        ("cam", "cam.cycles", 1.5, "it must be a whole number"),
+        ("cam", "cam.cycles", 1e9, "at most 60 s are simulated"),
+        ("cam", "cam.mirror", "maybe", "it must be yes or no"),
+        ("gear", "gear.speed", 1e300, "are simulated"),
+        ("gear", "gear.time", 1e9, "at most 60 s are simulated"),
+        ("backlash", "move.distance", 0.0, "it must be 1 count"),
+        ("backlash", "move.distance", 1e300, "it must be 1 count"),
+        ("tune", "tune.gains", 1.0, "Unknown setting 'tune.gains'"),
+    ],
+)
+def test_an_absurd_setting_is_answered_in_a_sentence(
+    scenario: str, setting: str, value: float | str, message: str
+) -> None:
+    with pytest.raises(SimulationError, match=message):
+        simulate(module(cam__mode=Value(1, "")), scenario, settings={setting: value})
+
+
 def test_a_cam_with_a_missing_point_names_it() -> None:
     with pytest.raises(SimulationError, match="Point 4 of the cam is not set, and R128"):
         run(module(cam__mode=Value(1, ""), cam__points=Value(5, "")), "cam")
+    with pytest.raises(SimulationError, match="has 1 to 1915 points"):
+        run(module(cam__mode=Value(1, ""), cam__points=Value(2_000_000_000, "")), "cam")
     with pytest.raises(SimulationError, match="Point 0 of the cam is not set"):
-        run(module(cam__mode=Value(0, "")), "cam")  # in bytes, of which there are none
+        run(
+            module(cam__mode=Value(0, ""), cam__points=Value(2, "")), "cam"
+        )  # in bytes, of which there are none
