@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from amp_studio.families.ninepc import law_samples as samples
 from amp_studio.families.ninepc import law_units as units
 from amp_studio.schema import load_schema
 from amp_studio.sim.motion import Until, run_axis
@@ -110,3 +111,14 @@ def test_an_axis_says_where_its_inertia_is_from(axis: Axis) -> None:
         5974.3 * 10.0 / (2.0 * math.pi) / 100.0, rel=1e-4
     )
     assert unknown.machine.acceleration_per_output == pytest.approx(15.915, rel=1e-4)
+
+
+def test_maximum_servo_acceleration_is_nothing_to_a_digital_axis(axis: Axis) -> None:
+    # Page 7-67, against Table A.A: divided by it, the inertia would be out of the loop.
+    one, other = axis({"servo.max_acceleration": 500.0}), axis({"servo.max_acceleration": 5000.0})
+    assert (one.parameters, one.machine) == (other.parameters, other.machine)
+    heavier = axis({"servo.load_inertia_ratio": "r3"})
+    assert heavier.parameters[: samples.SIZE] == axis().parameters[: samples.SIZE]
+    assert heavier.machine.acceleration_per_output == pytest.approx(
+        axis().machine.acceleration_per_output / 4.0
+    )
