@@ -118,6 +118,18 @@ def test_tune_feedforward_refuses_travel_that_is_too_short() -> None:
         run(module(), "tune", tune__command="all")
 
 
+def test_tuned_in_the_printed_order_an_axis_moves_and_rests_within_its_tolerance() -> None:
+    # Page 4-29: gains, dynamics, feedforward; what each leaves is applied before the next.
+    file = module(gain__velocity=Value(25, ""), gain__deadband=Value(0, ""), gain__feedforward=Value(0, ""))
+    for command in ("gains", "dynamics", "feedforward"):
+        for left in run(file, "tune", tune__command=command).recommendations:
+            file.set((left.parameter, "X"), Value(left.value, left.unit))
+    trace = run(file, "step", move__distance=20_000.0)
+    assert trace.alarms == ()
+    assert trace.result["settle_time"][0] is not None
+    assert trace.result["peak_following_error"][0] < 15.0
+
+
 # -- backlash --------------------------------------------------------------------------------------
 
 
