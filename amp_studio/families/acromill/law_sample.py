@@ -2,7 +2,7 @@
 
 Printed in the User's Guide: units of the gains page 59 and appendix C, page 113; order of PID, filters and torque limit
 page 128; FBVEL, taken off where the PID goes into the filters, page 135. The picture of the servo loop (page 95) is
-lost. What is not printed and assumed: the integral keeps its value during I Delay; the derivative is constant
+lost. What is not printed and assumed: both feed-forwards are added where FBVEL is taken off; the integral keeps its value during I Delay; the derivative is constant
 between its samples; the output is rounded to whole words of the converter.
 
 ``position_sample`` is ordinary Python over arrays of floats that numba can compile; it calls no other function.

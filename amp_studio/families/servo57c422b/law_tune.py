@@ -168,10 +168,10 @@ def deadband(axis: AxisLaw) -> float:
 
 
 def _breakaway(axis: AxisLaw, start: float, end: float) -> float:
-    """Return the output in words at which the axis begins to move, of one that rises from ``start`` to ``end`` in 4 s."""
-    volts, rise = start / loop.WORDS_PER_VOLT, (end - start) / 4.0 / loop.WORDS_PER_VOLT
+    """Return the output in words at which the axis begins to move, of one that rises from ``start`` to ``end`` in 1 s."""
+    volts, rise = start / loop.WORDS_PER_VOLT, (end - start) / loop.WORDS_PER_VOLT
     ramp = [0.0, math.inf, volts, rise, 0.0, 0.0, POLYNOMIAL, 0.0]
-    motion = run_axis(axis, ramp, Until(4.0), mode=OUTPUT_TEST)
+    motion = run_axis(axis, ramp, Until(1.0), mode=OUTPUT_TEST)
     moved = np.flatnonzero(np.abs(motion.columns["measured_position"]) >= 1.0)
     if moved.size == 0:
         raise SimulationError(
