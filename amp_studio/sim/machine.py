@@ -15,6 +15,21 @@ from .errors import SimulationError
 CONTACT = 150.0
 """Hz: resonance of motor and load in contact, of an axis that has backlash but no resonance of its own; an assumption."""
 
+LARGEST = {
+    "acceleration_per_output": 1e12,
+    "inertia_ratio": 1e4,
+    "coulomb_friction": 1e9,
+    "static_friction": 1e9,
+    "backlash": 1e6,
+    "damping": 10.0,
+    "gravity": 1e9,
+    "delay": 1.0,
+}
+"""The largest figures of a machine that are simulated; in u and s."""
+
+STIFFEST = 1e7
+"""1/s: the highest rate of a machine that is simulated."""
+
 INERTIA_ASSUMED = 1.0
 """Load inertia / motor inertia of an axis with two masses and no ratio of its own; an assumption."""
 
@@ -78,12 +93,18 @@ class Machine:
                 raise SimulationError(
                     f"{words(field.name)} of the machine is {value:g}; it must not be negative"
                 )
+            if abs(value) > LARGEST.get(field.name, math.inf):
+                raise SimulationError(
+                    f"{words(field.name)} of the machine is {value:g}; at most {LARGEST[field.name]:g} is simulated"
+                )
         if self.acceleration_per_output == 0.0:
             raise SimulationError("The acceleration per output of the machine is 0; it must be above 0")
         if self.motor_friction > 1.0:
             raise SimulationError(f"The motor's share of the friction is {self.motor_friction:g}; at most 1")
         if self.velocity_per_output > 0.0 and self.velocity_bandwidth == 0.0:
             raise SimulationError("The velocity loop of the drive has no bandwidth; it must be above 0 Hz")
+        if not self.fastest <= STIFFEST:
+            raise SimulationError(f"The machine is too stiff to simulate ({self.fastest:.6g} 1/s)")
 
     @property
     def two_masses(self) -> bool:
@@ -99,7 +120,8 @@ class Machine:
         if self.spring > 0.0:
             rates.append(math.sqrt(self.acceleration_per_output * self.spring))
         if self.velocity_per_output > 0.0:
-            rates.append(2.0 * math.pi * self.velocity_bandwidth)
+            loop = 2.0 * math.pi * self.velocity_bandwidth
+            rates += [loop, math.sqrt(loop * self.velocity_integral)]
         return max(rates)
 
 

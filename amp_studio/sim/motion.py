@@ -19,8 +19,6 @@ from .signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 
 Engine = Literal["auto", "plain", "compiled"]
 
-LONGEST_DELAY = 1.0
-"""s"""
 LONGEST_STEP = 0.25e-3
 """Longest physics step in s."""
 STIFFEST_STEP = 0.25
@@ -145,11 +143,6 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
     """Return (velocity samples in a servo period, physics steps in a velocity sample)."""
     samples = max(1, round(axis.servo_period / axis.velocity_period))
     sample = axis.servo_period / samples
-    if axis.machine.delay > LONGEST_DELAY:
-        raise SimulationError(
-            f"The delay of axis {axis.axis} is {axis.machine.delay:g} s; at most {LONGEST_DELAY:g} s are simulated",
-            "model.delay",
-        )
     wanted = max(sample / LONGEST_STEP - 1e-9, sample * axis.machine.fastest / STIFFEST_STEP)
     if not wanted <= MOST_SUBSTEPS:
         raise SimulationError(

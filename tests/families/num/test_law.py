@@ -227,6 +227,8 @@ def test_all_words_that_are_missing_are_named_in_one_sentence() -> None:
         ({"servo__friction_amplitude_at_0": 10.0, "servo__friction_time_at_0": 2.0}, "never dies away"),
         ({"model__drive_voltage": 11.0}, "model.drive_voltage is 11 V"),
         ({"model__scale": 2.0}, "model.scale is 2"),
+        ({"model__velocity_integral": 1e300}, "The machine is too stiff to simulate"),
+        ({"model__velocity_bandwidth": 1e300}, "The machine is too stiff to simulate"),
     ],
 )
 def test_an_impossible_word_is_refused_with_a_sentence(changes: dict[str, float], sentence: str) -> None:
