@@ -9,6 +9,7 @@ import pytest
 
 from amp_studio.sim import SCENARIOS, SimulationError, Trace
 from amp_studio.sim.linear import linear_model
+from amp_studio.sim.scenarios.sweep import Tone, sweep
 from tests.sim.tiny import tiny
 
 
@@ -83,3 +84,11 @@ def test_an_impossible_sweep_is_one_sentence(settings: dict[str, float], words: 
 
 def test_every_figure_is_a_number_or_nothing(elastic: Trace) -> None:
     assert all(value is None or isfinite(value) for value, _ in elastic.result.values())
+
+
+def test_an_answer_below_half_a_count_is_no_point_of_the_sweep() -> None:
+    # At 0.4 counts the device measures nothing at all, which would be a gain of minus 240 dB.
+    axis = tiny(position_count=0.01)
+    found = sweep(axis, [Tone(1.0, 0.004, 0.0, 1.0, 2.0), Tone(1.0, 0.4, 2.0, 3.0, 4.0)])
+    assert np.isnan(found.measured[0])
+    assert abs(found.measured[1]) == pytest.approx(1.0, abs=0.3)

@@ -31,6 +31,8 @@ SHARE = 0.25
 """Share of feedrate, torque and limits of the following error that the sine uses."""
 COUNTS = 50.0
 """Counts of the answer, where the limits allow it."""
+LEAST = 0.5
+"""Counts of an answer below which it is none."""
 FINEST = 1e-4
 """u: a count of an ideal device, for the choice of an amplitude."""
 
@@ -118,7 +120,9 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
             break
         inside = (time >= tone.begin - 1e-9) & (time < tone.end - 1e-9)
         for row, name in enumerate(("position", "measured_position")):
-            found[row, n] = _fitted(time[inside] - tone.start, columns[name][inside], tone)
+            answer = _fitted(time[inside] - tone.start, columns[name][inside], tone)
+            if abs(answer) * tone.amplitude >= LEAST * axis.machine.position_count:
+                found[row, n] = answer
     return Sweep(found[0], found[1], motion)
 
 
