@@ -154,7 +154,8 @@ def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[
     straight = Ramp("linear", acceleration=acceleration)
     notes.append(
         "Bit 5 of P7N1 (speed variation in S, 9-6) chooses the sin² ramps of 6-38: acceleration sin², on average half of the"
-        " greatest one. ASSUMED: without it the ramp is straight with the whole of it; the figure of 6-10 is lost."
+        " greatest one, which is that of fast moves (G0, second word of P32, 6-10). ASSUMED: without it the ramp is straight with"
+        " the whole of it; the figure of 6-10 is lost."
     )
     own = [sine, straight] if functions is not None and int(functions) >> 5 & 1 else [straight, sine]
     return {ramp.kind: ramp for ramp in (*own, Ramp("none"))}
