@@ -34,8 +34,7 @@ def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
 def _gain(axis: AxisLaw, _trace: Trace) -> Iterator[Recommendation]:
     """Yield the KVAR that fits the time constant (6-14), with which anticipation and dynamic check are reckoned."""
     constant, source = axis.parameters[sample.CONSTANT], axis.sources["position_gain"]
-    off = axis.position_rate * constant - 1.0
-    if abs(off) <= APART:
+    if _fits(axis):
         return
     before, after = (axis.feedrate or 0.0) / axis.position_rate, (axis.feedrate or 0.0) * constant
     yield Recommendation(
@@ -47,6 +46,11 @@ def _gain(axis: AxisLaw, _trace: Trace) -> Iterator[Recommendation]:
         f"The following error at the highest speed goes from {shown(before, axis.unit, 3)} to {shown(after, axis.unit, 3)};"
         " EMAX follows it.",
     )
+
+
+def _fits(axis: AxisLaw) -> bool:
+    """Return whether gain and time constant are the same thing."""
+    return abs(axis.position_rate * axis.parameters[sample.CONSTANT] - 1.0) <= APART
 
 
 def _largest_error(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
@@ -110,7 +114,7 @@ def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
 
 def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     """Yield a tolerance of the dynamic check (11-8: 2 to 4 windows) where there is none, no less than this move needs."""
-    if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms:
+    if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms or not _fits(axis):
         return
     theory, real = trace.columns["theoretical_speed"], trace.columns["measured_speed"]
     slow, fast = np.minimum(0.875 * theory, 1.125 * theory), np.maximum(0.875 * theory, 1.125 * theory)

@@ -81,6 +81,10 @@ def test_a_dynamic_check_that_is_off_is_recommended_with_room_for_the_move() -> 
     assert moved(file).alarms == ()
 
 
+def test_a_dynamic_check_is_not_made_to_fit_a_wrong_kvar() -> None:
+    assert only(moved(mill(movement_tolerance=0, loop_gain=20000))).parameter == "servo.loop_gain"
+
+
 def test_an_acceleration_beyond_a_known_torque_is_lowered() -> None:
     file = mill(movement_tolerance=200)
     found = only(moved(file, acceleration_per_output=2.5))
