@@ -232,8 +232,8 @@ def print_comparison(file: ParameterFile, found: Comparison, secrets: bool) -> N
     """Print each difference and how many there are; ``file`` is one of the two sides."""
     for difference in found.differences:
         print_difference(file, difference, secrets)
-    print(f"{len(found.differences)} differ, {found.same} are the same, {found.absent_in_a} not set in A, "
-          f"{found.absent_in_b} not set in B")  # fmt: skip
+    print(f"{len(found.differences)} differ, {found.same} are the same, {found.not_set_in_a} not set in A, "
+          f"{found.not_set_in_b} not set in B")  # fmt: skip
 
 
 def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:

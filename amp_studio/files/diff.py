@@ -27,12 +27,12 @@ class Comparison:
     same: int
 
     @property
-    def absent_in_a(self) -> int:
+    def not_set_in_a(self) -> int:
         """Addresses that only the second side has."""
         return sum(d.a is None for d in self.differences)
 
     @property
-    def absent_in_b(self) -> int:
+    def not_set_in_b(self) -> int:
         """Addresses that only the first side has."""
         return sum(d.b is None for d in self.differences)
 

@@ -160,10 +160,10 @@ class _FileReader:
             if said is not None and known and said not in known:
                 raise self._fault(f"{key} is {quoted(said)}; known here: {', '.join(known)}", key)
 
-    def _section(self, name: str, holds: str) -> dict[str, Any]:
+    def _section(self, name: str, of_what: str) -> dict[str, Any]:
         entries = self.data.get(name) or {}
         if not isinstance(entries, dict):
-            raise self._fault(f"'{name}' is not a list of {holds}", name)
+            raise self._fault(f"'{name}' is not a list of {of_what}", name)
         return entries
 
     def _read_values(self, entries: dict[str, Any]) -> None:

@@ -8,7 +8,7 @@ from .address import Address, UnknownParameterError, part_of, read_address, writ
 from .addressing import Meant, addresses_meant, all_meant, axis_meant, meant, unknown
 from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
-from .conditions import IN_FORCE, Reference, StateInfo
+from .conditions import ACTIVE, Reference, StateInfo
 from .constraint import Limits, bounding, clip, fault, limits
 from .evaluation import Evaluation, same_value
 from .expression import canonical_value, program
@@ -43,7 +43,7 @@ from .values import (
 )
 
 __all__ = [
-    "IN_FORCE",
+    "ACTIVE",
     "MASKED",
     "Address",
     "AxisProfile",

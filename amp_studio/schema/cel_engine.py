@@ -39,7 +39,7 @@ _FAULTS = ("AttributeError", "NameError", "UnboundLocalError", "AssertionError",
 """What a function raises that is wrong itself."""
 
 
-def _tells_of_a_fault(record: logging.LogRecord) -> bool:
+def _reports_a_fault(record: logging.LogRecord) -> bool:
     """Return whether what CEL logs is worth a line.
 
     It warns of every function that raises. Most only make no sense of their arguments, which ends the expression and
@@ -50,7 +50,7 @@ def _tells_of_a_fault(record: logging.LogRecord) -> bool:
     )
 
 
-logging.getLogger("cel").addFilter(_tells_of_a_fault)
+logging.getLogger("cel").addFilter(_reports_a_fault)
 
 LANGUAGE_FUNCTIONS = frozenset(
     {"size", "contains", "startsWith", "endsWith", "matches", "int", "uint", "double", "string", "bytes", "type",

@@ -41,7 +41,7 @@ class StateInfo:
     page: str | None = None
 
 
-IN_FORCE = StateInfo("in-force")
+ACTIVE = StateInfo("in-force")
 READ_ONLY = StateInfo("unusable", "it can only be read: the control writes it itself")
 
 
@@ -67,16 +67,16 @@ class Question:
 
 
 @dataclass(frozen=True, slots=True)
-class Situation:
+class Answers:
     """What follows from the values that conditions read: the same for all files in which these are equal."""
 
-    holds: dict[Asked, bool] = field(default_factory=dict)
+    conditions: dict[Asked, bool] = field(default_factory=dict)
     states: dict[StatePlan, StateInfo] = field(default_factory=dict)
     by_address: dict[Address, StateInfo] = field(default_factory=dict)
     """The same states, so that they are quick to look up."""
 
 
-_SITUATIONS = 100
+_MOST_ANSWERS = 100
 """Kept before all are forgotten: some hundred kilobytes each."""
 
 
@@ -102,7 +102,7 @@ class Conditions:
         self.deciding = tuple(address for address in self._here.addresses if address[0] in read)
         """Every address that a condition may read."""
         self.decides = frozenset(self.deciding)
-        self._situations: dict[tuple[Key, ...], Situation] = {}
+        self._answers: dict[tuple[Key, ...], Answers] = {}
 
     def _reach(self, name: str) -> Reach:
         condition = self._schema.family.conditions[name]
@@ -133,33 +133,33 @@ class Conditions:
             condition = self._schema.family.conditions[name]
             info = StateInfo(rule.state, condition.why, rule.page or condition.page)
             steps.append((self.asked(name, address[1], self.scopes[address[0]]), rule.when is not None, info))
-        otherwise = READ_ONLY if parameter.access == "read" else IN_FORCE
+        otherwise = READ_ONLY if parameter.access == "read" else ACTIVE
         plan = self._plans.setdefault((*steps, otherwise), StatePlan(tuple(steps), otherwise))
         for asked, _, _ in steps:
             self.plans_asking.setdefault(asked, set()).add(plan)
         return plan
 
-    # -- situations ------------------------------------------------------------
+    # -- answers ---------------------------------------------------------------
 
-    def situation(
-        self, keys: tuple[Key, ...], before: Situation | None = None, changed: Iterable[Address] = ()
-    ) -> Situation:
-        """Return the situation for the keys of the ``deciding`` values, and of the model of the control.
+    def answers(
+        self, keys: tuple[Key, ...], before: Answers | None = None, changed: Iterable[Address] = ()
+    ) -> Answers:
+        """Return the answers for the keys of the ``deciding`` values, and of the model of the control.
 
         One that is new knows what the one ``before`` it knew, but for what reads a ``changed`` address.
         """
-        found = self._situations.get(keys)
+        found = self._answers.get(keys)
         if found is None:
-            if len(self._situations) >= _SITUATIONS:
-                self._situations.clear()
-            found = self._situations[keys] = Situation() if before is None else self._after(before, changed)
+            if len(self._answers) >= _MOST_ANSWERS:
+                self._answers.clear()
+            found = self._answers[keys] = Answers() if before is None else self._after(before, changed)
         return found
 
-    def _after(self, before: Situation, changed: Iterable[Address]) -> Situation:
-        found = Situation(dict(before.holds), dict(before.states))
+    def _after(self, before: Answers, changed: Iterable[Address]) -> Answers:
+        found = Answers(dict(before.conditions), dict(before.states))
         for address in changed:
             for asked in tuple(self.readers.get(address, ())):  # another thread may be opening another file
-                found.holds.pop(asked, None)
+                found.conditions.pop(asked, None)
                 for plan in tuple(self.plans_asking.get(asked, ())):
                     found.states.pop(plan, None)
         return found

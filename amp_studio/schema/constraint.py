@@ -49,7 +49,7 @@ def ranges_of(evaluation: Evaluation, address: Address) -> dict[str, Range]:
     """Return the ranges that apply to one instance: the plain ones, or those of a variant."""
     parameter = evaluation.schema.parameters[address[0]]
     for variant in parameter.range_variants:
-        if evaluation.holds(variant.when, address[1], evaluation.scope(address)):
+        if evaluation.is_true(variant.when, address[1], evaluation.scope(address)):
             return variant.ranges
     return parameter.ranges or {}
 

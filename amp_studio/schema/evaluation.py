@@ -11,7 +11,7 @@ from collections.abc import Callable, Hashable, Mapping
 from .address import Address, UnknownParameterError
 from .addressing import meant
 from .catalog import Schema
-from .conditions import Asked, Conditions, Reference, Situation, StateInfo, conditions_of
+from .conditions import Answers, Asked, Conditions, Reference, StateInfo, conditions_of
 from .expression import Canonical, Circumstances, Key, Keys, canonical_value, value_of
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
@@ -35,8 +35,8 @@ class Evaluation:
         self._facts: Conditions | None = None
         self.keys = Keys(value)
         """The key of each value in canonical units."""
-        self._situation: Situation | None = None
-        self._before: Situation | None = None
+        self._answers: Answers | None = None
+        self._before: Answers | None = None
         """The last one, until it is asked what the next one is."""
         self._decided: set[Address] = set()
         """What conditions read that has changed since then."""
@@ -91,15 +91,15 @@ class Evaluation:
         except KeyError:
             raise UnknownParameterError(f"the family has no condition '{name}'") from None
 
-    def holds(self, name: str, instance: str, scope: str | None = None) -> bool:
+    def is_true(self, name: str, instance: str, scope: str | None = None) -> bool:
         """Return whether a named condition is true for an instance (of a ``scope``); false for a condition over a value that is not set."""
-        return self._held(self._conditions.asked(name, instance, scope))
+        return self._answer(self._conditions.asked(name, instance, scope))
 
-    def _held(self, asked: Asked) -> bool:
-        holds = self._present().holds
-        found = holds.get(asked)
+    def _answer(self, asked: Asked) -> bool:
+        known = self._present().conditions
+        found = known.get(asked)
         if found is None:
-            found = holds[asked] = self._evaluate(asked)
+            found = known[asked] = self._evaluate(asked)
         return found
 
     def _evaluate(self, asked: Asked) -> bool:
@@ -112,7 +112,7 @@ class Evaluation:
         else:
             given = tuple([None if r is None else self._key(r) for r in question.references])
         circumstances = Circumstances(self.machine, self._model, asked[1])
-        return question.decision.holds(given, question.names, circumstances)
+        return question.decision.is_true(given, question.names, circumstances)
 
     def _key(self, reference: Reference) -> Key:
         keys = self.keys
@@ -124,34 +124,34 @@ class Evaluation:
 
     # -- states ----------------------------------------------------------------
 
-    def _present(self) -> Situation:
-        found = self._situation
+    def _present(self) -> Answers:
+        found = self._answers
         if found is None:
             conditions, keys = self._conditions, self.keys
             self._model = self._application()
             deciding = (self._model, *[keys[a] for a in conditions.deciding])
-            found = self._situation = conditions.situation(deciding, self._before, self._decided)
+            found = self._answers = conditions.answers(deciding, self._before, self._decided)
             self._before = None
             self._decided.clear()
         return found
 
     def state(self, address: Address) -> StateInfo:
         """Return whether a parameter is active, ignored, unusable or hidden, and why."""
-        situation = self._situation or self._present()
-        return situation.by_address.get(address) or self._state(situation, address)
+        answers = self._answers or self._present()
+        return answers.by_address.get(address) or self._state(answers, address)
 
-    def _state(self, situation: Situation, address: Address) -> StateInfo:
+    def _state(self, answers: Answers, address: Address) -> StateInfo:
         plan = self._conditions.state_plan(address)
-        found = situation.states.get(plan)
+        found = answers.states.get(plan)
         if found is None:
-            decided = (info for asked, wanted, info in plan.steps if self._held(asked) == wanted)
-            found = situation.states[plan] = next(decided, plan.otherwise)
-        situation.by_address[address] = found
+            decided = (info for asked, wanted, info in plan.steps if self._answer(asked) == wanted)
+            found = answers.states[plan] = next(decided, plan.otherwise)
+        answers.by_address[address] = found
         return found
 
     def known_states(self) -> Mapping[Address, StateInfo]:
         """Return the states that were asked for already, until the next change."""
-        return (self._situation or self._present()).by_address
+        return (self._answers or self._present()).by_address
 
     def how_state_is_found(self, address: Address) -> Hashable:
         """Return what is equal for addresses whose states are the same whatever the values."""
@@ -172,7 +172,7 @@ class Evaluation:
     def turns(self, address: Address) -> bool:
         """Return whether the instance belongs to an axis whose lengths are angles."""
         name = self.schema.family.angular_when
-        return bool(name and self.scope(address) == "axis" and self.holds(name, address[1], "axis"))
+        return bool(name and self.scope(address) == "axis" and self.is_true(name, address[1], "axis"))
 
     def unit(self, address: Address, system: str) -> str:
         """Return the unit of entry of an instance in a unit system."""
@@ -201,7 +201,7 @@ class Evaluation:
         def hiding(address: Address) -> int:
             steps = self._conditions.state_plan(address).steps
             return sum(
-                info.state == "hidden" and self._held(asked) == wanted for asked, wanted, info in steps
+                info.state == "hidden" and self._answer(asked) == wanted for asked, wanted, info in steps
             )
 
         counts = {address: hiding(address) for address in claims}
@@ -215,13 +215,13 @@ class Evaluation:
         if address == (self.schema.family.machine_parameter, ""):
             self.forget()
         elif address in self._conditions.decides:
-            self._before = self._before or self._situation
+            self._before = self._before or self._answers
             self._decided.add(address)
-            self._situation = None
+            self._answers = None
 
     def forget(self) -> None:
         """Forget everything, as after reading another file."""
-        self._machine = self._facts = self._situation = self._before = None
+        self._machine = self._facts = self._answers = self._before = None
         self._decided.clear()
         self.keys.clear()
 

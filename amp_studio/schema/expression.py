@@ -143,7 +143,7 @@ class Decision(Expression):
         """Whether it asks which instance, or which part, it is worked out for."""
         return "instance" in self.always or "part" in self.always
 
-    def holds(self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances) -> bool:
+    def is_true(self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances) -> bool:
         """Return whether it is true of the values of its names; it is not where it makes no sense of them."""
         return self.verdict(keys, names, circumstances) is True
 

@@ -75,8 +75,8 @@ class DifferenceList(QTreeWidget):
 
 def counts(found: Comparison, other: str) -> str:
     """Return the counts of a comparison in a sentence."""
-    different = len(found.differences) - found.absent_in_a - found.absent_in_b
-    not_set = f"{found.absent_in_a} not set in this file, {found.absent_in_b} not set in {other}"
+    different = len(found.differences) - found.not_set_in_a - found.not_set_in_b
+    not_set = f"{found.not_set_in_a} not set in this file, {found.not_set_in_b} not set in {other}"
     return f"{different} different, {found.same} the same, {not_set}."
 
 

@@ -288,7 +288,7 @@ class ExpressionCheck:
     def _compare_choice(self, node: Node, worth: Worth, literals: tuple[str, ...]) -> None:
         """See that what a choice is compared with are keys of it."""
         for text in literals if worth.choices and worth.is_closed else ():
-            if worth.choices and not worth.choices.holds(text) and text not in worth.literals:
+            if worth.choices and not worth.choices.contains(text) and text not in worth.literals:
                 self._slip(f"{shown(node.text)} is never {shown(text)}: {meant(text, worth.choices)}")
 
     def _compare_choices(self, node: Node, left: Worth, right: Worth) -> None:
@@ -297,7 +297,7 @@ class ExpressionCheck:
             or left.literals + right.literals
         ):
             return
-        if not any(right.choices.holds(key) for key in left.choices.keys):
+        if not any(right.choices.contains(key) for key in left.choices.keys):
             one, other = node.parts
             self._slip(f"{shown(one.text)} and {shown(other.text)} have no choice in common")
 

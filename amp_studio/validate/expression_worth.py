@@ -30,7 +30,7 @@ class KnownChoices:
     open: bool = False
     """``raw:`` and a code may be given too."""
 
-    def holds(self, text: str) -> bool:
+    def contains(self, text: str) -> bool:
         return text in self.keys or (self.open and text.startswith("raw:"))
 
 

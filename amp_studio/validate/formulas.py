@@ -71,11 +71,11 @@ def _guarded(function: Callable[..., Any]) -> Callable[..., Any]:
     ten with a billion digits.
     """
     places = inspect.signature(function).parameters.values()
-    wants_number = [parameter.annotation in NUMBER_ANNOTATIONS for parameter in places]
+    takes_number = [parameter.annotation in NUMBER_ANNOTATIONS for parameter in places]
 
     @wraps(function)
     def called(*arguments: Any) -> Any:
-        for argument, is_number in zip(arguments, wants_number, strict=False):
+        for argument, is_number in zip(arguments, takes_number, strict=False):
             if is_number and type(argument) in (str, list, dict):
                 raise TypeError(f"{argument!r:.20} is no number")
         return function(*map(_with_doubles, arguments))

@@ -151,7 +151,7 @@ class ValueChecks:
     def _turns(self, address: Address) -> bool:
         found = self._turning.get(address[1])
         if found is None:
-            found = self._angular is not None and self._file.evaluation.holds(
+            found = self._angular is not None and self._file.evaluation.is_true(
                 self._angular, address[1], "axis"
             )
             self._turning[address[1]] = found
@@ -164,7 +164,7 @@ class ValueChecks:
         if sources is None:
             sources = facts.bounded_by[address[1]] = evaluation.bound_sources(address)
         variants = [
-            evaluation.holds(variant.when, address[1], evaluation.scope(address))
+            evaluation.is_true(variant.when, address[1], evaluation.scope(address))
             for variant in facts.parameter.range_variants
         ]
         hidden = [evaluation.state(source).state == "hidden" for source in sources]

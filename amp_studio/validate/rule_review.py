@@ -243,7 +243,7 @@ def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
     if not isinstance(wanted, bool) and wanted.type == "choice":
         choices = choice_worth(wanted).choices
         for text in worth.literals:
-            if choices and not choices.holds(text):
+            if choices and not choices.contains(text):
                 return f"{wanted.name} is never {shown(text)}: {meant(text, choices)}"
     return ""
 

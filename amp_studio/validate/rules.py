@@ -20,7 +20,7 @@ from amp_studio.schema import (
     write_number,
 )
 from amp_studio.schema.cel_engine import Context
-from amp_studio.schema.conditions import IN_FORCE
+from amp_studio.schema.conditions import ACTIVE
 from amp_studio.schema.expression import (
     ALWAYS_THERE,
     NO_RESULT,
@@ -74,7 +74,7 @@ class _Active(dict[Address, Key]):
         key = self._keys[address]
         if key is not None:
             state = self._states.get(address) or self._evaluation.state(address)
-            if state is not IN_FORCE:
+            if state is not ACTIVE:
                 key = None
         self[address] = key
         return key
@@ -170,12 +170,12 @@ class RuleChecks:
         found = list(keys)
         for n, single in enumerate(check.singles):
             if found[n] is None and single.any_state:
-                found[n] = self._out_of_force(single.address)
+                found[n] = self._inactive(single.address)
             if found[n] is None and not single.optional:
                 return ()
         return tuple(found)
 
-    def _out_of_force(self, address: Address) -> Key:
+    def _inactive(self, address: Address) -> Key:
         evaluation = self._file.evaluation
         return evaluation.keys[address] if evaluation.state(address).state != "hidden" else None
 

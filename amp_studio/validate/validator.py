@@ -32,10 +32,10 @@ class Validator:
         self.own = own
         self.suppressed: tuple[Suppressed, ...] = ()
         """Findings that the builder leaves as they are."""
-        self._light: tuple[str, str, str] | None = None
+        self._circumstances: tuple[str, str, str] | None = None
         """Machine type, model and unit system of the present findings."""
-        self._unset: set[Address] = set()
-        self._unset_advice: list[tuple[_Order, Finding]] | None = None
+        self._not_set: set[Address] = set()
+        self._not_set_findings: list[tuple[_Order, Finding]] | None = None
         """What is reported about them, until they change."""
         self._filed: dict[Place, tuple[_Order, Finding]] = {}
         self._checks_of: dict[Hashable, RuleCheck] | None = None
@@ -53,11 +53,11 @@ class Validator:
             self.file.evaluation.forget()  # conditions may name the model of the control
             self._prepare()
         self._trials = Trials(self.file, self._plan, self.own)  # of a file in which anything may have changed
-        self._light = self._present_light()
+        self._circumstances = self._present_circumstances()
         self._checks.look_again()
         self._checks_of = None
-        self._unset = self._all_unset()
-        self._unset_advice = None
+        self._not_set = self._all_not_set()
+        self._not_set_findings = None
         self._filed = {
             place: (self._order(finding, place if isinstance(place, int) else -1), finding)
             for place, finding in self._checks.of_all(self._plan)
@@ -66,7 +66,7 @@ class Validator:
 
     def update(self, changed: Iterable[Address]) -> tuple[Finding, ...]:
         """Check again what reads the changed addresses; returns all findings."""
-        if self._light != self._present_light():
+        if self._circumstances != self._present_circumstances():
             return self.run()
         edited = list(changed)
         addresses: set[Address] = set()
@@ -79,7 +79,7 @@ class Validator:
         self._trials.changed(edited, (*addresses, *checks))
         return self.findings()
 
-    def _present_light(self) -> tuple[str, str, str]:
+    def _present_circumstances(self) -> tuple[str, str, str]:
         header = self.file.header
         return self.file.machine, header.application, header.units
 
@@ -129,7 +129,7 @@ class Validator:
         for check, finding in self._checks.of_rules(checks):
             self._filed[check.place] = (self._order(finding, check.place), finding)
 
-    def _all_unset(self) -> set[Address]:
+    def _all_not_set(self) -> set[Address]:
         evaluation, values = self.file.evaluation, self.file.values.keys()
         active = (alike for alike in self._plan.alike if evaluation.state(alike[0]).state == "in-force")
         missing = (address for alike in active for address in alike if address not in values)
@@ -142,9 +142,9 @@ class Validator:
             and not self.file.schema.parameters[address[0]].optional
             and self.file.evaluation.state(address).state == "in-force"
         )
-        if asked != (address in self._unset):
-            self._unset ^= {address}
-            self._unset_advice = None
+        if asked != (address in self._not_set):
+            self._not_set ^= {address}
+            self._not_set_findings = None
         return self._checks.of_value(address)
 
     def _offered(self) -> Iterator[tuple[_Order, Finding]]:
@@ -164,27 +164,25 @@ class Validator:
     def _general(self) -> list[tuple[_Order, Finding]]:
         """Return the findings that are about the file as a whole."""
         found = []
-        if self._unset_advice is None:
-            self._unset_advice = [(self._order(advice), advice) for advice in self._advice()]
-        found += self._unset_advice
+        if self._not_set_findings is None:
+            self._not_set_findings = [(self._order(advice), advice) for advice in self._missing_values()]
+        found += self._not_set_findings
         for n, key in enumerate(self.file.unknown):
             said = f"{key} is no parameter of this schema; it is kept as it is."
             finding = Finding("schema.unknown", "warning", (), said)
             found.append((self._order(finding, n), finding))
         return found
 
-    def _advice(self) -> Iterator[Finding]:
+    def _missing_values(self) -> Iterator[Finding]:
         """Yield one recommendation on all values that are missing.
 
         A value for the control as a whole speaks for each of its processes.
         """
-        every = {a for a in self._unset if not a[1] or (a[0], "") not in self.file.values}
-        unset = tuple(sorted(every, key=self._plan.order.__getitem__))
-        if not unset:
+        every = {a for a in self._not_set if not a[1] or (a[0], "") not in self.file.values}
+        not_set = tuple(sorted(every, key=self._plan.order.__getitem__))
+        if not not_set:
             return
-        names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in unset[:4])
-        more = f" and {len(unset) - 4} more" if len(unset) > 4 else ""
-        said = (
-            f"{len(unset)} active parameters have no value here, so the control keeps its own: {names}{more}."
-        )
-        yield Finding("schema.unset", "advice", unset, said)
+        names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in not_set[:4])
+        more = f" and {len(not_set) - 4} more" if len(not_set) > 4 else ""
+        said = f"{len(not_set)} active parameters have no value here, so the control keeps its own: {names}{more}."
+        yield Finding("schema.unset", "advice", not_set, said)

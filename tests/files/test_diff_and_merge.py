@@ -62,7 +62,7 @@ def test_what_is_absent_on_one_side_is_counted_apart(mill: ParameterFile) -> Non
         ("future.thing", ""): Value("x"),
     }
     found = compare(mill.schema, a, b)
-    assert (found.absent_in_a, found.absent_in_b, found.same, len(found.differences)) == (2, 1, 1, 4)
+    assert (found.not_set_in_a, found.not_set_in_b, found.same, len(found.differences)) == (2, 1, 1, 4)
 
 
 def test_differences_stand_in_the_order_of_the_manual_and_axis_10_behind_axis_9(mill: ParameterFile) -> None:
@@ -212,4 +212,4 @@ def test_comparing_the_other_way_round_says_the_same(a: ParameterFile, b: Parame
     there, back = compare(a.schema, a.values, b.values), compare(a.schema, b.values, a.values)
     assert there.same == back.same
     assert [Difference(d.address, d.b, d.a) for d in there.differences] == list(back.differences)
-    assert (there.absent_in_a, there.absent_in_b) == (back.absent_in_b, back.absent_in_a)
+    assert (there.not_set_in_a, there.not_set_in_b) == (back.not_set_in_b, back.not_set_in_a)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import (
-    IN_FORCE,
+    ACTIVE,
     Evaluation,
     StateInfo,
     UnknownParameterError,
@@ -54,7 +54,7 @@ conditions:
         ("none", 99.0, StateInfo("hidden", "nothing is fitted", "2-1")),
         ("scale", 99.0, StateInfo("unusable", "a scale has no speed", "1-2")),
         ("motor", 10.0, StateInfo("ignored", "only above a limit of 10", "2-3")),
-        ("motor", 10.5, IN_FORCE),
+        ("motor", 10.5, ACTIVE),
     ],
 )
 def test_a_parameter_is_in_one_of_four_states_and_says_why(
@@ -76,7 +76,7 @@ def test_the_first_rule_that_holds_decides(facts, head, machine) -> None:
 
 def test_a_condition_over_an_unset_value_does_not_hold(facts, head, machine) -> None:
     here = machine(facts.schema(FOUR, head + CONDITIONS))
-    assert (here.evaluation.holds("nothing", ""), here.evaluation.holds("fast", "")) == (False, False)
+    assert (here.evaluation.is_true("nothing", ""), here.evaluation.is_true("fast", "")) == (False, False)
     assert here.evaluation.state(("device.speed", "")).state == "ignored", "because 'fast' does not hold"
 
 
@@ -98,8 +98,8 @@ def test_what_is_asked_first_after_a_change_is_not_taken_for_the_values_before_i
     one, other = machine(schema, values), machine(schema, values)
     one.evaluation.known_states()
     one.set("device.limit", Value(11.0))
-    assert one.evaluation.holds("fast", "")
-    assert not other.evaluation.holds("fast", "")
+    assert one.evaluation.is_true("fast", "")
+    assert not other.evaluation.is_true("fast", "")
 
 
 def test_another_model_is_no_news_for_a_file_with_the_same_values(facts, head, machine) -> None:
@@ -113,10 +113,10 @@ def test_another_model_is_no_news_for_a_file_with_the_same_values(facts, head, m
     )
     one.evaluation.known_states()
     one.header.application = "B"
-    assert not one.evaluation.holds("nothing", ""), "it was asked for before"
+    assert not one.evaluation.is_true("nothing", ""), "it was asked for before"
     one.evaluation.forget()
-    assert one.evaluation.holds("nothing", "")
-    assert not other.evaluation.holds("nothing", "")
+    assert one.evaluation.is_true("nothing", "")
+    assert not other.evaluation.is_true("nothing", "")
 
 
 def test_a_state_knows_what_can_change_it(facts, head, machine) -> None:
@@ -147,7 +147,7 @@ def test_a_condition_may_read_what_this_machine_type_does_not_have(facts, head, 
     )
     assert machine(schema, machine="mill").evaluation.state(("axis.name", "")).state == "ignored"
     lathe = machine(schema, {"lathe.kind": Value("a")}, machine="lathe")
-    assert lathe.evaluation.state(("axis.name", "")) == IN_FORCE
+    assert lathe.evaluation.state(("axis.name", "")) == ACTIVE
 
 
 def test_readings_before_and_after_an_axis_are_told_apart(facts, head, machine) -> None:
@@ -303,7 +303,7 @@ def test_a_condition_may_name_the_model_of_the_control_as_a_rule_may(facts, head
     model = "\nconditions:\n  scale: {when: application == 'T', why: the T has no speed}\n"
     model += "  nothing: {when: 'false', why: never}\n  fast: {when: 'true', why: always}\n"
     file = ParameterFile(facts.schema(FOUR, head + model), Header(application="M"))
-    assert file.evaluation.state(("device.speed", "")) == IN_FORCE
+    assert file.evaluation.state(("device.speed", "")) == ACTIVE
     file.header.application = "T"
     file.evaluation.forget()
     assert file.evaluation.state(("device.speed", "")) == StateInfo("unusable", "the T has no speed")

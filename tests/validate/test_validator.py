@@ -365,7 +365,7 @@ def test_a_formula_that_makes_no_sense_of_a_value_says_nothing(mill, caplog) -> 
 
 def test_a_formula_that_is_wrong_itself_is_logged(caplog) -> None:
     decision = Decision(program("wrong(speed) > 0.0"), {"wrong": lambda speed: speed.nothing})
-    assert not decision.holds((5.0,), ("speed",), Circumstances("mill", "", ""))
+    assert not decision.is_true((5.0,), ("speed",), Circumstances("mill", "", ""))
     (record,) = caplog.records
     assert "'wrong' failed: AttributeError" in record.getMessage()
 

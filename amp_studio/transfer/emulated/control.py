@@ -124,7 +124,7 @@ class Control:
         changed = change(self._active)
         self.memory.replace(ACTIVE, changed)
         self._take(changed)
-        self._record.hold(self._digest)
+        self._record.remember(self._digest)
         self._remember(restart_needed=True, changed_at_control=True)
 
     # -- requests ----------------------------------------------------------------------------------
@@ -133,7 +133,7 @@ class Control:
         """Begin a download or take it up again; return the offset to go on from."""
         if self._record.answer_to(wish.transfer, wish.sha256) is not None:
             return wish.size
-        if wish.signature != self.identity.signature and not self._record.has_held(wish.sha256):
+        if wish.signature != self.identity.signature and not self._record.has_contained(wish.sha256):
             raise RefusalError(
                 Code.SIGNATURE,
                 "the control numbers its parameters by another schema and has not contained this image",
@@ -197,7 +197,7 @@ class Control:
         if content is None:
             self._staging.drop()
             raise RefusalError(Code.DIGEST, "what has come does not have the digest that was stated")
-        if self._accept is not None and not self._record.has_held(sha256):
+        if self._accept is not None and not self._record.has_contained(sha256):
             try:
                 self._accept(content)
             except Exception as error:  # an image is a stranger's: whatever it upsets, it is not taken
@@ -230,7 +230,7 @@ class Control:
         record = self._record
         record.running, record.restart_needed, record.changed_at_control = False, True, False
         record.committed = intent["answer"]
-        record.hold(self._digest)
+        record.remember(self._digest)
         with contextlib.suppress(OSError):
             record.save(self.memory)
             if OUTGOING in self.memory.names():
@@ -257,7 +257,7 @@ class Control:
             self.memory.replace(ACTIVE, initial)
             active = initial
         self._take(active)
-        self._record.hold(self._digest)
+        self._record.remember(self._digest)
         if intent is not None and intent["to"] == self._digest.hex():
             self._finish(intent)
         elif intent is not None:

@@ -32,7 +32,7 @@ from .responder import CHUNK, WINDOW, Responder
 
 RESTART_SECONDS = 0.5
 SLICE = 0.05  # seconds between two looks at the operator's commands
-HELD_LINE = 5.0  # seconds without a whole frame after which another client may take the control over
+CLIENT_SILENCE = 5.0  # seconds without a whole frame after which another client may take the control over
 LINES = 8  # open at once; beyond them the one that was opened first and does not have the control is cut
 PIECE = 2_048  # bytes of one client that are worked on before anybody else has a turn
 COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
@@ -46,16 +46,16 @@ COMMANDS = "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, qu
 
 
 class Caller:
-    """An open line; ``heard`` is when it brought a whole frame, at first when it was opened (seconds)."""
+    """An open line; ``last_frame`` is when it brought a whole frame, at first when it was opened (seconds)."""
 
     def __init__(self, link: Link, responder: Responder, now: float) -> None:
         self.link = link
         self.responder = responder
-        self.heard = now
+        self.last_frame = now
 
     def is_silent(self, now: float) -> bool:
         """Whether nothing that could be understood has come for so long that another client is served."""
-        return now - self.heard > HELD_LINE
+        return now - self.last_frame > CLIENT_SILENCE
 
 
 class Emulator:
@@ -91,7 +91,7 @@ class Emulator:
         self._restart_seconds = restart_seconds
         self._window = window
         self._chunk = chunk
-        self._say = say
+        self._show = say
         self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
         self._callers: list[Caller] = []  # in the order in which they came
         self._holder: Caller | None = None
@@ -158,11 +158,11 @@ class Emulator:
             self._drop(caller)  # the client is gone; what it has staged stays
         except Exception as error:  # a fault of the control itself: another client may do better
             self._drop(caller)
-            self._say(f"a client was cut off: {type(error).__name__}: {_line(str(error))}")
+            self._show(f"a client was cut off: {type(error).__name__}: {_line(str(error))}")
 
     def _answer(self, caller: Caller, data: bytes) -> None:
         for frame in caller.responder.frames(data):
-            caller.heard = now = self._clock()
+            caller.last_frame = now = self._clock()
             holder = self._holder
             if holder is not None and holder is not caller:
                 if not holder.is_silent(now):
@@ -217,13 +217,13 @@ class Emulator:
     def _report(self, action: Callable[[], str]) -> None:
         """Do something and show the operator how it went."""
         try:
-            self._say(action())
+            self._show(action())
         except (RefusalError, ValueError) as error:
-            self._say(f"refused: {_line(str(error))}")
+            self._show(f"refused: {_line(str(error))}")
         except OSError as error:
-            self._say(f"refused: the control cannot write its memory ({error.strerror or error})")
+            self._show(f"refused: the control cannot write its memory ({error.strerror or error})")
         except Exception as error:  # no word of an operator ends a control
-            self._say(f"refused: {type(error).__name__}: {_line(str(error))}")
+            self._show(f"refused: {type(error).__name__}: {_line(str(error))}")
 
     def _restarted(self) -> str:
         self._control.restart()

@@ -49,12 +49,12 @@ class Record:
     committed: dict[str, Any] | None = None
     images: list[str] = field(default_factory=list)
 
-    def hold(self, sha256: bytes) -> None:
+    def remember(self, sha256: bytes) -> None:
         """Remember that the control contains an image with this digest."""
         digest = sha256.hex()
         self.images = [*(d for d in self.images if d != digest), digest][-REMEMBERED:]
 
-    def has_held(self, sha256: bytes) -> bool:
+    def has_contained(self, sha256: bytes) -> bool:
         """Whether the control has contained this image, so that it may be given back whatever it is."""
         return sha256.hex() in self.images
 

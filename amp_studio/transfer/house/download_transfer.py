@@ -89,7 +89,7 @@ class DownloadTransfer:
                     raise self._error(refusal) from None
                 if max(idle, spoilt) >= ATTEMPTS:
                     raise self._error(refusal) from None
-                self._old_holds()
+                self._nothing_replaced()
 
     def _attempt(self, talk: Transaction) -> Committed:
         """Continue the download where the control asks, and commit it."""
@@ -102,7 +102,7 @@ class DownloadTransfer:
             )
         if ready.offset < total:
             # A commit asked for on an earlier line has not happened: what it needs is no longer staged.
-            self._old_holds()
+            self._nothing_replaced()
         if ready.offset < self._reached:
             self._lose(ready.offset)
 
@@ -132,7 +132,7 @@ class DownloadTransfer:
         self._line.notify("commit", 1, 1)
         return committed
 
-    def _old_holds(self) -> None:
+    def _nothing_replaced(self) -> None:
         """No commit has happened, and nothing needs to be seen through."""
         self.at_control = "old"
         self._line.is_committing = False

@@ -180,7 +180,7 @@ def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
         download_transfer.COMMIT_WAIT * (2**download_transfer.COMMIT_TRIES - 1),
         math.ceil(connection.SILENT_AFTER),
         RESTART_WAIT,
-        emulator.HELD_LINE,
+        emulator.CLIENT_SILENCE,
     ]
     text = " ".join(page.split())
     assert f"After {policy.tries} timeouts" in text

@@ -173,8 +173,8 @@ class _Reader:
         here: dict[int, set[int]] = {}
         for parameter, word in self.places:
             here.setdefault(parameter, set()).add(word)
-        if absent := [a for a in sorted(self.known.counts) if a not in here]:
-            yield f"the table does not contain {_runs_of('P', absent)}"
+        if missing := [a for a in sorted(self.known.counts) if a not in here]:
+            yield f"the table does not contain {_runs_of('P', missing)}"
         left, other = [], []
         for parameter, words in sorted(here.items()):
             known = self.known.counts.get(parameter)
