@@ -71,8 +71,8 @@ def set_verb(options: argparse.Namespace) -> int:
             raise UsageError(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
             document.save("set --force" if options.force else "set")
-        for said in notes:
-            note(said)
+        for message in notes:
+            note(message)
         note_all(document.notes)
         if not changes:
             note("no change")
@@ -110,8 +110,8 @@ def wanted(
         except ValueError as error:
             slips.append(f"{param}: {error}")
             continue
-        if said := found_here.said(trial.schema):
-            notify(said)
+        if message := found_here.remark(trial.schema):
+            notify(message)
         trial.set(address, found[address])
     if slips:
         faults = ((a, fault(trial.evaluation, a, v)) for a, v in found.items() if v is not None)
@@ -171,8 +171,8 @@ def get_verb(options: argparse.Namespace) -> int:
     else:
         found = [Meant(a) for a in file.addresses()
                  if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")]  # fmt: skip
-    for said in dict.fromkeys(said for m in found if (said := m.said(file.schema))):
-        note(said)
+    for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):
+        note(message)
     rows = []
     for address, bit in ((m.address, m.bit) for m in found):
         if bit is not None:

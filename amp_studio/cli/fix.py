@@ -75,8 +75,8 @@ def _wanted(validator: Validator, options: argparse.Namespace) -> Callable[[Find
 def _nothing(options: argparse.Namespace, validator: Validator) -> str:
     """Print that there was nothing to fix, and what could be fixed otherwise."""
     others = sorted({finding.rule for finding in validator.findings() if finding.fix})
-    said = f"{options.path}: nothing to fix"
-    return said + (f" with these options; there are fixes of {', '.join(others)}" if others else "")
+    message = f"{options.path}: nothing to fix"
+    return message + (f" with these options; there are fixes of {', '.join(others)}" if others else "")
 
 
 def _lines(

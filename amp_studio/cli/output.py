@@ -44,5 +44,5 @@ def write_new(file: ParameterFile, path: Path) -> None:
 
 def note_all(notes: Sequence[str]) -> None:
     """Print what a save could not keep."""
-    for said in notes:
-        note(said)
+    for message in notes:
+        note(message)

@@ -102,8 +102,8 @@ def parser() -> argparse.ArgumentParser:
 
     def verb(name: str, module: str, summary: str, writes: str = "") -> argparse.ArgumentParser:
         """Add a verb; ``writes`` names the option whose file it may replace."""
-        said = f"{summary[0].upper()}{summary[1:]}."
-        sub: argparse.ArgumentParser = verbs.add_parser(name, help=summary, description=said, verb=name)
+        message = f"{summary[0].upper()}{summary[1:]}."
+        sub: argparse.ArgumentParser = verbs.add_parser(name, help=summary, description=message, verb=name)
         sub.set_defaults(verb=f"{name}_verb", module=module, writes=writes.split())
         return sub
 

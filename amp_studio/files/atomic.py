@@ -60,20 +60,20 @@ def check_output(path: Path, *inputs: Path) -> None:
     if real.name.casefold() in _OF_A_FOLDER:
         raise SaveError(f"{path} is read with every file of its folder: choose another name for the output")
     for source in inputs:
-        said = ""
+        message = ""
         if same_file(real, source):
-            said = f"is the input {source} itself"
+            message = f"is the input {source} itself"
         elif any(same_file(real, kept) for kept in companions(source)):
-            said = f"belongs to the input {source}"
+            message = f"belongs to the input {source}"
         elif any(same_file(source, kept) for kept in companions(real)):
-            said = f"would put its backup or its lock in the place of the input {source}"
-        if said:
-            raise SaveError(f"{path} {said}: choose another name for the output")
+            message = f"would put its backup or its lock in the place of the input {source}"
+        if message:
+            raise SaveError(f"{path} {message}: choose another name for the output")
 
 
 def write_atomic(
     path: Path, content: bytes | Callable[[bytes | None], bytes], expected: str | None = "", keep_backup: bool = True,
-    *, companion_of: Path | None = None, notify: Notify = lambda _said: None,
+    *, companion_of: Path | None = None, notify: Notify = lambda _message: None,
 ) -> str:  # fmt: skip
     """Replace a file by new content, all or nothing.
 
@@ -106,8 +106,8 @@ def write_atomic(
         os.replace(temporary, real)
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
         sync_folder(real.parent)
-    for said in notes:
-        notify(f"{path.name}: {said}")
+    for message in notes:
+        notify(f"{path.name}: {message}")
     return digest(made)
 
 

@@ -65,12 +65,14 @@ class EditLock:
         except BlockingIOError:
             raise InUse(f"{self.path.name} is open in another program ({self._holder()})") from None
         except OSError as error:
-            said = error.strerror or str(error)
+            message = error.strerror or str(error)
             if not _is_open_to_us(self._place.parent):
                 raise InUse(f"{self.path.name} cannot be changed: its folder cannot be written to") from None
             if error.errno == errno.ENAMETOOLONG or not _is_sound(self._place):
-                raise InUse(f"{self.path.name} cannot be locked ({self._place.name}): {said}") from None
-            self.note = f"{self.path.name} could not be locked ({said}): see that no other program changes it"
+                raise InUse(f"{self.path.name} cannot be locked ({self._place.name}): {message}") from None
+            self.note = (
+                f"{self.path.name} could not be locked ({message}): see that no other program changes it"
+            )
         self.is_taken = True
         if self._handle is not None:
             self._write_owner()

@@ -35,9 +35,9 @@ def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:
         value = file.get(address)
         if value is None or file.evaluation.state(address).state == "hidden":
             continue
-        said = fault(file.evaluation, address, value)
-        if said:
-            found.append((address, f"{file.machine_schema.label(address)} ({written(address)}): {said}"))
+        message = fault(file.evaluation, address, value)
+        if message:
+            found.append((address, f"{file.machine_schema.label(address)} ({written(address)}): {message}"))
     return found
 
 

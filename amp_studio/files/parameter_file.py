@@ -202,7 +202,9 @@ class ParameterFile:
             for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
                 self.refit_units(axis)
             faults = {
-                a: said for a, v in wanted.items() if v is not None and (said := fault(self.evaluation, a, v))
+                a: message
+                for a, v in wanted.items()
+                if v is not None and (message := fault(self.evaluation, a, v))
             }
             if faults and not force:
                 raise RangeError(faults)

@@ -45,8 +45,8 @@ def destination(path: Path) -> Path:
     """Return the file that writing to a path makes or replaces; raises OSError for a path that must not be written to."""
     real = real_path(path)
     if belongs := _OF_A_FILE.fullmatch(real.name):
-        said = f"Belongs to {belongs[1] or belongs[2]}: choose another name"
-        raise OSError(errno.EINVAL, said, str(path))
+        message = f"Belongs to {belongs[1] or belongs[2]}: choose another name"
+        raise OSError(errno.EINVAL, message, str(path))
     try:
         found = os.lstat(real)
     except FileNotFoundError:
@@ -95,8 +95,8 @@ def _beside(path: Path, pattern: str) -> Path:
     real = real_path(path)
     name = pattern.format(real.name)
     if len(os.fsencode(name)) > _LONGEST_NAME:
-        said = "The name is too long for the files kept beside it (backup, lock): shorten it"
-        raise OSError(errno.ENAMETOOLONG, said, str(path))
+        message = "The name is too long for the files kept beside it (backup, lock): shorten it"
+        raise OSError(errno.ENAMETOOLONG, message, str(path))
     return real.with_name(name)
 
 

@@ -122,8 +122,8 @@ class _FileReader:
             raise self._fault("is not an AMP Studio parameter file")
         self.data, version = document.data, document.data["amp_studio"]
         if not isinstance(version, str) or not re.fullmatch(r"[0-9]{1,9}", version):
-            said = quoted(version) if isinstance(version, str) else "this"
-            raise self._fault(f"{said} is no version of the file format", "amp_studio")
+            message = quoted(version) if isinstance(version, str) else "this"
+            raise self._fault(f"{message} is no version of the file format", "amp_studio")
         if int(version) > FORMAT:
             raise self._fault(
                 f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})", "amp_studio"
@@ -150,15 +150,15 @@ class _FileReader:
         header, family = self.file.header, self.file.schema.family
         header.extra = _extra(self.text, self.data)
         for key in _HEADER:
-            said = self.data.get(key)
-            if not isinstance(said, (str, type(None))):
+            message = self.data.get(key)
+            if not isinstance(message, (str, type(None))):
                 raise self._fault(f"{key} is no text", key)
-            if said is not None:
-                setattr(header, key, said)
+            if message is not None:
+                setattr(header, key, message)
         for key, known in (("machine", [m.key for m in family.machines]), ("units", list(family.units))):
-            said = self.data.get(key)
-            if said is not None and known and said not in known:
-                raise self._fault(f"{key} is {quoted(said)}; known here: {', '.join(known)}", key)
+            message = self.data.get(key)
+            if message is not None and known and message not in known:
+                raise self._fault(f"{key} is {quoted(message)}; known here: {', '.join(known)}", key)
 
     def _section(self, name: str, of_what: str) -> dict[str, Any]:
         entries = self.data.get(name) or {}
@@ -172,17 +172,17 @@ class _FileReader:
         machine = file.schema.family.machine_parameter
         ordered = sorted(entries, key=lambda k: k != machine)  # the machine type decides what the others are
         for key in ordered:
-            address, said = read_address(key), entries[key]
-            if not isinstance(said, str):
+            address, message = read_address(key), entries[key]
+            if not isinstance(message, str):
                 raise self._fault(f"{short(key)} has no single value", "values", key)
             if address in values or key in file.unknown:  # "x" and "x@"
                 raise self._fault(f"{quoted(written(address))} occurs twice", "values", key)
             try:
-                value = _value(file, address, said)
+                value = _value(file, address, message)
             except InvalidValueError as error:
                 raise self._fault(f"{short(key)}: {error}", "values", key) from None
             if value is None:
-                file.unknown[key] = said
+                file.unknown[key] = message
             else:
                 values[address] = value
                 if key == machine:
@@ -198,40 +198,40 @@ def _extra(text: str, data: dict[str, Any]) -> dict[str, object]:
     return {key: value for key, value in typed.items() if key not in _KNOWN}
 
 
-def _value(file: ParameterFile, address: Address, said: str) -> Value | None:
+def _value(file: ParameterFile, address: Address, text: str) -> Value | None:
     """Return the value, None for an address the schema does not have; raises InvalidValueError."""
     schema = file.schema
     parameter = schema.parameters.get(address[0])
     if parameter is None or address[1] not in schema.on(file.machine).instances(parameter):
         return None
     try:
-        if len(said) > _REMEMBERED:
-            return read_stored(schema, parameter, said)
-        return _stored(schema, parameter.id, said)
+        if len(text) > _REMEMBERED:
+            return read_stored(schema, parameter, text)
+        return _stored(schema, parameter.id, text)
     except InvalidValueError as error:
         raise InvalidValueError(not_readable(parameter, error)) from None
 
 
 @lru_cache(maxsize=16_384)
-def _stored(schema: Schema, parameter_id: str, said: str) -> Value:
+def _stored(schema: Schema, parameter_id: str, text: str) -> Value:
     """Return what a text in a file means; the files of a shop have most of them in common."""
-    return read_stored(schema, schema.parameters[parameter_id], said)
+    return read_stored(schema, schema.parameters[parameter_id], text)
 
 
-def read_stored(schema: Schema, parameter: Parameter, said: str) -> Value:
+def read_stored(schema: Schema, parameter: Parameter, text: str) -> Value:
     """Read a stored value, which names its own unit; raises InvalidValueError."""
     if parameter.type == "text":
         return checked(
-            parameter, Value(said)
+            parameter, Value(text)
         )  # with the blanks at its ends, which a person's entry would lose
     if parameter.choices or parameter.type == "format":
-        return read_value(parameter, said, "")
+        return read_value(parameter, text, "")
     units = schema.units_of(parameter)
-    named = "" if said.startswith(("0x", "0X", "$")) else read_number(said)[1]
+    named = "" if text.startswith(("0x", "0X", "$")) else read_number(text)[1]
     if not named and "" not in units:
-        raise InvalidValueError(f"{quoted(said)} has no unit: write {short(said)} {shown(units[0])}")
+        raise InvalidValueError(f"{quoted(text)} has no unit: write {short(text)} {shown(units[0])}")
     unit = named if named in units else units[0]
-    return read_value(parameter, said, _alike(units, named, unit))
+    return read_value(parameter, text, _alike(units, named, unit))
 
 
 def _alike(units: tuple[str, ...], named: str, unit: str) -> str:
@@ -286,12 +286,12 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
 def _as_spelled(file: ParameterFile, entries: dict[str, str], known: object) -> dict[str, str]:
     """Return entries with those that mean the same already as a person spelled them: 0.50 in, control.type@."""
     found: dict[str, tuple[str, str]] = {}
-    for key, said in known.items() if isinstance(known, dict) else ():
+    for key, message in known.items() if isinstance(known, dict) else ():
         address = read_address(key)
         value = file.values.get(address)
         try:
-            if value is not None and _value(file, address, said) == value:
-                found[written(address)] = key, said
+            if value is not None and _value(file, address, message) == value:
+                found[written(address)] = key, message
         except InvalidValueError:
             continue
     return dict(found.get(name, (name, text)) for name, text in entries.items())
@@ -305,7 +305,7 @@ def _entries(file: ParameterFile) -> dict[str, str]:
 
 
 def save_file(
-    file: ParameterFile, path: Path, expected: str | None = None, notify: Notify = lambda _said: None
+    file: ParameterFile, path: Path, expected: str | None = None, notify: Notify = lambda _message: None
 ) -> str:
     """Save a file, all or nothing; the previous file becomes the backup.
 

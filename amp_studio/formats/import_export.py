@@ -36,7 +36,7 @@ def _own_formats(family: str) -> tuple[TextFormat, ...]:
 
 def import_file(
     path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False,
-    notify: Callable[[str], None] = lambda _said: None,
+    notify: Callable[[str], None] = lambda _message: None,
 ) -> ParameterFile:  # fmt: skip
     """Return the parameters of a text file, in a file that contains nothing else; values out of range are in it too.
 
@@ -53,8 +53,8 @@ def import_file(
         raise FormatError(f"there is a byte that is no {chosen.encoding} text", line) from None
     schema = load_schema(family or _only_family(chosen))
     read = chosen.read(text, schema, keep_unknown)
-    for said in read.notes:
-        notify(said)
+    for message in read.notes:
+        notify(message)
     return file_of(schema, read, path.stem)
 
 
@@ -78,7 +78,7 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
 
 
 def export_file(
-    file: ParameterFile, path: Path, format_key: str | None = None, notify: Notify = lambda _said: None,
+    file: ParameterFile, path: Path, format_key: str | None = None, notify: Notify = lambda _message: None,
     *, secrets: bool = False,
 ) -> TextFormat:  # fmt: skip
     """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.

@@ -15,8 +15,8 @@ class UnknownParameterError(KeyError):
     ``nearest`` is asked for the names that come near only when the text is read: many are never shown.
     """
 
-    def __init__(self, said: str, nearest: Callable[[], Sequence[str]] = tuple) -> None:
-        super().__init__(said)
+    def __init__(self, text: str, nearest: Callable[[], Sequence[str]] = tuple) -> None:
+        super().__init__(text)
         self._nearest = nearest
 
     def __str__(self) -> str:

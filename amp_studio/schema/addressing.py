@@ -59,7 +59,7 @@ class Meant:
     others: tuple[Address, ...] = ()
     """Further instances that the manual prints this number for."""
 
-    def said(self, schema: Schema) -> str:
+    def remark(self, schema: Schema) -> str:
         """Return a message with the parameter that an ambiguous number means; empty where there is but one."""
         if not self.others:
             return ""

@@ -136,14 +136,14 @@ def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
         return _format_fault(evaluation, address, found) if parameter.type == "format" else None
     if isinstance(found, bool):
         return None
-    if parameter.type == "bits" and (said := _bits_fault(parameter, int(found))):
-        return said
+    if parameter.type == "bits" and (message := _bits_fault(parameter, int(found))):
+        return message
     allowed = limits(evaluation, address, value.unit)
     if allowed is None:
         return None
     if _beyond(found, allowed):
-        said = MASKED if parameter.secret else _shown(value)
-        return f"{parameter.name} {said} is outside {_named(evaluation, allowed)}"
+        message = MASKED if parameter.secret else _shown(value)
+        return f"{parameter.name} {message} is outside {_named(evaluation, allowed)}"
     return None
 
 

@@ -41,8 +41,8 @@ class DatabaseError(FileError):
 class UnknownFamilyError(KeyError):
     """A family that there is not; the text is one clear sentence."""
 
-    def __init__(self, said: str) -> None:
-        super().__init__(unknown_name("family", said, family_ids()))
+    def __init__(self, text: str) -> None:
+        super().__init__(unknown_name("family", text, family_ids()))
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -153,12 +153,12 @@ def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[
             ]
         elif listed is not None or key not in kinds:
             name = short(str(key))
-            said = (
+            message = (
                 f"{name}: is no list"
                 if key in kinds
                 else f"{name}: this file contains only {', '.join(kinds)}"
             )
-            faults.append(DatabaseError(path, document.line((key,)), said))
+            faults.append(DatabaseError(path, document.line((key,)), message))
     return entries, faults
 
 

@@ -269,8 +269,8 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
         return _read_raw(parameter, text)
     for field in ("label", "code", "key"):
         for choice in choices:
-            said = getattr(choice, field)
-            if said is not None and plain(said) == plain(text):
+            message = getattr(choice, field)
+            if message is not None and plain(message) == plain(text):
                 return choice_value(parameter, choice)
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))

@@ -53,7 +53,7 @@ class QuickEdit(QDialog):
             self.name.setText(f"{error}.")
             self.number.selectAll()
             return
-        self._offer(found.address, found.said(self._workspace.file.schema))
+        self._offer(found.address, found.remark(self._workspace.file.schema))
 
     def _offer(self, address: Address | None, note: str = "") -> None:
         if self.editor is not None:

@@ -85,8 +85,8 @@ def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
     try:
         return _read(path, digest_of(path), schema)
     except OSError as error:
-        said = DatabaseError(path, None, f"cannot be read: {error.strerror}")
-        return BuilderRules(faults=(_finding(path, said),))
+        message = DatabaseError(path, None, f"cannot be read: {error.strerror}")
+        return BuilderRules(faults=(_finding(path, message),))
 
 
 @lru_cache(maxsize=32)  # it lies beside many files
@@ -264,7 +264,13 @@ def _fault_text(path: Path, fault: DatabaseError) -> str:
 
 
 def suppress(
-    path: Path, rule: str, params: Iterable[str], *, reason: str, by: str, notify: Notify = lambda _said: None
+    path: Path,
+    rule: str,
+    params: Iterable[str],
+    *,
+    reason: str,
+    by: str,
+    notify: Notify = lambda _message: None,
 ) -> None:
     """Add a suppression to a file of rules, which is made where there is none; no other byte of it changes.
 

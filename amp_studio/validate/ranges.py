@@ -101,27 +101,27 @@ class ValueChecks:
             key = key, self._bounds_of(facts, address)
         if key in facts.fine:
             return None
-        said = _wrong_kind(facts, value)
-        if said is not None:
+        message = _wrong_kind(facts, value)
+        if message is not None:
             if facts.parameter.secret:
-                said = f"{facts.parameter.name} {MASKED} is not the kind of value it takes"
-            return self._finding(address, value, said, self._file.default(address))
+                message = f"{facts.parameter.name} {MASKED} is not the kind of value it takes"
+            return self._finding(address, value, message, self._file.default(address))
         if not _measures_right(facts, value, turns):
             unit = self._file.evaluation.unit(address, self._file.header.units)
             written = show_value(facts.parameter, value)
-            said = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
+            message = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
             return self._finding(
-                address, value, said, Value(value.value, unit)
+                address, value, message, Value(value.value, unit)
             )  # the control knows the figure only
         if self._within(facts, address, value):
             facts.fine[key] = True
             return None
-        said = fault(self._file.evaluation, address, value)
-        if said is None:
+        message = fault(self._file.evaluation, address, value)
+        if message is None:
             facts.fine[key] = True
             return None
         # Of a code that nobody has printed the control alone knows what it does: no choice is the nearest to it.
-        return self._finding(address, value, said, None if facts.keys else self._nearest(address, value))
+        return self._finding(address, value, message, None if facts.keys else self._nearest(address, value))
 
     def _nearest(self, address: Address, value: Value) -> Value | None:
         """Return the nearest allowed value; None where nobody can say that it is the one that is meant.
@@ -187,7 +187,7 @@ class ValueChecks:
             span = self._spans[key] = (-math.inf if low is None else low, math.inf if high is None else high)
         return span[0] <= found <= span[1]
 
-    def _finding(self, address: Address, value: Value, said: str, mended: Value | None) -> Finding:
+    def _finding(self, address: Address, value: Value, text: str, mended: Value | None) -> Finding:
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value
         allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
@@ -198,7 +198,7 @@ class ValueChecks:
             kind,
             "error",
             (address,),
-            said + "." + forced,
+            text + "." + forced,
             fix,
             parameter.page,
             compared=bounding(self._file.evaluation, address, value),

@@ -190,12 +190,12 @@ class RuleChecks:
         """Return the finding about a rule that ends in an error with the values of a file."""
         rule, is_secret = check.rule, self._reads_secret(check)
         given = [f"{s.name} = {MASKED if is_secret else self._shown(s.address)}" for s in check.singles]
-        said = (
+        message = (
             f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be worked out"
             f"{f' with {_listed(given)}' if given else ''}: a number is too large, divided by zero or no number."
         )
         return Finding(
-            OWN_FAULT, "error", (), said, compared=check.addresses, instance=f"{rule.id} {check.instance}"
+            OWN_FAULT, "error", (), message, compared=check.addresses, instance=f"{rule.id} {check.instance}"
         )
 
     def _finding(self, check: RuleCheck, keys: tuple[Key, ...]) -> Finding:

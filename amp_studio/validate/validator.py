@@ -168,8 +168,8 @@ class Validator:
             self._not_set_findings = [(self._order(advice), advice) for advice in self._missing_values()]
         found += self._not_set_findings
         for n, key in enumerate(self.file.unknown):
-            said = f"{key} is no parameter of this schema; it is kept as it is."
-            finding = Finding("schema.unknown", "warning", (), said)
+            message = f"{key} is no parameter of this schema; it is kept as it is."
+            finding = Finding("schema.unknown", "warning", (), message)
             found.append((self._order(finding, n), finding))
         return found
 
@@ -184,5 +184,5 @@ class Validator:
             return
         names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in not_set[:4])
         more = f" and {len(not_set) - 4} more" if len(not_set) > 4 else ""
-        said = f"{len(not_set)} active parameters have no value here, so the control keeps its own: {names}{more}."
-        yield Finding("schema.unset", "advice", not_set, said)
+        message = f"{len(not_set)} active parameters have no value here, so the control keeps its own: {names}{more}."
+        yield Finding("schema.unset", "advice", not_set, message)

@@ -284,9 +284,9 @@ class Parameter(Model):
             raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
         if self.choices:
             for field in ("key", "label", "code"):
-                said = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
+                message = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
                 seen = [
-                    " ".join(word.casefold().split()) for word in said
+                    " ".join(word.casefold().split()) for word in message
                 ]  # as read_value compares a person's word
                 if len(set(seen)) != len(seen):
                     raise ValueError(f"two choices share a {field}")

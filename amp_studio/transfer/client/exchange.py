@@ -190,10 +190,10 @@ def _keep(keep: Keep, old: bytes) -> str:
     try:
         return keep(old)
     except Exception as error:  # whatever goes wrong there, the old image is not kept
-        said = str(error)
+        message = str(error)
         if isinstance(error, OSError) and error.filename and error.strerror:
-            said = f"{error.filename}: {error.strerror}"
-        raise KeepFailedError(f"what the control contains could not be kept ({said})") from error
+            message = f"{error.filename}: {error.strerror}"
+        raise KeepFailedError(f"what the control contains could not be kept ({message})") from error
 
 
 def _prove(

@@ -202,9 +202,9 @@ class Control:
                 self._accept(content)
             except Exception as error:  # an image is a stranger's: whatever it upsets, it is not taken
                 self._staging.drop()
-                said = str(error) if isinstance(error, ValueError) else type(error).__name__
+                message = str(error) if isinstance(error, ValueError) else type(error).__name__
                 raise RefusalError(
-                    Code.REJECTED, f"the control has not contained this image and does not take it: {said}"
+                    Code.REJECTED, f"the control has not contained this image and does not take it: {message}"
                 ) from None
 
     def _replace_active(self, pending: PendingDownload, intent: dict[str, Any]) -> None:

@@ -45,7 +45,7 @@ class SerialLink:
                     return first + bytes(self._port.read(self._port.in_waiting))
         except (OSError, TypeError, AttributeError) as error:
             # pyserial meets a port that was closed or pulled out with any of these three.
-            raise LinkError(self._endpoint, _said(error)) from None
+            raise LinkError(self._endpoint, _message(error)) from None
 
     def write(self, data: bytes) -> None:
         piece = max(1, self._endpoint.baud // 100)
@@ -53,7 +53,7 @@ class SerialLink:
             try:
                 self._port.write(data[start : start + piece])
             except (OSError, TypeError, AttributeError) as error:
-                raise LinkError(self._endpoint, _said(error)) from None
+                raise LinkError(self._endpoint, _message(error)) from None
             self._look()
 
     def close(self) -> None:
@@ -77,7 +77,7 @@ def open_port(endpoint: Endpoint, look: Callable[[], None] = keep_waiting) -> Se
         )
         port.reset_input_buffer()
     except (OSError, ValueError) as error:
-        raise LinkError(endpoint, _said(error)) from None
+        raise LinkError(endpoint, _message(error)) from None
     return SerialLink(endpoint, port, look)
 
 
@@ -120,7 +120,7 @@ class PortListener:
             self._link.close()
 
 
-def _said(error: Exception) -> str:
+def _message(error: Exception) -> str:
     number = getattr(error, "errno", None)
     text = str(error)
     if number == errno.ENOTTY or f"({errno.ENOTTY}," in text:

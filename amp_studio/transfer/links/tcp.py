@@ -54,7 +54,7 @@ class TcpLink:
         except BlockingIOError:
             return b""
         except (OSError, ValueError) as error:
-            raise LinkError(self._endpoint, _said(error)) from None
+            raise LinkError(self._endpoint, _message(error)) from None
         if not data:
             raise LinkError(self._endpoint, "the other end has closed the connection")
         return data
@@ -70,7 +70,7 @@ class TcpLink:
             except BlockingIOError:
                 continue
             except (OSError, ValueError) as error:
-                raise LinkError(self._endpoint, _said(error)) from None
+                raise LinkError(self._endpoint, _message(error)) from None
             self._look()
             if time.monotonic() >= end:
                 raise LinkError(self._endpoint, "the other end takes nothing more")
@@ -96,14 +96,14 @@ class TcpListener:
             )[0]
             self._socket = socket.socket(family, kind, proto)
         except OSError as error:
-            raise LinkError(endpoint, _said(error)) from None
+            raise LinkError(endpoint, _message(error)) from None
         try:
             _reuse(self._socket)
             self._socket.bind(where)
             self._socket.listen(4)
         except OSError as error:
             self._socket.close()
-            raise LinkError(endpoint, _said(error)) from None
+            raise LinkError(endpoint, _message(error)) from None
         self.endpoint = Endpoint("tcp", host=endpoint.host, port=self._socket.getsockname()[1])
 
     def accept(self, timeout: float) -> TcpLink | None:
@@ -115,7 +115,7 @@ class TcpListener:
             if isinstance(error, OSError) and error.errno in PASSING:
                 time.sleep(min(timeout, SLICE))
                 return None
-            raise LinkError(self.endpoint, _said(error)) from None
+            raise LinkError(self.endpoint, _message(error)) from None
         return TcpLink(Endpoint("tcp", host=peer[0], port=peer[1]), connection)
 
     def close(self) -> None:
@@ -141,7 +141,7 @@ def connect_tcp(endpoint: Endpoint, timeout: float, look: Callable[[], None] = k
         attempt.abandon()
         raise
     if isinstance(made, Exception):
-        raise LinkError(endpoint, _said(made)) from None
+        raise LinkError(endpoint, _message(made)) from None
     return TcpLink(endpoint, made, look)
 
 
@@ -182,7 +182,7 @@ def _reuse(listening: socket.socket) -> None:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
 
 
-def _said(error: Exception) -> str:
+def _message(error: Exception) -> str:
     if isinstance(error, TimeoutError):
         return "no answer in time"
     if isinstance(error, ConnectionRefusedError):

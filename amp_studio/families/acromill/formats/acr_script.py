@@ -82,8 +82,8 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
         for argument in line.arguments:
             before = place.setdefault(argument.setting, line.number)
             if before != line.number or argument.setting.addresses[0] in found.values:
-                said = f"{argument.setting.name} occurs twice, in line {before} already"
-                raise FormatError(said, line.number, argument.column)
+                message = f"{argument.setting.name} occurs twice, in line {before} already"
+                raise FormatError(message, line.number, argument.column)
             found.values.update(_values(schema, argument, line.number, system))
     keep(found, _KIND, [row for line in lines for row in _layout(line)])
     return found
@@ -119,11 +119,11 @@ def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandAr
 
 def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
     rest = line.text[at:].strip()
-    said = rest if len(rest) <= 40 else rest[:39] + "…"
+    message = rest if len(rest) <= 40 else rest[:39] + "…"
     if not known or not known[0].word:
-        return FormatError(f"'{said}' is no command that sets a parameter here", line.number, at + 1)
+        return FormatError(f"'{message}' is no command that sets a parameter here", line.number, at + 1)
     form = " or ".join(f"'{c.example}'" for c in known)
-    what = f"'{said}' sets nothing: {known[0].word}" if rest else f"{known[0].word} alone sets nothing: it"
+    what = f"'{message}' sets nothing: {known[0].word}" if rest else f"{known[0].word} alone sets nothing: it"
     return FormatError(
         f"{what} is written as {form}, for {', '.join(known[0].instances)}", line.number, at + 1
     )

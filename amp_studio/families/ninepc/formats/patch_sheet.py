@@ -104,8 +104,8 @@ def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line
     except (InvalidValueError, UnitError) as error:
         raise FormatError(str(error), line, column + len(cells[0]) + 1) from None
     if dimension(unit) not in (dimension(value.unit), dimension(angular(value.unit))):
-        said = f"{parameter.name} is stored in {value.unit or 'a bare number'}, not in {unit}"
-        raise FormatError(said, line, column + len(cells[0]) + 1)
+        message = f"{parameter.name} is stored in {value.unit or 'a bare number'}, not in {unit}"
+        raise FormatError(message, line, column + len(cells[0]) + 1)
     return Value(value.value, unit)
 
 

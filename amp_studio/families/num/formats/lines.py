@@ -35,11 +35,11 @@ class Block:
     """The data line behind its ``#``."""
 
 
-def _content(said: str, n: int) -> str:
+def _content(text: str, n: int) -> str:
     """Return a line without its length; raises FormatError where it has none or another one."""
-    found = _LINE.fullmatch(said)
+    found = _LINE.fullmatch(text)
     if found is None:
-        raise _unmeasured(said, n)
+        raise _unmeasured(text, n)
     if odd := re.search(r"[^ -~]", found[1]):
         raise FormatError(f"the sign with the code {ord(odd[0])} has no place in a line", n, odd.start() + 1)
     length = len(found[1])
@@ -52,19 +52,19 @@ def _content(said: str, n: int) -> str:
     return found[1]
 
 
-def _unmeasured(said: str, n: int) -> FormatError:
-    if not said.strip():
+def _unmeasured(text: str, n: int) -> FormatError:
+    if not text.strip():
         return FormatError("an empty line", n, 1)
-    if said.endswith("\r") or "\n" in said:
-        place = re.search(r"\r?\n|\r$", said)
+    if text.endswith("\r") or "\n" in text:
+        place = re.search(r"\r?\n|\r$", text)
         return FormatError(
             "the line ends otherwise than the first one", n, place.start() + 1 if place else None
         )
-    written = list(re.finditer(r";[0-9A-Fa-f]{2}", said))
+    written = list(re.finditer(r";[0-9A-Fa-f]{2}", text))
     if not written:
-        return FormatError("the line does not close with ';' and two digits for its length", n, len(said) + 1)
+        return FormatError("the line does not close with ';' and two digits for its length", n, len(text) + 1)
     last = written[-1]
-    if last.end() == len(said):
+    if last.end() == len(text):
         return FormatError(f"the length is written with capitals: {last[0][1:].upper()}", n, last.start() + 2)
     return FormatError("something comes after the length of the line", n, last.end() + 1)
 
@@ -105,9 +105,9 @@ def blocks_of(lines: list[str]) -> Iterator[Block]:
         if line.startswith("#"):
             if header is None:
                 raise FormatError("a data line without a header PaNb before it", n, 1)
-            at, said = header
-            a, b, code, count = (None if number is None else int(number) for number in said.groups())
-            yield Block(at, said[0], (a or 0, b or 0), code, count, line[1:])
+            at, message = header
+            a, b, code, count = (None if number is None else int(number) for number in message.groups())
+            yield Block(at, message[0], (a or 0, b or 0), code, count, line[1:])
             header = None
             continue
         if header is not None:

@@ -103,12 +103,14 @@ class _Reader:
             raise FormatError(f"there is no type {block.code} of words", line, column)
         own = self.known.heads.get(parameter)
         if own is not None and own[0] != block.code:
-            said = f"P{parameter} of {self.schema.family.name} has words of type {own[0]}, not {block.code}"
-            raise FormatError(said, line, column)
+            message = (
+                f"P{parameter} of {self.schema.family.name} has words of type {own[0]}, not {block.code}"
+            )
+            raise FormatError(message, line, column)
         before = self.heads.setdefault(parameter, (block.code, block.count))
         if before != (block.code, block.count):
-            said = f"a header above gives t{before[0]}n{before[1]} of P{parameter}"
-            raise FormatError(said, line, column - 1)
+            message = f"a header above gives t{before[0]}n{before[1]} of P{parameter}"
+            raise FormatError(message, line, column - 1)
         return block.count
 
     def _check_place(self, block: Block, word: Word, count: int | None, column: int) -> None:
@@ -117,10 +119,12 @@ class _Reader:
         if word[1] - block.first[1] >= MOST_VALUES:
             raise FormatError(f"a data line contains {MOST_VALUES} values at most", line, column)
         if count is not None and word[1] >= count and (block.count is not None or not self.keep_unknown):
-            said = f"P{word[0]} has {count} {'word' if count == 1 else 'words'}: there is no {name_of(word)}"
+            message = (
+                f"P{word[0]} has {count} {'word' if count == 1 else 'words'}: there is no {name_of(word)}"
+            )
             if word == block.first:
-                raise FormatError(said, block.line, block.header.index("N") + 1)
-            raise FormatError(said, line, column)
+                raise FormatError(message, block.line, block.header.index("N") + 1)
+            raise FormatError(message, line, column)
         if word in self.places:
             raise FormatError(f"{name_of(word)} is in line {self.places[word][0]} already", line, column)
 
@@ -128,10 +132,10 @@ class _Reader:
         """Refuse a word that the schema does not have, unless such words are to be kept."""
         if self.keep_unknown:
             return
-        said = f"{self.schema.family.name} has no {name_of(word)}"
+        message = f"{self.schema.family.name} has no {name_of(word)}"
         if word == block.first:
-            raise FormatError(said, block.line, 1)
-        raise FormatError(said, block.line + 1, column)
+            raise FormatError(message, block.line, 1)
+        raise FormatError(message, block.line + 1, column)
 
     def _keep(self, block: Block, kept: list[tuple[Word, str]]) -> None:
         """Keep words that the schema does not have: those that follow each other under the number of the first."""
@@ -232,13 +236,13 @@ def _heads(known: KnownWords, layout: TableLayout, unknown: dict[str, str]) -> d
 
 def _kept(unknown: dict[str, str]) -> Iterator[tuple[Word, tuple[int, int] | None, str]]:
     """Yield first word, type with number of words, and data of the kept lines of a table."""
-    for key, said in unknown.items():
+    for key, message in unknown.items():
         header = HEADER.fullmatch(key)
         if header is None or header[3] is not None:
             continue  # of another format
-        kept = _KEPT.fullmatch(said)
+        kept = _KEPT.fullmatch(message)
         if kept is None:
-            raise FormatError(f"'{said}' is not how words of {key} are kept, as in :t1n3#0 0 5")
+            raise FormatError(f"'{message}' is not how words of {key} are kept, as in :t1n3#0 0 5")
         head = None if kept[1] is None else (int(kept[1]), int(kept[2]))
         yield (int(header[1]), int(header[2])), head, kept[3]
 
@@ -258,8 +262,10 @@ def _write(file: ParameterFile) -> str:
             cells[word] = _spelled(file, meant_by(file, there), known.form(word[0], heads))
     for word, text in cells.items():
         if word[0] in layout.heads and word[1] >= layout.heads[word[0]][1]:
-            said = f"the control that the table came from has {layout.heads[word[0]][1]} words of P{word[0]}"
-            raise FormatError(f"{name_of(word)}: {said}")
+            message = (
+                f"the control that the table came from has {layout.heads[word[0]][1]} words of P{word[0]}"
+            )
+            raise FormatError(f"{name_of(word)}: {message}")
         if (not text or " " in text) and word[0] not in alone:
             raise FormatError(f"{name_of(word)}: the text '{text}' would not be read as one value")
     forms = {a: form for a in known.counts if (form := known.form(a, heads)) is not None}

@@ -179,10 +179,13 @@ class WordMeaning:
             return code_of(self.parameter, value)
         if isinstance(found, str):
             return found
-        unit, said = self.unit_in(file), value.unit
-        if dimension(said) != dimension(unit):
-            said, unit = angular(said), angular(unit)  # the axis turns since, or no longer: the figure stays
-        return to_figure(self.parameter, Value(found, said), unit)
+        unit, message = self.unit_in(file), value.unit
+        if dimension(message) != dimension(unit):
+            message, unit = (
+                angular(message),
+                angular(unit),
+            )  # the axis turns since, or no longer: the figure stays
+        return to_figure(self.parameter, Value(found, message), unit)
 
 
 def meant_by(file: ParameterFile, meanings: tuple[WordMeaning, ...]) -> WordMeaning:

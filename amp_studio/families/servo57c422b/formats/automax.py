@@ -35,8 +35,8 @@ _SIGNS = "cp437"
 
 def _remark(file: ParameterFile, registers: Registers, address: Address) -> str:
     """Return ``Command Velocity (X axis), 160000 counts/s`` in signs that a DOS file has."""
-    said = f"{registers.label(address)}, {show_value(registers.parameter(address), file.get(address))}"
-    return _in_signs(said)
+    message = f"{registers.label(address)}, {show_value(registers.parameter(address), file.get(address))}"
+    return _in_signs(message)
 
 
 def _in_signs(text: str) -> str:
@@ -102,7 +102,7 @@ def _read_table(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
             raise FormatError(str(error), n, row.start(4) + 1) from None
         meaning.take(Written(int(row[2]), number, is_pattern, 1, n, row.start(2) + 1, row.start(4) + 1))
     meaning.settle()
-    unknown = {f"R{one.register}": _said(one) for one in meaning.leftover}
+    unknown = {f"R{one.register}": _message(one) for one in meaning.leftover}
     return TextRead(meaning.values, unknown, machine=machine)
 
 
@@ -115,7 +115,7 @@ def _kept_word(key: str, text: str) -> str:
     return text
 
 
-def _said(one: Written) -> str:
+def _message(one: Written) -> str:
     return write_hexadecimal(one.number) if one.is_pattern else str(one.number)
 
 

@@ -106,8 +106,8 @@ def contents_of(file: ParameterFile, registers: Registers) -> list[RegisterConte
         for register in registers.of(address):
             other = owner.setdefault(register, address)
             if other != address:
-                said = f"{written(other)} and {written(address)} are both set, and both are stored in it"
-                raise FormatError(f"register {register} contains one of two values: {said}")
+                message = f"{written(other)} and {written(address)} are both set, and both are stored in it"
+                raise FormatError(f"register {register} contains one of two values: {message}")
         try:
             number, words = register_number(parameter, value, unit), words_of(parameter, value, unit)
         except StorageError as error:
@@ -157,8 +157,8 @@ class RegisterValues:
         for register, word in _split(source):
             before = self._cells.setdefault(register, _Cell(word, source))
             if before.source is not source:
-                said = f"register {register} is written twice, in line {before.source.line} already"
-                raise FormatError(said, source.line, source.column)
+                message = f"register {register} is written twice, in line {before.source.line} already"
+                raise FormatError(message, source.line, source.column)
 
     def settle(self) -> None:
         """Find what the registers mean; raises FormatError at the first that means nothing."""
@@ -177,7 +177,7 @@ class RegisterValues:
             why = dict.fromkeys(file.evaluation.state(a).why for a in claims)
             self._decide(register, existing, f"means nothing here: {'; '.join(w for w in why if w)}")
 
-    def _decide(self, register: int, claims: list[Address], said: str) -> None:
+    def _decide(self, register: int, claims: list[Address], text: str) -> None:
         if register in self._done:
             return
         cell = self._cells[register]
@@ -185,7 +185,7 @@ class RegisterValues:
             names = " or ".join(written(a) for a in claims)
             raise self._fault(cell, f"register {register} means {names} here")
         if not claims:
-            self._leave(register, f"register {register} {said}")
+            self._leave(register, f"register {register} {text}")
             return
         mine = self.registers.of(claims[0])
         missing = [str(r) for r in mine if r not in self._cells]
@@ -214,16 +214,16 @@ class RegisterValues:
         except StorageError as error:
             raise FormatError(str(error), source.line, source.value_column) from None
 
-    def _leave(self, register: int, said: str) -> None:
+    def _leave(self, register: int, text: str) -> None:
         cell = self._cells[register]
         if not self.keep_unknown:
-            raise self._fault(cell, said)
+            raise self._fault(cell, text)
         self.leftover[cell.source] = None
         self._done.add(register)
 
     @staticmethod
-    def _fault(cell: _Cell, said: str) -> FormatError:
-        return FormatError(said, cell.source.line, cell.source.column)
+    def _fault(cell: _Cell, text: str) -> FormatError:
+        return FormatError(text, cell.source.line, cell.source.column)
 
 
 def _split(source: Written) -> Iterator[tuple[int, int]]:
