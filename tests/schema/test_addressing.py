@@ -60,7 +60,7 @@ def test_every_instance_is_found_by_its_address_and_every_number_means_one(famil
             if number is not None:
                 found = meant(file.evaluation, number)
                 assert address in (found.address, *found.others)
-                assert bool(found.others) == bool(found.said(schema))
+                assert bool(found.others) == bool(found.remark(schema))
 
 
 # -- a number of two parameters ----------------------------------------------------------------------------------
@@ -70,11 +70,11 @@ def test_a_number_that_is_printed_twice_means_one_and_says_so(mill: ParameterFil
     """1020 (pages 6-10 and 7-46)."""
     found = meant(mill.evaluation, "1020")
     assert found.address == ("zone.overtravel_used", "1")
-    assert found.said(mill.schema) == (
+    assert found.remark(mill.schema) == (
         "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
         "the other is Velocity Loop Feedback Port (servo.velocity_port@1)"
     )
-    assert meant(mill.evaluation, "1300").said(mill.schema) == ""
+    assert meant(mill.evaluation, "1300").remark(mill.schema) == ""
 
 
 def test_the_other_is_reached_by_id_and_by_the_letter_of_its_axis(mill: ParameterFile) -> None:
@@ -95,7 +95,7 @@ def test_of_several_that_exist_the_first_is_taken() -> None:
     module = new_file("57c422b")
     found = meant(module.evaluation, "R132")
     assert found.address == ("cam.time_points", "X.0")
-    assert found.said(module.schema).startswith("R132 is printed for three parameters: taken is ")
+    assert found.remark(module.schema).startswith("R132 is printed for three parameters: taken is ")
     assert found.others == (("cam.byte_points", "X.0"), ("cam.position_points", "X.0"))
 
 

@@ -97,7 +97,7 @@ def test_of_a_number_that_nothing_tells_apart_the_first_is_taken_and_both_are_to
     here = machine(facts.schema(text))
     found = meant(here.evaluation, "1013")
     assert (found.address, found.others) == (("servo.motor_teeth", "1"), (("spindle.motor_teeth", "1"),))
-    assert "(servo.motor_teeth@1); the other is " in found.said(here.schema)
+    assert "(servo.motor_teeth@1); the other is " in found.remark(here.schema)
 
 
 def test_a_number_printed_for_two_parameters_belongs_to_the_undisputed_one(facts, machine) -> None:

@@ -71,7 +71,7 @@ def test_good_facts_load(facts, head) -> None:
         ("when: slow", "when: slow, unless: slow", "- {state: ignored", "a state takes either 'when' or 'unless'"),
         ("scope: axis", "scope: word", "scope: word", "a.kind: the family has no scope 'word'"),
         ('page: "1"\n- id: a.kind', 'page: page one\n- id: a.kind', "page: page one", "a.speed: page: 'page one' is no page: written like 7-20"),
-        ("name: Kind", "numbers: {format: 'P{x}'}\n  name: Kind", "numbers", "the format 'P{x}' may hold"),
+        ("name: Kind", "numbers: {format: 'P{x}'}\n  name: Kind", "numbers", "the format 'P{x}' may contain"),
         ("name: Kind", "numbers: {step: 3}\n  name: Kind", "numbers", "numbers need 'start', 'listed', 'starts' or a format without"),
         ("name: Kind", "name: Kind\n  name: Sort", "name: Sort", "'name' occurs twice"),
         ("name: Kind", "name: [Kind", "scope: axis", "expected"),

@@ -260,7 +260,7 @@ def test_a_client_that_has_long_been_silent_loses_the_line_to_the_next(
     new_control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A client whose cable was pulled out is not seen to go."""
-    monkeypatch.setattr("amp_studio.transfer.emulated.emulator.HELD_LINE", 0.05)
+    monkeypatch.setattr("amp_studio.transfer.emulated.emulator.CLIENT_SILENCE", 0.05)
     listener = listen(parse_endpoint("tcp://127.0.0.1:0"))
     emulator = Emulator(new_control(), listener, say=lambda line: None)
     thread = threading.Thread(target=emulator.run)
