@@ -13,7 +13,6 @@ from amp_studio.files import (
     Document,
     ParameterFile,
     RangeError,
-    check_output,
     compare,
     merge,
     new_file,
@@ -53,7 +52,7 @@ def new_verb(options: argparse.Namespace) -> int:
     schema = family(options.family)
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
     file = new_file(options.family, options.machine, axes, options.path.stem)
-    check_output(options.path)
+    check_new(options.path, "a new file")
     write_new(file, options.path)
     print(f"{options.path}: {schema.family.name}, {file.machine}, {counted(len(file.values), 'value')}")
     return 0

@@ -31,6 +31,8 @@ def check_new(output: Path, what: str, *inputs: Path) -> None:
     """Refuse an output that is there already, or could not be written; raises UsageError, SaveError."""
     if is_there(output):
         raise UsageError(f"{output} exists already: {what} gets a new name")
+    if not output.parent.is_dir():
+        raise UsageError(f"there is no folder {output.parent}")
     check_output(output, *inputs)
 
 
