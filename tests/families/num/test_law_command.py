@@ -143,3 +143,16 @@ def test_after_an_excess_error_the_velocity_drive_brakes_the_axis(
     # from about 50 mm/s, with a drive of 50 Hz
     assert 0.1 < told["result"]["stop_distance"]["value"] < 5.0
     assert told["result"]["stop_position"]["value"] is not None
+
+
+def test_a_dry_friction_correction_of_some_micrometres_makes_the_reversals_of_a_circle_smaller(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    # 6-34: about 10 µm and 50 ms; the right amplitude is that of the machine's own friction, four times as much is too much
+    def spike(amplitude: int) -> float:
+        words = "move.radius=5 model.coulomb_friction=10 model.static_friction=12 P19N64=5000 P19N65=5000"
+        both = settings(f"{words} P19N32={amplitude} P19N33={amplitude}")
+        return float(simulated(capsys, str(EXAMPLE), "circle", *both)["result"]["reversal_spike"]["value"])
+
+    assert spike(5) < 0.7 * spike(0)
+    assert spike(40) > 2.0 * spike(0)
