@@ -58,7 +58,7 @@ THIRD_PARTY = (
 )
 SMOOTH = (
     "With the integral gain at 0 appendix A (A-9) shows a smooth overshoot of large systems: with the position loop closed over a motor"
-    " encoder this model does not give it (a soft load on a linear scale does)."
+    " encoder this model does not give it (a soft load does, on a linear scale or with the position loop open)."
 )
 ODD_MOTOR = (
     "The cells of the 7xx motors in Tables 7.B and 7.C (7-55, 7-56) do not fit the unit of the gains: the proportional one is 120 to 220"

@@ -60,6 +60,9 @@ LAST_MOTOR, ERROR_SUM, FILTERED, SAMPLE = 5, 6, 7, 8
 """u; u/s; %; number of servo samples so far."""
 STATE_SIZE = 9
 
+ALMOST = 1.0 - 1e-9
+"""Whole counts times the length of a count are that many counts, whatever the last bit is."""
+
 # -- alarms and monitors ---------------------------------------------------------------------------
 EXCESS_ERROR_ALARM, EXCESS_SKEW_ALARM = 1.0, 2.0
 MONITORS = (
@@ -69,14 +72,27 @@ MONITORS = (
     ("control_following_error", "u"),
     ("skew", "u"),
     ("feed_share", ""),
+    ("velocity_feedback", "u/s"),
 )
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
-    """Close the position loop of a digital servo and set its friction compensation, once a servo period."""
-    s[VELOCITY_COMMAND] = position_loop(p, s, io)
-    io[MONITOR], io[MONITOR + 5] = s[VELOCITY_COMMAND], io[FEED_SHARE]
-    s[FRICTION] = friction_compensation(p, s, io[MONITOR + 3], io[COMMAND_VELOCITY])
+    """Close the position loop of a digital servo and set its friction compensation, once a servo period.
+
+    Friction compensation (7-84 to 7-89): nothing below the threshold of following error, the friction of the direction from it
+    on, and stiction on top in the one sample that reaches it. The direction is that of the motion commanded, at rest that
+    of the following error.
+    """
+    position_loop(p, s, io)
+    error, velocity = io[MONITOR + 3], io[COMMAND_VELOCITY]
+    direction = velocity if velocity != 0.0 else error
+    reached = direction != 0.0 and abs(error) >= p[THRESHOLD] * p[COUNT] * ALMOST
+    above = 1.0 if reached else 0.0
+    size = p[FRICTION_POSITIVE] if direction > 0.0 else p[FRICTION_NEGATIVE]
+    if above > s[ABOVE]:
+        size += p[STICTION]
+    s[ABOVE] = above
+    s[FRICTION] = above * math.copysign(size, direction)
 
 
 def analog_sample(p: Vector, s: Vector, io: Vector) -> None:
@@ -84,34 +100,38 @@ def analog_sample(p: Vector, s: Vector, io: Vector) -> None:
     if io[MODE] == OUTPUT_TEST:
         volts = io[COMMAND]
     else:
-        velocity = position_loop(p, s, io)
-        io[MONITOR], io[MONITOR + 5] = velocity, io[FEED_SHARE]
+        position_loop(p, s, io)
+        velocity = s[VELOCITY_COMMAND]
         volts = velocity * (p[VOLTS_POSITIVE] if velocity > 0.0 else p[VOLTS_NEGATIVE])
     io[OUTPUT] = min(max(volts, -p[VOLTS_LIMIT]), p[VOLTS_LIMIT])
 
 
-def position_loop(p: Vector, s: Vector, io: Vector) -> float:
-    """Return the velocity command in u/s; checks the limits of the following error.
+def position_loop(p: Vector, s: Vector, io: Vector) -> None:
+    """Set the velocity command; checks the limits of the following error (7-20, 7-21).
 
     Closed loop: in proportion to the following error (7-14, 7-25); the part beyond the gain break point counts only gain
     break ratio times (7-22, 7-27). ZFE: a share of the command velocity is added (7-15, 7-28). Open loop: the command
     velocity itself (7-13); nothing is checked.
     """
-    if io[MODE] != POSITION_LOOP or p[OPEN] > 0.0:
-        io[FEED_SHARE] = 1.0
-        return io[COMMAND_VELOCITY]
-    reversal_error(p, s, io[COMMAND_VELOCITY])
+    closed = io[MODE] == POSITION_LOOP and p[OPEN] == 0.0
+    if closed and p[REVERSAL] != 0.0:
+        reversal_error(p, s, io[COMMAND_VELOCITY])
     io[REFERENCE_LAG] = -s[SHIFT]
     error = io[COMMAND] + s[SHIFT] - io[POSITION]
-    io[MONITOR + 3] = error
     size = abs(error)
-    if size > p[EXCESS]:
+    if closed and size > p[EXCESS]:
         io[STOP] = EXCESS_ERROR_ALARM
-    io[FEED_SHARE] = 0.5 if size > p[SUPPRESSION] else 1.0
-    gain = p[GAIN] * slave_gain(p, s, io, error)
+    io[FEED_SHARE] = 0.5 if closed and size > p[SUPPRESSION] else 1.0
+    gain = p[GAIN]
+    if p[MASTER_SAMPLES] > 0.0:
+        gain *= slave_gain(p, s, io, error)
     if size > p[BREAK_POINT]:
         size = p[BREAK_POINT] + p[BREAK_RATIO] * (size - p[BREAK_POINT])
-    return math.copysign(gain * size, error) + p[FEED_FORWARD] * io[COMMAND_VELOCITY]
+    velocity = math.copysign(gain * size, error) + p[FEED_FORWARD] * io[COMMAND_VELOCITY]
+    if not closed:
+        velocity, error = io[COMMAND_VELOCITY], 0.0
+    s[VELOCITY_COMMAND] = velocity
+    io[MONITOR], io[MONITOR + 3], io[MONITOR + 5] = velocity, error, io[FEED_SHARE]
 
 
 def reversal_error(p: Vector, s: Vector, velocity: float) -> None:
@@ -119,27 +139,22 @@ def reversal_error(p: Vector, s: Vector, velocity: float) -> None:
 
     A negative value is added to the first motion in the positive direction, a positive one to the first in the negative direction.
     """
-    if p[REVERSAL] == 0.0 or velocity == 0.0:
+    if velocity == 0.0:
         return
     direction = 1.0 if velocity > 0.0 else -1.0
-    before = s[CAME_FROM]
-    if before == 0.0:
-        before = p[FIRST]
+    before = s[CAME_FROM] if s[CAME_FROM] != 0.0 else p[FIRST]
     if direction != before:
         s[SHIFT] += direction * p[REVERSAL]
     s[CAME_FROM] = direction
 
 
 def slave_gain(p: Vector, s: Vector, io: Vector, error: float) -> float:
-    """Return the factor of the gain of the slave of a split axis, 1 for any other axis (32-9); checks the skew (32-10).
+    """Return the factor of the gain of the slave of a split axis (32-9); checks the skew (32-10).
 
     The factor is 1 + Deskew Gain x skew, the skew counted positive where the slave is further behind: the manual prints that the
     gain changes in proportion to the skew, and no unit.
     """
-    samples = int(p[MASTER_SAMPLES])
-    if samples == 0:
-        return 1.0
-    k = int(s[SAMPLE])
+    samples, k = int(p[MASTER_SAMPLES]), int(s[SAMPLE])
     s[SAMPLE] += 1.0
     master = p[MASTER + min(k, samples - 1)]
     skew = error - master
@@ -147,23 +162,6 @@ def slave_gain(p: Vector, s: Vector, io: Vector, error: float) -> float:
     if abs(skew) > p[SKEW_LIMIT]:
         io[STOP] = EXCESS_SKEW_ALARM
     return max(0.0, 1.0 + p[DESKEW] * (skew if error > 0.0 else -skew))
-
-
-def friction_compensation(p: Vector, s: Vector, error: float, velocity: float) -> float:
-    """Return the torque added against friction in this servo period, in % (7-84 to 7-89).
-
-    Nothing below the threshold of following error, the friction of the direction from it on, and stiction on top in the one
-    sample that reaches it. The direction is that of the motion commanded, at rest that of the following error.
-    """
-    direction = velocity if velocity != 0.0 else error
-    if abs(error) < p[THRESHOLD] * p[COUNT] * (1.0 - 1e-9) or direction == 0.0:
-        s[ABOVE] = 0.0
-        return 0.0
-    size = p[FRICTION_POSITIVE] if direction > 0.0 else p[FRICTION_NEGATIVE]
-    if s[ABOVE] == 0.0:
-        size += p[STICTION]
-    s[ABOVE] = 1.0
-    return size if direction > 0.0 else -size
 
 
 def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
@@ -175,7 +173,9 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     """
     velocity = (io[MOTOR] - s[LAST_MOTOR]) / p[PERIOD]
     s[LAST_MOTOR] = io[MOTOR]
-    limit = travel_limit(p, velocity, s[VELOCITY_COMMAND])
+    # The limit of the direction of travel, in which it accelerates and brakes; at rest the commanded one (7-61, 7-62).
+    direction = velocity if velocity != 0.0 else s[VELOCITY_COMMAND]
+    limit = p[LIMIT_POSITIVE] if direction >= 0.0 else p[LIMIT_NEGATIVE]
     if io[MODE] == OUTPUT_TEST:
         io[OUTPUT] = min(max(io[COMMAND], -limit), limit)
         return
@@ -187,7 +187,7 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
         s[ERROR_SUM] = total
     s[FILTERED] += p[FILTER] * (proportional + p[INTEGRAL] * s[ERROR_SUM] + added - s[FILTERED])
     io[OUTPUT] = min(max(s[FILTERED], -limit), limit)
-    io[MONITOR + 1], io[MONITOR + 2] = error, p[INTEGRAL] * s[ERROR_SUM]
+    io[MONITOR + 1], io[MONITOR + 2], io[MONITOR + 6] = error, p[INTEGRAL] * s[ERROR_SUM], velocity
 
 
 def summed(total: float, error: float, discharge: float) -> float:
@@ -196,12 +196,3 @@ def summed(total: float, error: float, discharge: float) -> float:
         return total + error
     after = total + discharge * error
     return after if after * total >= 0.0 else after / discharge
-
-
-def travel_limit(p: Vector, velocity: float, command: float) -> float:
-    """Return the torque limit in %: that of the direction of travel, in which it accelerates and decelerates (7-61, 7-62).
-
-    At rest the direction is the commanded one.
-    """
-    direction = velocity if velocity != 0.0 else command
-    return p[LIMIT_POSITIVE] if direction >= 0.0 else p[LIMIT_NEGATIVE]

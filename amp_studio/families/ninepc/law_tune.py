@@ -95,7 +95,7 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     profile = move(feedrate * (feedrate / ramp + 0.8 + 5.0 * lag), feedrate, Ramp("linear", ramp, ramp))
     end = end_of(profile)
     motion = run_axis(axis, profile, Until(end + 13.0 * lag), engine="compiled", thin=True)
-    time, velocity, torque = (motion.columns[name] for name in ("time_s", "velocity", "output"))
+    time, velocity, torque = (motion.columns[name] for name in ("time_s", "velocity_feedback", "output"))
     if motion.stop or time[-1] < end:
         return Chart(motion, math.inf, math.inf, math.inf)
     braking = end - feedrate / ramp

@@ -133,6 +133,15 @@ def test_friction_compensation_begins_at_ten_counts_with_stiction_for_one_sample
     assert servo.s[law.FRICTION] == -4.0
 
 
+def test_stiction_alone_is_for_one_sample() -> None:
+    servo = Servo(THRESHOLD=10.0, STICTION=7.0)
+    seen = []
+    for counts in (9, 10, 11):
+        servo.position(counts * 0.001, velocity=SPEED)
+        seen.append(servo.s[law.FRICTION])
+    assert seen == [0.0, 7.0, 0.0]
+
+
 def test_at_rest_friction_compensation_has_the_direction_of_the_following_error() -> None:
     servo = Servo(THRESHOLD=10.0, FRICTION_POSITIVE=3.0, FRICTION_NEGATIVE=4.0)
     seen = []

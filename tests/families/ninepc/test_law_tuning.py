@@ -19,7 +19,9 @@ from amp_studio.families.ninepc.law_tune import (
     tune,
 )
 from amp_studio.sim import SimulationError
-from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.law import AxisLaw, Ramp
+from amp_studio.sim.motion import Until, run_axis
+from amp_studio.sim.ramps import move
 
 from .conftest import Axis, Values
 
@@ -131,6 +133,25 @@ def test_what_does_not_fit_is_in_the_result(axis: Axis) -> None:
     assert "smooth overshoot" in " ".join(axis().assumptions)
     assert "smooth overshoot" not in " ".join(axis({"servo.velocity_integral_gain": 100.0}).assumptions)
     assert "not stable" in " ".join(axis({"servo.velocity_proportional_gain": 17408.0}).assumptions)
+
+
+def test_the_smooth_overshoot_of_large_systems_takes_a_soft_load_on_a_linear_scale_or_an_open_loop(
+    axis: Axis,
+) -> None:
+    # Page A-9; an overshoot without an oscillation, at a gain at which a rigid axis has none.
+    def overshoot(values: Values, resonance: float) -> float:
+        soft = {"resonance": resonance, "coulomb_friction": 3.0, "static_friction": 5.0}
+        law = axis({**MACHINES["heavy"], "servo.velocity_proportional_gain": 3000.0, **values}, **soft)
+        columns = run_axis(
+            law, move(400.0, FEEDRATE, Ramp("linear", 600.0, 600.0)), Until(1.3), engine="compiled", thin=True
+        ).columns
+        return float(columns["velocity"].max()) / FEEDRATE - 1.0
+
+    scale: Values = {"servo.position_feedback_type": "aqb-one-marker", "servo.position_counts": 100000.0}
+    opened: Values = {"servo.position_loop_type": "open"}
+    assert overshoot(scale, 8.0) > 0.05
+    assert overshoot(opened, 8.0) > 0.05
+    assert max(overshoot(scale, 0.0), overshoot(opened, 0.0), overshoot({}, 0.0)) < 0.01
 
 
 # -- the scenario ----------------------------------------------------------------------------------
