@@ -21,6 +21,7 @@ from .disk_watch import DiskWatch
 from .edit_actions import EditActions
 from .file_actions import FileActions
 from .findings_panel import FindingsPanel
+from .garbage import collect_by_timer
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .project_actions import ProjectActions
@@ -44,6 +45,7 @@ class MainWindow(StudioWindow):
     """One window, one open file. Menus are filled by the action groups in the modules beside this one."""
 
     def __init__(self) -> None:
+        collect_by_timer()
         super().__init__()
         self.setWindowIcon(program_icon())
         room = self.screen().availableSize()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import gc
 import threading
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
 from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
+
+from .garbage import collect_by_timer
 
 Progress = Callable[[str, int, int], None]
 Work = Callable[[Progress, threading.Event], Any]
@@ -19,17 +20,13 @@ PATIENCE_MS = 300
 
 STOPPING = "Stopping at the next safe point …"
 
-COLLECT_MS = 2000
-"""Milliseconds between two garbage collections while a task is running."""
-
 
 class Task(QThread):
     """Runs ``work(progress, cancel)`` and emits its result or its error.
 
     A task may outlive the widget that started it: the program waits for all tasks at its end.
 
-    Python collects garbage in whichever thread allocates, and a closed window is garbage with cycles: Qt crashes where
-    it is destroyed outside its own thread. So while a task is running, only the window's thread collects.
+    Only the window's thread collects garbage (see ``garbage``).
     """
 
     progressed = Signal(str, int, int)
@@ -46,22 +43,13 @@ class Task(QThread):
     def begin(self) -> None:
         """Start the thread."""
         Task.running.add(self)
-        gc.disable()
+        collect_by_timer()
         self.finished.connect(self._leave)
-        collecting = QTimer(self)
-        collecting.timeout.connect(gc.collect)
-        collecting.start(COLLECT_MS)
         self.start()
 
     def _leave(self) -> None:
         self.wait()  # "finished" comes just before the end
-        Task._forget(self)
-
-    @classmethod
-    def _forget(cls, task: Task) -> None:
-        cls.running.discard(task)
-        if not cls.running:
-            gc.enable()
+        Task.running.discard(self)
 
     @classmethod
     def end_all(cls) -> None:
@@ -69,7 +57,7 @@ class Task(QThread):
         for task in list(cls.running):
             task.cancelled.set()
             task.wait()
-            cls._forget(task)
+            cls.running.discard(task)
 
     def run(self) -> None:
         try:
