@@ -17,7 +17,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from amp_studio.files.project import PROJECT_FORMAT, ProjectInfo
-from amp_studio.schema import database_folder, family_ids
+from amp_studio.schema import database_folder, family_ids, load_schema
 from amp_studio.schema.model import (
     BuilderRule,
     Errata,
@@ -28,7 +28,10 @@ from amp_studio.schema.model import (
     Rules,
     Suppression,
     Tables,
+    Units,
 )
+from amp_studio.schema.units import UNITS_FILE
+from amp_studio.schema.yaml_reader import read_yaml
 
 FOLDER = database_folder() / "schemas"
 DIALECT = "http://json-schema.org/draft-07/schema#"
@@ -49,6 +52,7 @@ FILES: dict[str, type[BaseModel]] = {
     "errata": Errata,
     "tables": Tables,
     "guides": Guides,
+    "units": Units,
     "builder-rules": BuilderRules,
 }
 
@@ -63,7 +67,9 @@ def schemas() -> dict[str, str]:
 
 
 def _of_model(model: type[BaseModel]) -> dict[str, Any]:
-    schema: dict[str, Any] = _in_dialect(model.model_json_schema(ref_template="#/definitions/{model}"))
+    schema: dict[str, Any] = _with_own_units(
+        _in_dialect(model.model_json_schema(ref_template="#/definitions/{model}"))
+    )
     models = {kind.__name__: kind for kind in (model, *_below(Model))}
     for name, record in {model.__name__: schema, **schema.get("definitions", {})}.items():
         described: dict[str, str] = {}
@@ -85,6 +91,21 @@ def _in_dialect(schema: Any) -> Any:
         return schema
     words = {"prefixItems": "items", "$defs": "definitions"}
     return {words.get(key, key): _in_dialect(value) for key, value in schema.items()}
+
+
+def _with_own_units(schema: Any) -> Any:
+    """Return a schema that lists the units which only one family has behind those that every family may use."""
+    every = read_yaml(UNITS_FILE.read_text(encoding="utf-8")).data["units"]
+    own = {unit: None for family in family_ids() for unit in load_schema(family).family.own_units}
+
+    def listed(part: Any) -> Any:
+        if isinstance(part, dict):
+            return {key: listed(value) for key, value in part.items()}
+        if isinstance(part, list):
+            return [*part, *own] if part == list(every) else [listed(each) for each in part]
+        return part
+
+    return listed(schema)
 
 
 def _below(kind: type[Any]) -> list[type[Any]]:

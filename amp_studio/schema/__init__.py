@@ -13,7 +13,8 @@ from .constraint import Limits, bounding, clip, fault, limits
 from .evaluation import Evaluation, same_value
 from .expression import canonical_value, program
 from .file_error import FileError
-from .load import DatabaseError, Entry, UnknownFamilyError, database_folder, family_ids, read_entries
+from .folder import database_folder
+from .load import DatabaseError, Entry, UnknownFamilyError, family_ids, read_entries
 from .machine_schema import MachineSchema, labelled
 from .model import (
     AxisProfile,

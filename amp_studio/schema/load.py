@@ -20,11 +20,13 @@ from pydantic import ValidationError
 from .compiled_cache import read_cached, report_unusable, write_cached
 from .consistency import faults_between
 from .file_error import FileError, read_yaml_file
+from .folder import database_folder
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
 from .model_errors import Slip, slips
 from .nearest import unknown_name
 from .quoting import short
 from .registration import added_facts
+from .units import UNITS_FILE
 from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
@@ -57,13 +59,6 @@ class Compiled(Model):
     errata: tuple[Erratum, ...]
     tables: tuple[Table, ...]
     guides: tuple[Guide, ...] = ()
-
-
-def database_folder() -> Path:
-    """Return the folder of facts: inside the installed package, or at the top of the checkout."""
-    package = Path(__file__).resolve().parent.parent
-    inside = package / "parameter_db"
-    return inside if inside.is_dir() else package.parent / "parameter_db"
 
 
 def family_ids() -> tuple[str, ...]:
@@ -218,7 +213,7 @@ def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:
 def _content_key(files: list[Path]) -> str:
     digest = hashlib.sha256()
     here = Path(__file__).parent
-    own = (*sorted((here / "model").glob("*.py")), here / "compiled_cache.py")
+    own = (*sorted((here / "model").glob("*.py")), here / "compiled_cache.py", UNITS_FILE)
     for path in [*own, *files]:
         content = path.read_bytes()
         digest.update(f"{path.name}:{len(content)}:".encode())

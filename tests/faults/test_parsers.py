@@ -43,6 +43,7 @@ READERS = {
     "schema/load.py": "damaged facts",
     "schema/regular_file.py": "",  # the gate itself: gives bytes
     "sim/compiled.py": "",  # one switch of numba, compared with "0"
+    "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/parameters.py": "damaged digests",
     "transfer/client/verification.py": "damaged control image",

@@ -14,7 +14,10 @@ import write_schemas
 from jsonschema import Draft7Validator
 
 from amp_studio.schema import database_folder
+from amp_studio.schema.registration import register, unregister
+from amp_studio.schema.units import UNITS_FILE
 from amp_studio.schema.yaml_reader import read_yaml, spelled_scalar
+from tests.families.steps.stepper import FAMILY, REGISTRATION
 
 SCHEMAS = database_folder() / "schemas"
 FACTS = sorted(database_folder().glob("*/**/*.yaml"))
@@ -42,6 +45,28 @@ def faults(name: str, data: Any) -> list[str]:
 def test_the_schemas_are_what_the_models_say() -> None:
     kept = {path.name: path.read_text("utf-8") for path in SCHEMAS.glob("*.json")}
     assert kept == write_schemas.schemas(), "'make schema' writes them anew"
+
+
+def test_the_units_are_valid_by_their_schema() -> None:
+    assert named_in(UNITS_FILE) == SCHEMAS / "units.schema.json"
+    data = read_yaml(UNITS_FILE.read_text("utf-8")).data
+    assert faults("units", data) == []
+    data["units"]["mm"]["mesures"] = "length"
+    assert faults("units", data) != []
+
+
+def test_an_editor_offers_the_units_that_a_family_has_alone() -> None:
+    register(REGISTRATION)
+    try:
+        group, family = (
+            json.loads(write_schemas.schemas()[f"{name}.schema.json"]) for name in ("group", "family")
+        )
+    finally:
+        unregister(FAMILY)
+    offered = group["definitions"]["Parameter"]["properties"]["unit"]["anyOf"][0]["enum"]
+    assert offered[-2:] == ["steps/mm", "steps/in"]
+    assert offered.index("mm") == 1
+    assert "steps/mm" in json.dumps(family)
 
 
 def test_every_fact_file_names_the_schema_of_its_kind() -> None:

@@ -30,6 +30,7 @@ from amp_studio.schema import (
     write_number,
     write_value,
 )
+from amp_studio.schema.load import compile_family
 from amp_studio.schema.units import ALIASES, UNITS
 
 # -- numbers ---------------------------------------------------------------------------------------
@@ -383,9 +384,21 @@ def test_a_whole_number_takes_no_fraction(ninepc) -> None:
         ("steps/dm: {measures: length, factor: 1/0}", "'1/0' is no factor"),
         ("steps/dm: {measures: length, factor: ten}", "Invalid literal for Fraction: 'ten'"),
         ('"1 mm": {measures: length}', "'1 mm' is no name of a unit"),
+        ("cubit: {measures: cubits, also: [ell, inches]}", "'inches' is how people write in already"),
+        ("cubit: {measures: cubits, shown: mm}", "'mm' is how people write mm already"),
     ],
 )
 def test_a_unit_of_a_family_contradicts_no_other(facts, head: str, own: str, said: str) -> None:
     with pytest.raises(DatabaseError) as caught:
         facts.schema("", f"own_units:\n  {own}\n{head}")
     assert said in str(caught.value)
+    assert not {"ell", "cubit"} & {*UNITS, *ALIASES}, "nothing of it is known"
+
+
+def test_a_unit_of_a_family_is_written_and_shown_in_its_own_ways(facts, head: str) -> None:
+    own = "own_units:\n  furlong: {measures: length, factor: '201168', shown: fur., also: [furlongs]}\n"
+    facts.write("family.yaml", f"{own}{head}")
+    facts.write("groups/all.yaml", 'key: all\nname: All\nchapter: "1"\nparameters: []\n')
+    compile_family(facts.folder)
+    assert {unit_named(text) for text in ("furlong", "furlongs", "fur.", "Furlongs")} == {"furlong"}
+    assert (convert(2.0, "furlong", "mm"), shown("furlong")) == (402336.0, "fur.")

@@ -156,10 +156,14 @@ def test_a_code_is_refused_where_all_of_them_are_printed(mill: ParameterFile) ->
         read_value(mill.schema.parameter("resolution.multiplication"), "3", "")
 
 
-def test_lengths_are_in_blu_and_in_nothing_else(mill: ParameterFile) -> None:
+def test_lengths_are_in_blu_and_in_nothing_else_where_nobody_knows_how_long_one_is(
+    mill: ParameterFile,
+) -> None:
     """Section 1.2.6: the unit of the pitch is BLU, and what that is depends on Pr17."""
     pitch = mill.find("Pr161")
     assert mill.read(pitch, "10000") == mill.read(pitch, "10000 blu") == Value(10000, "BLU")
+    assert mill.read(pitch, "10 mm") == Value(10000, "BLU"), "as delivered"
+    mill.set(mill.find("Pr17"), Value("raw:2"))
     with pytest.raises(InvalidValueError, match="is given in BLU, not in mm"):
         mill.read(pitch, "10 mm")
 

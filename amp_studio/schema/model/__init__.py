@@ -23,6 +23,7 @@ from .family import (
     Family,
     MachineType,
     ScopeInfo,
+    Units,
     UnitScale,
     UnitSize,
 )
@@ -115,5 +116,6 @@ __all__ = [
     "Unit",
     "UnitScale",
     "UnitSize",
+    "Units",
     "ValueType",
 ]

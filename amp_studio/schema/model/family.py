@@ -74,12 +74,22 @@ class AxisNames(Model):
 
 
 class OwnUnit(Model):
-    """A unit that only one family has."""
+    """A unit: what it measures, and how people write it."""
 
     measures: str
     """Its dimension; a name that no other unit has makes a separate dimension."""
     factor: str = "1"
     """To the unit of the dimension that has 1, exactly: a number in quotes or a fraction (``10/254``)."""
+    shown: str = ""
+    """How it is shown, if that is otherwise than it is written in a file (``mm/s²``)."""
+    also: tuple[str, ...] = ()
+    """Other ways in which people write it."""
+
+
+class Units(Model):
+    """The units that every family may use (``units.yaml``)."""
+
+    units: dict[str, OwnUnit]
 
 
 class UnitSize(Model):
@@ -116,7 +126,7 @@ def _defined(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
         if not re.fullmatch("[A-Za-z][A-Za-z0-9]*(/[A-Za-z0-9]+)*", unit):
             raise ValueError(f"'{unit}' is no name of a unit: letters and digits, as steps/mm")
         try:
-            define_unit(unit, meaning.measures, Fraction(meaning.factor))
+            define_unit(unit, meaning.measures, Fraction(meaning.factor), meaning.shown, meaning.also)
         except ZeroDivisionError:
             raise ValueError(f"'{meaning.factor}' is no factor") from None
     return own
