@@ -9,6 +9,8 @@ from dataclasses import asdict
 from amp_studio.files import ParameterFile, axis_instances, open_file
 from amp_studio.schema import axis_meant
 from amp_studio.sim import (
+    SimulationError,
+    Trace,
     listing,
     named_parameter,
     simulate,
@@ -23,6 +25,7 @@ from .errors import UsageError
 from .files import wanted
 from .output import check_replaced
 
+PICTURES = (".svg", ".png")
 SETTING_GROUPS = ("move", "model", "tune", "gear", "cam")
 """First words of settings that are no parameters."""
 
@@ -38,6 +41,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     settings, own = _settings(options.assignments)
     told: list[str] = []
+    before = file.copy()
     for address, value in wanted(file, own, told.append).items():
         file.set(address, value)
     axis = (
@@ -49,12 +53,24 @@ def simulate_verb(options: argparse.Namespace) -> int:
     for said in told:
         note(said)
     if options.output:
-        write_trace(trace, options.output, note)
+        is_picture = options.output.suffix.lower() in PICTURES
+        earlier = _earlier(before, options.scenario, axis, settings) if own and is_picture else None
+        write_trace(trace, options.output, note, before=earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0
+
+
+def _earlier(
+    file: ParameterFile, scenario: str, axis: str | None, settings: dict[str, float | str]
+) -> Trace | None:
+    """Return the trace of the values in the file, to draw under that of the changed ones; None where it has none."""
+    try:
+        return simulate(file, scenario, axis, settings)
+    except SimulationError:
+        return None
 
 
 def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:

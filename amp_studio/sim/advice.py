@@ -31,7 +31,7 @@ NEAR = 3.0
 """An oscillation this many times faster than the position loop is that of another loop."""
 WORTH = 1.25
 """A reserve below this factor is not worth a change."""
-POINTS = 240
+POINTS = 160
 """Points of the grid for a value that is tried."""
 FURTHEST, HALVINGS = 5, 5
 """Doublings of a value that are tried, and halvings of the last of them."""
@@ -268,7 +268,19 @@ def _following_error(axis: AxisLaw, feedrate: float) -> float | None:
 
 def recommendations(
     trial: Trial, scenario: str, own: Sequence[Recommendation] = ()
-) -> tuple[Recommendation, ...]:
-    """Return the recommendations of the loops and those of the family, one for a parameter: the family's goes before."""
+) -> tuple[tuple[Recommendation, ...], tuple[str, ...]]:
+    """Return the recommendations of the family and of the loops, one for a parameter, and a note where none mends a loop.
+
+    The family's goes before.
+    """
     named = {each.parameter for each in own}
-    return (*own, *(each for each in recommend(trial, scenario) if each.parameter not in named))
+    found = recommend(trial, scenario)
+    loops = Loops.of(trial.axis)
+    if found or loops.sound():
+        return (*own, *(each for each in found if each.parameter not in named)), ()
+    raised = (
+        " without raising a gain, which is not recommended on an assumed machine"
+        if trial.axis.assumed
+        else ""
+    )
+    return tuple(own), (f"{_why(loops)}. No change of the gains alone gives it enough{raised}.",)

@@ -224,6 +224,7 @@ def run(
                         return row
                     # The control takes the output away and goes on with the command no more.
                     io[OUTPUT] = output = rate = 0.0
+                    io[COMMAND_VELOCITY] = velocity = x[SHARE] = 0.0
                     most = rows.shape[0]
                     brake(m)
                 since += 1

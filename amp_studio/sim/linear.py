@@ -22,6 +22,8 @@ Response = npt.NDArray[np.complex128]
 
 _POINTS = 2400
 """Points of the grid on which crossings are sought before they are refined."""
+CLOSE = 41
+"""Points of the grid around a pole."""
 HALVINGS, COARSE = 48, 12
 """Halvings of the space between two points around a crossing, for a figure and for a value that is tried."""
 _LOWEST = 1e-4
@@ -98,7 +100,8 @@ class LinearModel(SampledLoop):
         even = np.geomspace(low, self.nyquist, points)
         found = np.concatenate([self.poles(), np.linalg.eigvals(self.open)])
         peaks = np.abs(np.angle(found[np.abs(found) > 1e-6])) / (2.0 * math.pi * self.period)
-        near = (peaks[:, None] * np.geomspace(0.8, 1.25, 41)[None, :]).ravel()
+        close = np.geomspace(0.8, 1.25, CLOSE if points >= _POINTS else CLOSE // 4)
+        near = (peaks[:, None] * close[None, :]).ravel()
         every = np.concatenate([even, near[(near > low) & (near < self.nyquist)]])
         return np.unique(every)
 

@@ -225,7 +225,7 @@ def _panel(
 
 def _curve(trace: Trace, name: str) -> Curve:
     words, role = _WORDS.get(name, (name.replace("_", " "), "other"))
-    held, dense = name == "command_velocity", role == "output"
+    held, dense = name == "command_velocity", role == "output" or name == "following_error"
     return Curve(words, trace.columns["time_s"], trace.columns[name], role, held=held, dense=dense)  # type: ignore[arg-type]
 
 
@@ -254,7 +254,11 @@ def settling_span(trace: Trace) -> tuple[float, float] | None:
     time after it has settled.
     """
     columns = trace.columns
-    if not {"time_s", "command_position", "position"} <= set(columns) or len(columns["time_s"]) < 3:
+    if (
+        trace.alarms
+        or not {"time_s", "command_position", "position"} <= set(columns)
+        or len(columns["time_s"]) < 3
+    ):
         return None
     time, command = columns["time_s"], columns["command_position"]
     moving = np.flatnonzero(command != command[-1])
@@ -355,7 +359,7 @@ def _ballbar(trace: Trace, before: Trace | None) -> Picture:
     # A radius error above 0 is a circle that is too small, a deviation below 0.
     predicted = trace.result.get("predicted_radius_error", (None, ""))[0]
     if predicted is not None and math.isfinite(predicted):
-        levels.append((f"predicted {shown(-predicted, unit)}", -predicted))
+        levels.append((f"predicted {shown(-predicted, unit)}".replace("-", "−"), -predicted))
     marks = tuple((f"{turn} deg", float(turn)) for turn in (90, 180, 270))
     panel = Panel("radius deviation", unit, tuple(curves), tuple(levels), marks, 1.2)
     return Picture("", (), "angle (deg)", (panel,), rings=tuple(rings), ring_unit=unit)

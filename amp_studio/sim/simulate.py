@@ -58,8 +58,8 @@ def simulate(
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
-    advice = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
-    return replace(trace, recommendations=advice, doubts=doubtful)
+    found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
+    return replace(trace, recommendations=found, assumptions=(*trace.assumptions, *notes), doubts=doubtful)
 
 
 def _second(

@@ -47,7 +47,9 @@ def plot_svg(trace: Trace, before: Trace | None = None) -> str:
         frame = _Frame(panel, y, picture.x_log)
         parts += frame.drawn(picture.alarms, numbered=n == len(picture.panels) - 1)
         if panel.label == "following error" and (outside := limits_outside(trace)):
-            words = "above the plot: " + ", ".join(f"{name} {level}" for name, level in outside.items())
+            words = "above the plot: " + ", ".join(
+                f"{name} {level}" for name, level in outside.items()
+            ).replace("_", " ")
             parts.append(_text(RIGHT, frame.top - 6, words, anchor="end", size=11, fill=DIM))
         y += frame.height + GAP
         if n == len(picture.panels) - 1:
@@ -166,9 +168,11 @@ class _Frame:
         yield from self._grid(numbered)
         for _, at in alarms:
             yield _line(self.x(at), self.top, self.x(at), self.top + self.height, ERROR, width=1.2)
-        yield from self._levels()
+        for _, level in self.panel.levels:
+            yield _line(LEFT, self.y(level), RIGHT, self.y(level), DIM, dash="2 3")
         for curve in self.panel.curves:
             yield from self._curve(curve)
+        yield from self._levels()
         yield from self._marks()
         yield from self._legend()
 
@@ -197,10 +201,10 @@ class _Frame:
         yield _text(LEFT, self.top - 8, f"{self.panel.label}{unit}", size=12, weight="bold")
 
     def _levels(self) -> Iterator[str]:
+        """Yield the names of the levels, over the curves."""
         labels: list[tuple[float, str]] = []
         for name, level in sorted(self.panel.levels, key=lambda each: each[1]):
             y = self.y(level)
-            yield _line(LEFT, y, RIGHT, y, DIM, dash="2 3")
             if not name:
                 continue
             words = (
@@ -283,7 +287,7 @@ class _Frame:
 
 
 def _width(words: str) -> float:
-    return 42.0 + 5.7 * len(words)
+    return 44.0 + 6.6 * len(words)
 
 
 # -- ball-bar ----------------------------------------------------------------

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFont
+from PySide6.QtGui import QColor, QFont
 
 from amp_studio.sim.picture import Curve, Panel, Picture, Ring, Series, unheld
 from amp_studio.sim.rounding import shown
@@ -84,7 +84,7 @@ class MotionPlot(pg.GraphicsLayoutWidget):
         for _, moment in picture.alarms:
             for plot in self.panels:
                 plot.addItem(pg.InfiniteLine(moment, pen=pg.mkPen(self._ink["error"], width=1.5)))
-        if not same or self._places is None:
+        if not same or self._places is None or not all(low <= place <= high for place in self._places):
             self._places = (low + 0.25 * (high - low), low + 0.75 * (high - low))
         self._add_cursors(*self._places)
 
@@ -106,7 +106,13 @@ class MotionPlot(pg.GraphicsLayoutWidget):
         plot.getAxis("left").setWidth(66)
         plot.getAxis("bottom").logTickStrings = _plain_numbers
         for curve in panel.curves:
-            plot.addItem(self._item(curve))
+            drawn = [(self._item(curve), "peak")]
+            if curve.held or curve.dense:
+                drawn = [(self._band(curve), "peak"), (self._item(curve), "mean")]
+            for item, method in drawn:
+                item.opts["autoDownsampleFactor"] = 1.0 if method == "mean" else 3.0  # points for a pixel
+                plot.addItem(item)  # which gives it the downsampling of the plot
+                item.setDownsampling(auto=True, method=method)
         self._draw_levels(plot, panel)
         if panel.step:
             plot.getAxis("left").setTickSpacing(panel.step, panel.step / 2)
@@ -134,11 +140,16 @@ class MotionPlot(pg.GraphicsLayoutWidget):
                 symbolBrush=self._ink["base"], name=curve.name,
             )  # fmt: skip
         dash = Qt.PenStyle.DashLine if curve.role == "command" else Qt.PenStyle.SolidLine
-        item = pg.PlotDataItem(
+        return pg.PlotDataItem(
             x, y, pen=pg.mkPen(colour, width=1.6, style=dash), name=curve.name, antialias=True
         )
-        item.setDownsampling(auto=True, method="peak")
-        return item
+
+    def _band(self, curve: Curve) -> pg.PlotDataItem:
+        """Return the extremes of a value that ripples from sample to sample, in light ink under its mean."""
+        x, y = unheld(curve.x, curve.y) if curve.held else (curve.x, curve.y)
+        colour = QColor(self._ink[curve.role])
+        colour.setAlpha(80)
+        return pg.PlotDataItem(x, y, pen=pg.mkPen(colour, width=1.0), antialias=True)
 
     def _draw_levels(self, plot: pg.PlotItem, panel: Panel) -> None:
         """Draw the named levels; those that would overlap share one text."""
@@ -280,7 +291,7 @@ def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
 def _plain_numbers(values: Sequence[float], scale: float, _spacing: float | None) -> list[str]:
     """Return 1, 2 and 5 times the powers of ten as numbers, the others without text."""
     numbers = [float(10.0**value * scale) for value in values]
-    return [shown(number, digits=3) if f"{number:e}"[0] in "125" else " " for number in numbers]
+    return [shown(number, digits=3) if f"{number:e}"[0] in "125" else "" for number in numbers]
 
 
 def _extent(picture: Picture) -> tuple[float, float]:

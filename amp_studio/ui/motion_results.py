@@ -50,8 +50,10 @@ class FiguresPage(QTextBrowser):
             f'<p style="color:{ink}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s: {html.escape(a.message)}</p>'
             for a in trace.alarms
         )
+        warn = severity_ink("warning").name()
+        doubts = "".join(f'<p style="color:{warn}">{html.escape(text)}</p>' for text in trace.doubts)
         self.setHtml(
-            f"{alarms}<table cellspacing=0 cellpadding=2 width=100%>{''.join(_rows(trace, before))}</table>"
+            f"{alarms}{doubts}<table cellspacing=0 cellpadding=2 width=100%>{''.join(_rows(trace, before))}</table>"
         )
 
 
@@ -112,7 +114,7 @@ class RecommendationsPage(QScrollArea):
             together = self._button(f"Apply All {len(usable)}", usable)
             column.addWidget(together, alignment=Qt.AlignmentFlag.AlignRight)
         if not found:
-            column.addWidget(QLabel("No recommendations. The loops have enough margin and damping."))
+            column.addWidget(QLabel("No recommendations."))
         column.addStretch()
         self.setWidget(inside)
 

@@ -57,6 +57,7 @@ class SettingsForm(QWidget):
         field = QLineEdit()
         unit = self._unit(name)
         default = meaning.partition("default: ")[2] or "automatic"
+        unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
         field.setPlaceholderText(f"{shown(unit)}, empty: {default}" if unit else f"empty: {default}")
         field.returnPressed.connect(self._changed)
         return field
@@ -72,6 +73,14 @@ class SettingsForm(QWidget):
     def _unit(self, name: str) -> str:
         return self._units[0] if name in LENGTHS else self._units[1] if name == FEEDRATE else ""
 
+    def show_defaults(self, defaults: Mapping[str, str]) -> None:
+        """Show in the empty fields what is taken now."""
+        for name, text in defaults.items():
+            field = self.fields.get(name)
+            if isinstance(field, QLineEdit):
+                unit, _, _ = field.placeholderText().rpartition("empty: ")
+                field.setPlaceholderText(f"{unit}empty: {text}")
+
     def values(self) -> dict[str, float | str]:
         """Return what is given, in canonical units; raises ValueError with one sentence for a wrong unit or no number."""
         found: dict[str, float | str] = {}
@@ -82,15 +91,20 @@ class SettingsForm(QWidget):
                 continue
             if not field.text().strip():
                 continue
-            number, rest = read_number(field.text())
             unit = self._unit(name)
-            named = unit_named(rest) if rest and unit else unit
-            if unit and dimension(named) != dimension(unit):
-                raise ValueError(
-                    f"Give the {_title(name).lower()} of this axis in {shown(unit)}, not in {shown(named)}."
-                )
-            found[name] = canonical(number, named) if named else number
+            found[name] = _read(name, field.text(), unit) if unit else field.text().strip()
         return found
+
+
+def _read(name: str, text: str, unit: str) -> float:
+    """Return a length or feedrate in its canonical unit; a bare number is in the unit of the file."""
+    number, rest = read_number(text)
+    named = unit_named(rest) if rest else unit
+    if dimension(named) != dimension(unit):
+        raise ValueError(
+            f"Give the {_title(name).lower()} of this axis in {shown(unit)}, not in {shown(named)}."
+        )
+    return canonical(number, named)
 
 
 def _title(name: str) -> str:

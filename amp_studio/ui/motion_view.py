@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -17,6 +18,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
+    QScrollArea,
     QSplitter,
     QTabWidget,
     QVBoxLayout,
@@ -26,17 +28,16 @@ from PySide6.QtWidgets import (
 from amp_studio.files import ParameterFile, RangeError, axis_title
 from amp_studio.schema import Address, Value, angular
 from amp_studio.sim import (
-    SCENARIOS,
     Recommendation,
     SimulationError,
     Trace,
     address_of,
     law_of,
-    model_settings,
+    listing,
     simulate,
-    simulated_axes,
     write_trace,
 )
+from amp_studio.sim.listing import Listing
 from amp_studio.sim.picture import picture_of, settling_span
 
 from .motion_plot import MotionPlot
@@ -47,6 +48,9 @@ from .task import Progress, Task
 from .theme import severity_ink
 from .workspace import Workspace
 
+MOST_HEIGHT = 148
+"""Pixels of the settings of a scenario; more of them are scrolled."""
+_ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (-?[\d.]+?)\.? ")
 _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
 
@@ -69,6 +73,7 @@ class MotionView(QWidget):
         self._again = False
         self._asked: tuple[object, ...] = ()
         self._impossible: SimulationError | None = None
+        self._counts = False  # whether the axis moves in counts, not in a length or an angle
         self.trace: Trace | None = None
         self.before: Trace | None = None
         self._make_widgets()
@@ -117,8 +122,7 @@ class MotionView(QWidget):
         )
         note.setWordWrap(True)
         column.addWidget(note)
-        column.addWidget(self.machine)
-        column.addStretch()
+        column.addWidget(_scrolled(self.machine))
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         pages = (
@@ -132,7 +136,8 @@ class MotionView(QWidget):
         right = QVBoxLayout(side)
         right.setContentsMargins(0, 0, 0, 0)
         right.addLayout(form)
-        right.addWidget(self.settings)
+        self._above = _scrolled(self.settings)
+        right.addWidget(self._above)
         right.addWidget(self.tabs, 1)
         left = QWidget()
         picture = QVBoxLayout(left)
@@ -167,19 +172,25 @@ class MotionView(QWidget):
     def _fill(self, wanted: str) -> None:
         """Fill the scenarios and axes of the file; keep the axis ``wanted`` where it is there."""
         file = self._workspace.file
-        scenarios, axes, self._impossible = _possible(file)
-        titled = [(axis, axis_title(file, axis) if file.schema.family.axes else axis) for axis in axes]
-        names = [(name, name.capitalize()) for name in scenarios]
-        _refill(self.scenario, names, str(self.scenario.currentData() or "step"))
+        found, self._impossible = _possible(file)
+        titled = [(axis, axis_title(file, axis) if file.schema.family.axes else axis) for axis in found.axes]
+        _refill(
+            self.scenario,
+            [(each.name, each.name.capitalize()) for each in found.scenarios],
+            str(self.scenario.currentData() or "step"),
+        )
         _refill(self.axis, titled, wanted)
-        chosen = SCENARIOS.get(str(self.scenario.currentData()))
+        chosen = next((each for each in found.scenarios if each.name == self.scenario.currentData()), None)
         others = [each for each in titled if each[0] != self.axis.currentData()]
         self.scenario.setToolTip(chosen.title if chosen else "")
         self.settings.offer(chosen.settings if chosen else {}, self._units(), others)
-        self.machine.offer(model_settings(), ("", ""))
+        self.machine.offer(found.model, ("", ""))
+        self._above.setFixedHeight(min(MOST_HEIGHT, self.settings.sizeHint().height()))
 
     def _units(self) -> tuple[str, str]:
         """Return the units of distance and feedrate for the chosen axis."""
+        if self._counts:
+            return "", ""
         file, axis = self._workspace.file, self.axis.currentData()
         family = file.schema.family
         system = family.units.get(file.header.units, {})
@@ -247,6 +258,10 @@ class MotionView(QWidget):
     def _show_result(self, trace: Trace) -> None:
         self.trace = trace
         self.before = self.before or trace
+        counts = trace.units.get("position") == "counts"
+        if counts != self._counts:
+            self._counts = counts
+            self._fill(str(self.axis.currentData()))
         for button in (self.save_button, self.all_of_it, self.keep):
             button.setEnabled(True)
         self.settling.setEnabled(settling_span(trace) is not None)
@@ -258,6 +273,8 @@ class MotionView(QWidget):
         count = len(trace.recommendations)
         self.tabs.setTabText(1, f"Recommended ({count})" if count else "Recommended")
         self.assumptions.show_trace(trace)
+        taken = (_ASSUMED.match(text) for text in trace.assumptions)
+        self.machine.show_defaults({found[1]: f"{found[2]}, assumed" for found in taken if found})
         self._redraw()
 
     def _other(self) -> Trace | None:
@@ -342,15 +359,23 @@ class MotionView(QWidget):
         super().closeEvent(event)
 
 
-def _possible(file: ParameterFile) -> tuple[list[str], tuple[str, ...], SimulationError | None]:
-    """Return scenarios and axes of a file, and why nothing can be simulated, if so."""
+def _possible(file: ParameterFile) -> tuple[Listing, SimulationError | None]:
+    """Return what can be simulated with a file, and why nothing can, if so."""
     try:
-        law = law_of(file.schema.family.family)
+        found = listing(file)
     except SimulationError as error:
-        return [], (), error
-    scenarios = [*(name for name in law.scenarios if name in SCENARIOS), *law.own]
-    axes = simulated_axes(file)
-    return scenarios, axes, None if axes else SimulationError(law.without_axes)
+        return Listing((), (), {}), error
+    return found, None if found.axes else SimulationError(law_of(file.schema.family.family).without_axes)
+
+
+def _scrolled(form: QWidget) -> QScrollArea:
+    """Return a form that can be scrolled."""
+    area = QScrollArea()
+    area.setFrameShape(QScrollArea.Shape.NoFrame)
+    area.setWidgetResizable(True)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setWidget(form)
+    return area
 
 
 def _refill(box: QComboBox, entries: Sequence[tuple[str, str]], wanted: str) -> None:

@@ -356,3 +356,11 @@ def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, argumen
     refused = amp("simulate", mill, *arguments)
     assert (refused.code, said in refused.err) == (2, True), refused.err
     assert before == folder()
+
+
+def test_a_changed_value_is_drawn_over_the_one_of_the_file(amp, mill: Path, tmp_path: Path) -> None:
+    amp("set", mill, "1030=sercos", "1031=digital")
+    for name, changed in (("plain", ()), ("changed", ("--set", "servo.initial_gain@1=0.98"))):
+        amp("simulate", mill, "step", "--axis", "1", *changed, "-o", tmp_path / f"{name}.svg")
+    assert ">before</text>" not in (tmp_path / "plain.svg").read_text(encoding="utf-8")
+    assert ">before</text>" in (tmp_path / "changed.svg").read_text(encoding="utf-8")

@@ -11,10 +11,13 @@ from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Value
-from amp_studio.sim import Recommendation
+from amp_studio.sim import SCENARIOS, Recommendation
+from amp_studio.sim.picture import picture_of
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.motion_plot import MotionPlot
 from amp_studio.ui.motion_view import MotionView
 from amp_studio.ui.task import Task
+from tests.sim.tiny import tiny
 
 from .conftest import WAIT_MS, action
 
@@ -50,7 +53,7 @@ def choose(view: MotionView, scenario: str, qtbot: QtBot) -> None:
 def test_it_begins_with_the_selected_axis_and_draws_a_trace(view: MotionView) -> None:
     assert view.axis.currentData() == "2"
     assert view.trace.axis == "2"
-    assert [len(panel.listDataItems()) for panel in view.plot.panels] == [2, 1, 2, 1]
+    assert [len(panel.listDataItems()) for panel in view.plot.panels] == [2, 2, 3, 2]
     assert "steady following error" in view.figures.toPlainText()
     assert view.save_button.isEnabled()
 
@@ -134,9 +137,9 @@ def test_every_scenario_of_the_family_can_be_chosen_and_has_its_own_settings(
     assert {"step", "frequency", "circle"} <= {
         view.scenario.itemData(n) for n in range(view.scenario.count())
     }
-    choose(view, "frequency", qtbot)
-    assert [panel.label for panel in view.plot.picture.panels] == ["gain", "phase"]
-    assert "move.points" in view.settings.fields
+    choose(view, "velocity", qtbot)
+    assert [panel.label for panel in view.plot.picture.panels] == ["position", "velocity", "torque"]
+    assert "move.distance" not in view.settings.fields
     choose(view, "circle", qtbot)
     assert view.plot.picture.rings
     assert "radius error" in view.figures.toPlainText()
@@ -178,7 +181,10 @@ def test_zoom_to_settling_shows_the_end_of_the_move_and_all_of_it_comes_back(vie
 
 def test_a_peak_of_one_row_is_drawn_however_far_the_view_is(view: MotionView) -> None:
     items = [item for plot in view.plot.panels for item in plot.listDataItems()]
-    assert {item.opts["downsampleMethod"] for item in items} == {"peak"}
+    drawn = {item.opts["downsampleMethod"] for item in items}
+    assert "peak" in drawn
+    error = [item for item in view.plot.panels[1].listDataItems() if item.opts["downsampleMethod"] == "peak"]
+    assert np.array_equal(error[0].yData, view.trace.columns["following_error"])
 
 
 def test_a_recommendation_is_applied_as_one_undoable_change_and_run_again(
@@ -246,3 +252,13 @@ def test_closing_the_program_while_it_runs_ends_well(view: MotionView, window: M
 def test_it_closes_with_its_file(view: MotionView, window: MainWindow, qtbot: QtBot) -> None:
     with qtbot.waitSignal(view.destroyed, timeout=WAIT_MS):
         window.files.close()
+
+
+def test_a_bode_plot_is_painted_with_plain_numbers_on_its_axis(qtbot: QtBot) -> None:
+    plot = MotionPlot()
+    qtbot.addWidget(plot)
+    plot.resize(700, 500)
+    plot.draw(picture_of(SCENARIOS["frequency"].run(tiny(gain=2500.0), {})))
+    assert not plot.grab().isNull()
+    ticks = plot.panels[1].getAxis("bottom").tickStrings([-1.0, 0.301, 2.0, 2.7782], 1.0, 1.0)
+    assert ticks == ["0.1", "2", "100", ""]
