@@ -76,7 +76,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
     ramps = _ramps(read, words.acceleration, notes)
     linear = list(parameters)
     linear[sample.WHOLE], linear[sample.FRICTION], linear[sample.TOLERANCE] = 0.0, 0.0, -1.0
-    linear[sample.EMAX] = math.inf
+    linear[sample.EMAX], linear[sample.BACKLASH] = math.inf, 0.0
     swept = list(parameters)
     swept[sample.TOLERANCE] = -1.0
     law = AxisLaw(

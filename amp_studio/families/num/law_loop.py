@@ -24,7 +24,7 @@ def loop(
     p[sample.FRICTION], p[sample.FRICTION_LEFT] = _friction(read, words, notes)
     p[sample.EMAX] = read.number("servo.max_following_error") * words.length
     p[sample.TOLERANCE] = _tolerance(read, words, notes)
-    p[sample.SYNC_LIMIT] = math.inf
+    p[sample.SYNC_LIMIT], p[sample.BACKLASH] = math.inf, _backlash(read, words, notes)
     limit = shown(p[sample.EMAX], words.unit)
     alarms = {
         int(sample.EXCESS_ERROR): AlarmText(
@@ -86,3 +86,20 @@ def _tolerance(read: AxisParameters, words: Words, notes: list[str]) -> float:
         " 6-24 is lost."
     )
     return tolerance / 1000.0
+
+
+def _backlash(read: AxisParameters, words: Words, notes: list[str]) -> float:
+    """Return the reversal error compensation in u (7-14); 0 on a machine without backlash, which needs none."""
+    compensation = read.optional("travel.backlash") or 0.0
+    if not compensation:
+        return 0.0
+    if not read.optional("model.backlash"):
+        notes.append(
+            f"The reversal error compensation P18N{read.axis} is not used: the machine has no backlash unless model.backlash is set."
+        )
+        return 0.0
+    notes.append(
+        "ASSUMED: P18 is added as a whole in the sample in which the reference turns to the positive direction, and taken away in"
+        " the negative one; page 7-14 prints its sign only."
+    )
+    return compensation * words.length

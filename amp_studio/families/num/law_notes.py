@@ -18,9 +18,7 @@ ALWAYS = (
     "Directions (P10, P20) are taken to fit the wiring.",
 )
 
-NOT_SIMULATED = (
-    "Not simulated: reversal error compensation (P18), interaxis calibration, QVN and DISC loops (P70 to P87).",
-)
+NOT_SIMULATED = ("Not simulated: interaxis calibration, QVN and DISC loops (P70 to P87).",)
 
 DRIVE = {
     "acceleration_per_output": (

@@ -33,12 +33,12 @@ MOST_TERMS = 13
 
 # Parameters
 GAIN, CONSTANT, PERIOD, SHARE, TERMS, FRICTION, FRICTION_LEFT, EMAX, TOLERANCE, VOLTS = range(10)
-LEADER, CORRECTION, SYNC_LIMIT, WHOLE = 10, 11, 12, 13
-PARAMETERS = 14
+LEADER, CORRECTION, SYNC_LIMIT, WHOLE, BACKLASH = 10, 11, 12, 13, 14
+PARAMETERS = 15
 
 # State
-REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL = range(6)
-RING = 6
+REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL, ADDED = range(7)
+RING = 7
 STATES = RING + MOST_TERMS
 
 # Monitors
@@ -57,7 +57,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     filter, FRICTION amplitude in u and what a sample leaves of it, EMAX in u, TOLERANCE in u per sample (negative: no
     check), VOLTS for 1 u/s; number of samples of the LEADER (0: not synchronised), whose
     measured positions in u come behind the parameters, CORRECTION 0 to 1, SYNC_LIMIT in u;
-    WHOLE: 0 for a converter without steps (the linear model).
+    WHOLE: 0 for a converter without steps (the linear model); BACKLASH: u added on positive moves.
     """
     if io[MODE] == VELOCITY_LOOP or io[MODE] == OUTPUT_TEST:
         volts = io[COMMAND] if io[MODE] == OUTPUT_TEST else p[VOLTS] * io[COMMAND_VELOCITY]
@@ -84,11 +84,13 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     amplitude = s[AMPLITUDE]
     if step > 0.0:
         amplitude = p[FRICTION]
+        s[ADDED] = p[BACKLASH]
     elif step < 0.0:
         amplitude = -p[FRICTION]
+        s[ADDED] = 0.0
     s[FRICTION_NOW] = amplitude - s[AMPLITUDE] + s[FRICTION_NOW] * p[FRICTION_LEFT]
 
-    error = reference - io[POSITION]
+    error = reference + s[ADDED] - io[POSITION]
     wanted = error + p[SHARE] * p[CONSTANT] / p[PERIOD] * step
     points = p[GAIN] * (wanted + p[CORRECTION] * apart + s[FRICTION_NOW])
     if p[WHOLE] != 0.0:
@@ -100,7 +102,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     if theoretical < 0.0:
         slowest, fastest = fastest, slowest
     io[OUTPUT] = 10.0 * points / FULL_POINTS
-    io[REFERENCE_LAG] = io[COMMAND] - reference
+    io[REFERENCE_LAG] = io[COMMAND] - reference - s[ADDED]
     if abs(error) > p[EMAX]:
         io[STOP] = EXCESS_ERROR
     elif p[TOLERANCE] >= 0.0 and not (slowest - p[TOLERANCE] <= moved <= fastest + p[TOLERANCE]):

@@ -156,3 +156,25 @@ def test_a_dry_friction_correction_of_some_micrometres_makes_the_reversals_of_a_
 
     assert spike(5) < 0.7 * spike(0)
     assert spike(40) > 2.0 * spike(0)
+
+
+def test_the_reversal_error_compensation_makes_reversals_smaller_and_with_the_wrong_sign_larger(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    # 7-14; friction keeps the load on its side of the play, and the loop takes its 60 ms to follow the compensation
+    def spike(compensation: int) -> float:
+        words = "move.radius=5 model.backlash=0.02 model.coulomb_friction=5 model.resonance=80"
+        both = settings(f"{words} P18N0={compensation} P18N1={compensation}")
+        return float(simulated(capsys, str(EXAMPLE), "circle", *both)["result"]["reversal_spike"]["value"])
+
+    none = spike(0)
+    assert spike(20) < 0.75 * none
+    assert spike(-20) > 1.4 * none
+
+
+def test_without_backlash_the_compensation_of_p18_is_not_used_and_this_is_named(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    told = simulated(capsys, str(EXAMPLE), "step", *settings("P18N0=20"))
+    assert told["result"]["overshoot"]["value"] == 0.0
+    assert any("P18N0 is not used" in each for each in told["assumptions"])

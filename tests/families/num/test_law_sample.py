@@ -123,6 +123,15 @@ def test_a_reversal_adds_twice_the_amplitude() -> None:
     assert points == [0, 49, 0, -98]
 
 
+def test_the_reversal_error_compensation_is_added_on_positive_moves() -> None:
+    axis = Axis(mill(BACKLASH=0.020))  # 7-14
+    errors = []
+    for command in (0.0, 1.0, 2.0, 2.0, 1.0, 2.0):
+        axis.sample(command, command)
+        errors.append(axis.error)
+    assert errors == pytest.approx([0.0, 0.020, 0.020, 0.020, 0.0, 0.020])
+
+
 def test_a_following_error_above_emax_is_an_alarm() -> None:
     axis = Axis(mill(EMAX=6.6))  # 6-23: 6600 µm
     axis.sample(6.6, 0.0)
