@@ -49,11 +49,11 @@ def at_servo_samples(motion: Motion, column: str) -> Series:
 
 
 def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: str) -> float | None:
-    """Return the steady size of a column in the longest stretch at the full feedrate (u/s).
+    """Return the size of the steady mean of a column in the longest stretch at the full feedrate (u/s).
 
-    None if the stretch is shorter than STEADY_LAGS time constants or the figure is not steady in it.
+    What goes to and fro around 0 has a mean of 0. None if the stretch is shorter than STEADY_LAGS time constants or the figure is not steady in it.
     """
-    series = np.abs(at_servo_samples(motion, column))
+    series = at_servo_samples(motion, column)
     speed = np.abs(at_servo_samples(motion, "command_velocity"))
     constant = np.abs(speed / feedrate - 1.0) <= STEADY_SPEED
     edges = np.flatnonzero(np.diff(np.concatenate(([0], constant.astype(np.int8), [0]))))
@@ -64,7 +64,10 @@ def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: s
     start, end = int(starts[longest]), int(ends[longest])
     if (end - start) * axis.servo_period < STEADY_LAGS / axis.position_rate:
         return None
-    return steady(series[start:end], max(NOISE_COUNTS * axis.machine.position_count, 1e-9 * feedrate))
+    noise = max(NOISE_COUNTS * axis.machine.position_count, 1e-9 * feedrate)
+    if steady(np.abs(series[start:end]), noise) is None:
+        return None
+    return abs(float(series[end - (end - start) // 10 : end].mean()))
 
 
 def settled(axis: AxisLaw, motion: Motion, target: float) -> tuple[float | None, float | None]:

@@ -79,6 +79,14 @@ def test_the_steady_error_is_the_predicted_one() -> None:
     assert measured == pytest.approx(predicted, rel=0.01)
 
 
+def test_with_the_integral_at_work_the_steady_error_is_that_of_the_prediction_none() -> None:
+    # Page 128: no error is left; counts that go to and fro around 0 are none.
+    file = file_of(servo__i_gain=Value(0.5, "V/count/s"), servo__i_limit=Value(2.0, "V"))
+    result = simulate(file, "step", settings={"move.distance": 60.0}).result
+    assert result["predicted_steady_following_error"][0] == 0.0
+    assert result["steady_following_error"][0] == pytest.approx(0.0, abs=0.2 * 25.4 / 10000)
+
+
 def test_a_move_is_over_where_dry_friction_keeps_the_axis() -> None:
     trace = simulate(file_of(axes__inposition_band=None), "step")
     assert 1.0 < abs(float(trace.columns["following_error"][-1])) / (25.4 / 10000) < 4.88  # 0.0488 V / 0.01 V
