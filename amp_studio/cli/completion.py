@@ -10,7 +10,9 @@ import argparse
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 
-from .manual import SCENARIOS, families
+from amp_studio.scenarios import scenario_names
+
+from .manual import families
 from .parser import parser, verbs_of
 
 ASKED = "__complete"
@@ -134,7 +136,7 @@ def _values(action: argparse.Action, values: Sequence[str], current: str) -> Ite
     if action.dest == "family":
         return families()
     if action.dest == "scenario":
-        return SCENARIOS
+        return scenario_names()
     if not values:
         return ()
     if action.dest in (

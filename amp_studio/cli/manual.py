@@ -5,13 +5,13 @@ Nothing here loads a schema: help must come at once.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from .examples import EXAMPLES
+from amp_studio.scenarios import scenario_names
 
-SCENARIOS = ("step", "velocity", "frequency", "circle")
-"""Scenarios of ``simulate``; the room of the simulator knows them, and loading it takes a second."""
+from .examples import EXAMPLES
 
 EXIT_CODES = (
     "0  done, nothing wrong",
@@ -48,7 +48,9 @@ def families() -> tuple[str, ...]:
     """Return the families, as ``family_ids`` of the schema does, without loading it."""
     package = Path(__file__).resolve().parent.parent
     folders = (package / "parameter_db", package.parent / "parameter_db")
-    return tuple(sorted(p.parent.name for folder in folders for p in folder.glob("*/family.yaml")))
+    own = {p.parent.name for folder in folders for p in folder.glob("*/family.yaml")}
+    registration = sys.modules.get("amp_studio.schema.registration")  # who registers a family has loaded it
+    return tuple(sorted(own | set(registration.added_facts() if registration else ())))
 
 
 def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
@@ -56,7 +58,7 @@ def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     if verb in ("", *_FAMILY):
         yield "families", (", ".join(families()),)
     if verb == "simulate":
-        yield "scenarios", (", ".join(SCENARIOS),)
+        yield "scenarios", (", ".join(scenario_names()),)
     if verb in _PARAM:
         yield "PARAM", _PARAMETERS
     if verb in ("set", "simulate"):

@@ -14,3 +14,9 @@ FAMILIES = {
     "syntec": "amp_studio.families.syntec:REGISTRATION",
 }
 """Family -> its record."""
+
+SCENARIOS = {
+    "9pc": ("tune",),
+    "57c422b": ("tune", "gear", "cam", "backlash"),
+}
+"""Family -> the scenarios that its law alone has, for help and completion, which load no law."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from . import circle, frequency, step, velocity
+from amp_studio.scenarios import SCENARIOS as PLACES
+from amp_studio.schema.registration import load_part
+
 from .scenario import Scenario
 
-SCENARIOS: dict[str, Scenario] = {
-    each.name: each for each in (step.SCENARIO, velocity.SCENARIO, frequency.SCENARIO, circle.SCENARIO)
-}
+SCENARIOS: dict[str, Scenario] = {name: load_part(place) for name, place in PLACES.items()}
 
 __all__ = ["SCENARIOS", "Scenario"]

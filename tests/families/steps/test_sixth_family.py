@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
+from amp_studio.cli.completion import candidates
+from amp_studio.cli.manual import families
 from amp_studio.files import open_file
 from amp_studio.schema.registration import register, unregister
 from amp_studio.sim import simulate
@@ -40,6 +42,11 @@ def test_it_is_listed_with_the_others(capsys: pytest.CaptureFixture[str]) -> Non
     listed = {each["id"]: each for each in json.loads(capsys.readouterr().out)["families"]}
     assert (listed[FAMILY]["name"], listed[FAMILY]["parameters"]) == ("Stepper control", 4)
     assert len(listed) > 5
+
+
+def test_help_and_completion_name_it() -> None:
+    assert FAMILY in families()
+    assert list(candidates(["new"], "st")) == [FAMILY]
 
 
 def test_its_rule_resolves_blu_through_the_increment_system(

@@ -1,0 +1,19 @@
+"""The scenarios of ``simulate`` by name, without the simulator: to load that takes a second."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+SCENARIOS = {
+    "step": "amp_studio.sim.scenarios.step:SCENARIO",
+    "velocity": "amp_studio.sim.scenarios.velocity:SCENARIO",
+    "frequency": "amp_studio.sim.scenarios.frequency:SCENARIO",
+    "circle": "amp_studio.sim.scenarios.circle:SCENARIO",
+}
+"""Scenario of any family -> where it is."""
+
+
+def scenario_names() -> tuple[str, ...]:
+    """Return the scenarios of any family, then those that single families bring."""
+    own: dict[str, tuple[str, ...]] = import_module("amp_studio.families").SCENARIOS
+    return tuple(dict.fromkeys((*SCENARIOS, *(name for names in own.values() for name in names))))

@@ -1,0 +1,32 @@
+"""Help and completion name every scenario there is, and load no simulator for it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+from amp_studio.families import SCENARIOS as OWN
+from amp_studio.scenarios import scenario_names
+from amp_studio.sim import SCENARIOS, law_of, simulated_families
+
+
+def test_every_scenario_of_every_family_is_named() -> None:
+    own = {family: tuple(law_of(family).own) for family in simulated_families()}
+    assert {family: names for family, names in own.items() if names} == OWN
+    assert scenario_names() == tuple(
+        dict.fromkeys([*SCENARIOS, *(n for names in own.values() for n in names)])
+    )
+    assert all(SCENARIOS[name].name == name for name in SCENARIOS)
+
+
+def test_the_names_are_there_without_the_simulator() -> None:
+    script = """
+import sys
+from amp_studio.cli.manual import sections
+print([lines for title, lines in sections("simulate") if title == "scenarios"])
+print([name for name in sys.modules if name in ("numba", "pydantic") or name.startswith("amp_studio.s")])
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    listed, loaded = done.stdout.splitlines()
+    assert listed == "[('step, velocity, frequency, circle, tune, gear, cam, backlash',)]"
+    assert loaded == "['amp_studio.scenarios']"
