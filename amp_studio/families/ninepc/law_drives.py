@@ -55,7 +55,7 @@ VOLTS = 10.0
 DRIVE_RATIO = 10.0
 """Velocity loop of an analog drive / position loop: the upper bound of 7-54 (10923 / 65536 per ms to gain / 60 per ms)."""
 USUAL_PITCH = 10.0
-"""mm: a usual lead, where the file of a third-party drive has none."""
+"""mm: a usual lead; that of a third-party drive is in the drive (7-17)."""
 USUAL_GAIN = 1.0
 """Initial Gain of most machines (7-25)."""
 
@@ -321,7 +321,7 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     p[samples.GAIN], p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.rate, math.inf, 1.0
     p[samples.EXCESS] = p[samples.SUPPRESSION] = p[samples.VOLTS_LIMIT] = math.inf
     p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
-    turn = 360.0 if unit == "deg" else if_set(read, "servo.lead_screw_pitch") or USUAL_PITCH
+    turn = 360.0 if unit == "deg" else USUAL_PITCH
     why = f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set {OWN_GAIN}."
     assumed = {
         "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as the position loop, the upper bound of 7-54.",

@@ -71,6 +71,8 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     refuse_unknown(settings, SETTINGS)
     models = axis_model(axis)
     model, cut = models.whole, models.cut
+    if not np.any(model.measured) and not model.is_stable() and model.is_stable(drift=True):
+        raise SimulationError(f"The position loop of axis {axis.axis} is open. Use the scenario velocity")
     loop = _Loop(axis, model, cut, models.inner, model.is_stable(), cut.margins(), model.bandwidth())
     low, high, points = _span(loop, settings)
     curve = np.unique(np.concatenate([np.geomspace(low, high, CURVE), _known(loop, low, high)]))

@@ -17,10 +17,12 @@ from amp_studio.families.ninepc.law_figures import (
     response_time,
     sentence_excess_error,
 )
+from amp_studio.sim import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.motion import Engine, Motion, Until, run_axis
 from amp_studio.sim.profiles import POLYNOMIAL
 from amp_studio.sim.ramps import move
+from amp_studio.sim.scenarios.frequency import run_frequency
 from amp_studio.sim.scenarios.step import run_step
 from amp_studio.sim.trace import Trace
 
@@ -245,6 +247,11 @@ def test_an_open_loop_moves_without_a_following_error_to_check(axis: Axis) -> No
     motion = cruise(law, 50.0, 0.5)
     assert motion.stop == 0
     assert motion.columns["velocity"][-1] == pytest.approx(50.0, rel=1e-3)
+    assert step(law, distance=20.0, feedrate=3000.0).alarms == ()
+    with pytest.raises(SimulationError, match="The position loop of axis 1 is open"):
+        run_frequency(law, {})
+    chatter = axis({"servo.position_loop_type": "open", "servo.velocity_proportional_gain": 20000.0})
+    assert [alarm.code for alarm in step(chatter, distance=20.0, feedrate=3000.0).alarms] == ["UNSTABLE"]
 
 
 # -- advice ----------------------------------------------------------------------------------------
