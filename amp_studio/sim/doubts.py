@@ -1,4 +1,4 @@
-"""What is wrong or doubtful about the values that a simulated axis was made of: said with the result, not refused."""
+"""What is wrong or doubtful about the values that a simulated axis was made of: shown with the result, not refused."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from amp_studio.schema import Address
 from amp_studio.validate import Validator
 
 MOST = 8
-"""Findings that are told one by one."""
+"""Findings that are listed one by one."""
 
 
 def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[str] = ()) -> tuple[str, ...]:

@@ -1,7 +1,7 @@
 """One axis from servo sample to servo sample: the loop that every law shares, over flat arrays.
 
 Once a servo period the command is evaluated, the position measured, and ``position_sample`` of the law called; once a
-velocity period ``velocity_sample``; in between the plant moves in physics steps. The output is held between the samples (zero-order
+velocity period ``velocity_sample``; in between the plant moves in physics steps. The output is constant between the samples (zero-order
 hold: G. F. Franklin, J. D. Powell, M. L. Workman, Digital Control of Dynamic Systems, 1998).
 
 `compiled.py` makes one copy of ``run`` for each law, with the law's two functions in the place of those here, plain or as
@@ -94,11 +94,11 @@ BOUNDLESS = 1e12
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
-    """Stand for the law's sample function of the servo period."""
+    """Placeholder of the law's sample function of the servo period."""
 
 
 def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
-    """Stand for the law's sample function of the velocity period."""
+    """Placeholder of the law's sample function of the velocity period."""
 
 
 def counted(m: Vector, position: float, count: int, counts: int) -> float:

@@ -14,7 +14,7 @@ Python and as machine code with equal results:
         if abs(error) > p[LIMIT]:
             io[STOP] = 1.0              # alarms[1] ends the run
         s[LAST] = p[GAIN] * error       # what the velocity loop shall do
-        io[MONITOR] = s[LAST]           # a column of its own, named in AxisLaw.monitors
+        io[MONITOR] = s[LAST]           # an own column, named in AxisLaw.monitors
 
     def velocity_sample(p, s, io):      # every velocity period, at once after position_sample when both are due
         io[OUTPUT] = ...
@@ -177,7 +177,7 @@ class Law:
     ``without_axes``  what to do about a file that has none, in a sentence
     ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what they are
     ``scenarios``  those that the manual of the family carries
-    ``advise``     the family's own advice after a scenario
+    ``advise``     the family's own recommendations after a scenario
     ``own``        scenarios of the family alone: name -> run(axis, settings in canonical units)
     """
 

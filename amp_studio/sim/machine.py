@@ -2,7 +2,7 @@
 
 Lengths are in the unit u of the axis (mm or deg), times in s. "Output" is what the law gives to the drive, in the law's
 own unit. Torque is in the unit of the output where the output is a torque (``velocity_per_output`` 0), in % of rated
-torque where the drive closes a velocity loop of its own.
+torque where the drive closes a velocity loop itself.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields
 from .errors import SimulationError
 
 CONTACT = 150.0
-"""Hz: resonance of motor and load in contact, of an axis that has backlash but no resonance of its own; an assumption."""
+"""Hz: resonance of motor and load in contact, of an axis that has backlash but no given resonance; an assumption."""
 
 LARGEST = {
     "acceleration_per_output": 1e12,
@@ -31,7 +31,7 @@ STIFFEST = 1e7
 """1/s: the highest rate of a machine that is simulated."""
 
 INERTIA_ASSUMED = 1.0
-"""Load inertia / motor inertia of an axis with two masses and no ratio of its own; an assumption."""
+"""Load inertia / motor inertia of an axis with two masses and no given ratio; an assumption."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Machine:
     damping: float = 0.05
     """Damping ratio of the resonance."""
     gravity: float = 0.0
-    """Torque that holds the axis against its weight; a positive one acts in the negative direction."""
+    """Torque that balances the weight of the axis; a positive one acts in the negative direction."""
     brake: float = 0.0
     """Torque of a brake that closes when an alarm takes the output from the drive."""
     spring: float = 0.0

@@ -26,7 +26,7 @@ _FIGURES: dict[str, tuple[str, float, str]] = {
     "model.backlash": ("backlash", 1.0, "backlash (mm or deg)"),
     "model.resonance": ("resonance", 1.0, "resonance of motor and load (Hz); 0 for a rigid axis"),
     "model.damping": ("damping", 1.0, "damping ratio of the resonance"),
-    "model.gravity": ("gravity", 1.0, "torque that holds the weight ({torque}); above 0 it falls to -"),
+    "model.gravity": ("gravity", 1.0, "torque that balances the weight ({torque}); above 0 it falls to -"),
     "model.brake": ("brake", 1.0, "torque of a brake that closes at an alarm ({torque})"),
     "model.spring": ("spring", 1.0, "torque for 1 mm or deg away from the start ({torque})"),
     "model.current_bandwidth": ("bandwidth", 1.0, "bandwidth of the current loop (Hz); 0 for an ideal one"),

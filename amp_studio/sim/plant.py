@@ -1,4 +1,4 @@
-"""The plant: one physics step of drive and mechanics over flat arrays, compiled with the kernel or run as it stands.
+"""The plant: one physics step of drive and mechanics over flat arrays, compiled with the kernel or run as it is.
 
 ``m`` is the array of `machine.machine_array`, ``x`` the state. Torque is constant over a step, so that one rigid mass moves
 exactly; two masses move by drift, kick, drift (the leapfrog scheme, E. Hairer, C. Lubich, G. Wanner, Geometric Numerical

@@ -32,7 +32,7 @@ def simulate(
 ) -> Trace:
     """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
-    ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` says,
+    ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` names,
     or texts with a unit.
     Raises SimulationError with the parameter that is missing or impossible.
     """
