@@ -100,9 +100,12 @@ def wanted(
             found_here = meant(trial.evaluation, param)
             address, bit = found_here.address, found_here.bit
             if bit is not None:
-                found[address] = _with_bit(trial, address, bit, text)
+                value: Value | None = _with_bit(trial, address, bit, text)
             else:
-                found[address] = trial.read(address, text) if text else None
+                value = trial.read(address, text) if text else None
+                if address in found and found[address] != value:
+                    raise ValueError("it is given two values")
+            found[address] = value
         except UnknownParameterError as error:
             slips.append(str(error))
             continue

@@ -15,7 +15,7 @@ from pathlib import Path
 from amp_studio.schema import MASKED, Address, InvalidValueError, Value, read_address, write_value, written
 from amp_studio.schema.regular_file import read_file
 
-from .atomic import append_line, digest_of, write_atomic
+from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUse, now, user
 from .parameter_file import Change, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
@@ -102,6 +102,7 @@ class Document:
             raise FileExistsError(f"{path} {known}")
         if not path.parent.is_dir():
             raise FileNotFoundError(f"there is no folder {path.parent}")
+        check_output(path)
         document = cls(file, path, None)
         document._lock.take()
         try:

@@ -184,5 +184,6 @@ class Validator:
             return
         names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in not_set[:4])
         more = f" and {len(not_set) - 4} more" if len(not_set) > 4 else ""
-        message = f"{len(not_set)} active parameters have no value here, so the control keeps its own: {names}{more}."
+        what = "1 active parameter has" if len(not_set) == 1 else f"{len(not_set)} active parameters have"
+        message = f"{what} no value here, so the control keeps its own: {names}{more}."
         yield Finding("schema.unset", "advice", not_set, message)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import random
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 LONGEST = 0.8
@@ -14,13 +17,32 @@ LONGEST = 0.8
 
 
 PROGRAM = """
-import _signal
+import _signal, os, sys
 _signal.signal(_signal.SIGINT, _signal.SIG_DFL)
-print("started", flush=True)
+os.close(int(sys.argv.pop(1)))
 from amp_studio.cli import main
 main()
 """
 """The program from its first statement on: what Python says of a Ctrl-C while it starts itself is not the program's."""
+
+
+@contextlib.contextmanager
+def started(*arguments: object, shell: str = "") -> Iterator[subprocess.Popen[str]]:
+    """Start the program and give it as soon as its first statement has run, however busy the machine is.
+
+    It says so by closing a pipe. ``shell`` is a script that becomes the program with its ``exec "$@"``.
+    """
+    reading, writing = os.pipe()
+    command: Sequence[str] = [sys.executable, "-c", PROGRAM, str(writing), *map(str, arguments)]
+    if shell:
+        command = ["bash", "-c", shell, "bash", *command]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, pass_fds=[writing]
+    ) as program:
+        os.close(writing)
+        with os.fdopen(reading, "rb") as pipe:
+            pipe.read()
+        yield program
 
 
 def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
@@ -47,14 +69,11 @@ def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
 
 
 def _stopped(path: Path, assignment: str, delay: float, again: bool) -> tuple[int, str]:
-    command = [sys.executable, "-c", PROGRAM, "set", str(path), assignment]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
-        assert program.stdout is not None
-        program.stdout.readline()
+    with started("set", path, assignment) as program:
         time.sleep(delay)
         program.send_signal(signal.SIGINT)
         if again:
             time.sleep(0.01)
             program.send_signal(signal.SIGINT)
-        _, said = program.communicate(timeout=30)
+        _, said = program.communicate(timeout=120)
     return program.returncode, said

@@ -188,6 +188,14 @@ def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:
     assert Value(5.0, "deg") == file.get(("home.calibration", "1"))
 
 
+@pytest.mark.parametrize("second", ["1300=6", "home.calibration@1=6", "1300=", "home.calibration@X=5.1"])
+def test_a_parameter_that_is_given_two_values_gets_neither(amp, mill: Path, second: str) -> None:
+    before = mill.read_bytes()
+    said = amp("set", mill, "1300=5", second)
+    assert (said.code, "it is given two values" in said.err, mill.read_bytes()) == (2, True, before)
+    assert amp("set", mill, "1300=5", "1300=5.0 mm").code == 0, "the same one twice is no doubt"
+
+
 def test_a_pair_that_bounds_each_other_is_set_together(amp, mill: Path) -> None:
     assert amp("set", mill, "1320=100", "1330=50").code == 0
     assert amp("set", mill, "1320=-50", "1330=-100").code == 0

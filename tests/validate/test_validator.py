@@ -226,6 +226,12 @@ def test_values_that_are_not_set_are_one_piece_of_advice(mill) -> None:
         "3 active parameters have no value here, so the control keeps its own: 1310 Axis Position After Homing, "
         "2310 Axis Position After Homing, 3310 Axis Position After Homing."
     )
+    for address in taken[1:]:
+        mill.set(address, Value(1.0, "mm"))
+    (advice,) = (f for f in validator.update(taken) if f.rule == "schema.unset")
+    assert advice.message.startswith(
+        "1 active parameter has no value here, so the control keeps its own: 3310"
+    )
     mill.set(("servo.feed_forward", "1"), None)
     assert validator.update([("servo.feed_forward", "1")]) == validator.findings()
     (advice,) = (f for f in validator.findings() if f.rule == "schema.unset")

@@ -8,14 +8,19 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from amp_studio.schema.visible import visible
+
 from .endpoint import Endpoint
+
+LONGEST_SHOWN = 200
+"""Characters of an endpoint in a message; the name of a port by its maker and number has about 70."""
 
 
 class LinkError(OSError):
     """A link that cannot be made or is gone: ``endpoint`` names it, ``what`` what happened."""
 
     def __init__(self, endpoint: Endpoint | str, what: str) -> None:
-        super().__init__(f"{endpoint}: {what}")
+        super().__init__(f"{visible(str(endpoint)[:LONGEST_SHOWN])}: {what}")
         self.endpoint = endpoint
         self.what = what
 

@@ -135,4 +135,4 @@ def _message(error: Exception) -> str:
         return "another program has this port open"
     if isinstance(error, TypeError | AttributeError):
         return "the port is closed"
-    return text or "the port is gone"
+    return os.strerror(number) if number else text or "the port is gone"

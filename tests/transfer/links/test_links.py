@@ -111,6 +111,7 @@ def test_ipv6_has_brackets() -> None:
         ("serial:/dev/no-such-port", "no such port"),
         ("tcp://host.invalid:7090", "not known"),
         ("pty:", "only be listened on"),
+        (f"serial:/dev/{'x' * 5000}", r"^serial:/dev/x{188}: File name too long$"),
     ],
 )
 def test_what_cannot_be_opened_says_why(endpoint: str, said: str) -> None:
