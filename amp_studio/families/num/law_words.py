@@ -156,15 +156,15 @@ def _unset(read: AxisParameters, missing: list[str]) -> SimulationError:
 
 
 def _dividers(read: AxisParameters, turns: bool, notes: list[str]) -> tuple[float, float]:
-    digits = read.optional("axes.internal_unit", everywhere=True)
-    divider = read.optional("axes.rotary_unit", everywhere=True)
-    if not turns and digits is None:
+    if not turns:
         _demand(read, ("axes.internal_unit",), ())
-    if turns and divider is None:
+        return read.number("axes.internal_unit", everywhere=True), 0.0
+    divider = read.optional("axes.rotary_unit", everywhere=True)
+    if divider is None:
         notes.append(
             "P4N4 is not set: the internal unit is deg/10000, as in software before index LA (4-18)."
         )
-    return digits or 0.0, divider or 0.0
+    return 0.0, divider or 0.0
 
 
 def above(figure: float, parameter: str, what: str) -> None:

@@ -152,8 +152,8 @@ def _demand(read: AxisParameters) -> None:
     """Raise one SimulationError with all parameters that are not set."""
     missing = [f"{name}@{read.axis}" for name in _NEEDED if read.value(name) is None]
     missing += [name for name in _NEEDED_ONCE if read.value(name, everywhere=True) is None]
-    times = read.value("motion.axis_acceleration"), read.value("motion.acceleration_time", everywhere=True)
-    if times == (None, None):
+    own = read.value("motion.axis_acceleration")
+    if own is None and read.value("motion.acceleration_time", everywhere=True) is None:
         missing.append(f"motion.axis_acceleration@{read.axis}")
     if missing:
         raise SimulationError(

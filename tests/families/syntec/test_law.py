@@ -132,6 +132,12 @@ def test_a_rotary_axis_is_in_degrees() -> None:
     assert law.machine.position_count == pytest.approx(0.0004)
 
 
+def test_the_acceleration_time_of_the_control_serves_an_axis_without_its_own() -> None:
+    law = bound(motion__axis_acceleration_at_1=None, motion__acceleration_time=200.0)  # 1.5.3
+    assert law.ramps["linear"].acceleration == pytest.approx(2000.0)
+    assert law.sources["acceleration"].parameter == "motion.acceleration_time"
+
+
 def test_all_values_that_are_missing_are_named_in_one_sentence() -> None:
     with pytest.raises(SimulationError) as raised:
         bound(feed__rapid_at_1=None, control__series=None, motion__axis_acceleration_at_1=None)
