@@ -48,12 +48,14 @@ def export_verb(options: argparse.Namespace) -> int:
         note(f"{key} is not known to this schema")
     hidden = [a for a in file.values if file.evaluation.state(a).state == "hidden"]
     if hidden:
-        note(f"{len(hidden)} values do not exist for this configuration, {written(hidden[0])} among them")
+        which = f"{written(hidden[0])} among them" if len(hidden) > 1 else written(hidden[0])
+        verb = "do" if len(hidden) > 1 else "does"
+        note(f"{counted(len(hidden), 'value')} {verb} not exist for this configuration, {which}")
     chosen = export_file(file, options.output, options.format, note, secrets=options.secrets)
     left_out = [] if options.secrets else secret_values(file)
     if left_out:
-        note(
-            f"{len(left_out)} secret values are left out, {written(left_out[0])} among them (--secrets writes them)"
-        )
+        which = f"{written(left_out[0])} among them" if len(left_out) > 1 else written(left_out[0])
+        verb = "are" if len(left_out) > 1 else "is"
+        note(f"{counted(len(left_out), 'secret value')} {verb} left out, {which} (--secrets writes all)")
     print(f"{options.output}: {chosen.title}, {counted(len(file.values) - len(left_out), 'value')}")
     return 0

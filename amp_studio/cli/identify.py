@@ -7,6 +7,7 @@ from contextlib import closing
 from dataclasses import asdict
 
 from amp_studio.files import fitted_axes
+from amp_studio.report.wording import counted
 from amp_studio.transfer.client.drivers import open_driver
 from amp_studio.transfer.client.exchange import look_at
 from amp_studio.transfer.image import ImageError, decode_image
@@ -57,7 +58,10 @@ def identify_verb(options: argparse.Namespace) -> int:
     )
     print(f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download"))
     print(f"axes {', '.join(axes)}" if axes else "axes unknown")
-    print(f"{len(content)} bytes, " + (f"not readable: {unreadable}" if unreadable else f"{values} values"))
+    print(
+        f"{len(content)} bytes, "
+        + (f"not readable: {unreadable}" if unreadable else counted(values or 0, "value"))
+    )
     print(f"sha256 {digest}")
     if control.restart_needed:
         print("Its parameters become active after a restart.")

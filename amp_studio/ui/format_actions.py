@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import Document, ParameterFile, check_output, secret_values
 from amp_studio.files.out_of_range import keep, out_of_range
+from amp_studio.report.wording import counted
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import ask
@@ -150,7 +151,7 @@ class FormatActions:
         )
         left_out = 0 if secrets else len(secret_values(file))
         left_out_note = (
-            f"; {left_out} secret values left out (to export them, switch on Options > Show Secrets)"
+            f"; {counted(left_out, 'secret value')} left out (to export them, switch on Options > Show Secrets)"
             if left_out
             else ""
         )
