@@ -126,7 +126,9 @@ def _as_save_error(path: Path) -> Iterator[None]:
     except (ChangedOnDisk, SaveError):
         raise
     except OSError as error:
-        raise SaveError(f"{path} cannot be written: {error.strerror or error}") from error
+        at = Path(os.fsdecode(error.filename2)).name if error.filename2 else path.name
+        where = f" ({at})" if at != path.name else ""  # its backup, or the file that a link leads to
+        raise SaveError(f"{path} cannot be written{where}: {error.strerror or error}") from error
 
 
 @contextlib.contextmanager

@@ -252,6 +252,15 @@ def test_a_folder_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     assert ({"machine.amp"}, set()) == (names(tmp_path), names(tmp_path / "machine.amp"))
 
 
+def test_a_folder_in_the_place_of_the_backup_is_named(old: Path) -> None:
+    backup_path(old).mkdir()
+    with pytest.raises(
+        SaveError, match=r"machine\.amp cannot be written \(machine\.amp\.bak\): Is a directory"
+    ):
+        write_atomic(old, NEW)
+    assert old.read_bytes() == OLD
+
+
 @pytest.mark.parametrize("for_ever", [False, True])
 def test_a_document_whose_save_fails_is_still_open_with_its_changes(
     on_disk: Path, disk, for_ever: bool
