@@ -19,6 +19,7 @@ from amp_studio.sim.machine import Machine
 
 from . import law_sample as sample
 from .formulas import approach_speed, circle_speed, increments_per_sample, measured_step
+from .formulas.servo import FOLLOWING_ERROR_MARGIN
 from .law_advice import advise
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
@@ -130,7 +131,9 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
         ),
         "reference": Prediction(volts if volts <= 10.0 else None, "V", "6-14"),
         "increments_per_sample": Prediction(increments, "increments", "6-6"),
-        "maximum_following_error": Prediction(1.1 * words.top * words.constant, words.unit, "6-22"),
+        "maximum_following_error": Prediction(
+            FOLLOWING_ERROR_MARGIN * words.top * words.constant, words.unit, "6-22"
+        ),
         **approach,
     }
 

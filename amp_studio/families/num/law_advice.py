@@ -12,9 +12,8 @@ from amp_studio.sim.rounding import rounded_down, shown
 from amp_studio.sim.trace import Recommendation, Trace
 
 from . import law_sample as sample
+from .formulas.servo import FOLLOWING_ERROR_MARGIN
 
-MARGIN = 1.1
-"""EMAX over the following error at the highest speed (6-22)."""
 LOOSE = 2.0
 """Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
 APART = 0.03
@@ -56,10 +55,10 @@ def _fits(axis: AxisLaw) -> bool:
 def _largest_error(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     """Yield EMAX = 1.1 x VMAX x T (6-22) where it is below VMAX x T or far above."""
     limit, constant = axis.parameters[sample.EMAX], axis.parameters[sample.CONSTANT]
-    wanted = MARGIN * (axis.feedrate or 0.0) * constant
+    wanted = FOLLOWING_ERROR_MARGIN * (axis.feedrate or 0.0) * constant
     anticipated = axis.parameters[sample.SHARE] > 0.0
     peak = trace.result["peak_following_error"][0] or 0.0
-    low = limit < (peak if anticipated else wanted / MARGIN)
+    low = limit < (peak if anticipated else wanted / FOLLOWING_ERROR_MARGIN)
     if not low and limit <= LOOSE * wanted:
         return
     why = f"Maximum Following Error is {shown(limit, axis.unit)}; 1.1 x highest speed x time constant is {shown(wanted, axis.unit)}"
@@ -117,7 +116,10 @@ def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms or not _fits(axis):
         return
     theory, real = trace.columns["theoretical_speed"], trace.columns["measured_speed"]
-    slow, fast = np.minimum(0.875 * theory, 1.125 * theory), np.maximum(0.875 * theory, 1.125 * theory)
+    slow, fast = (
+        np.minimum(sample.SLOWEST * theory, sample.FASTEST * theory),
+        np.maximum(sample.SLOWEST * theory, sample.FASTEST * theory),
+    )
     outside = float(np.maximum(slow - real, real - fast).max(initial=0.0)) * axis.servo_period
     wanted = max(3.0 * axis.inposition_band, 1.5 * outside)
     yield _counted(

@@ -26,8 +26,12 @@ from amp_studio.sim.signals import (
     VELOCITY_LOOP,
 )
 
-FULL_POINTS = 32768.0
+from .formulas.servo import DAC_POINTS_AT_10_V, GAIN_BAND
+
+FULL_POINTS = float(DAC_POINTS_AT_10_V)
 """Points of the converter at its full 10 V (6-14)."""
+SLOWEST, FASTEST = GAIN_BAND
+"""Shares of the theoretical speed between which the axis must move (6-24)."""
 MOST_TERMS = 13
 """Most references that the filter averages: E32005 takes less than 14 (6-26)."""
 
@@ -46,8 +50,6 @@ POINTS, THEORETICAL_SPEED, REAL_SPEED, SYNC_ERROR = range(4)
 
 # Alarms
 EXCESS_ERROR, DYNAMIC_CHECK, SYNCHRONISATION = 1.0, 2.0, 3.0
-
-_SLOWEST, _FASTEST = 0.875, 1.125
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
@@ -98,7 +100,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     points = min(max(points, -FULL_POINTS), FULL_POINTS)
 
     theoretical = s[THEORETICAL]
-    slowest, fastest = _SLOWEST * theoretical, _FASTEST * theoretical
+    slowest, fastest = SLOWEST * theoretical, FASTEST * theoretical
     if theoretical < 0.0:
         slowest, fastest = fastest, slowest
     io[OUTPUT] = 10.0 * points / FULL_POINTS

@@ -46,7 +46,6 @@ class Words:
     length: float
     """u: the internal unit."""
     turns: bool
-    group: str | None
     period: float
     gain: float
     """Points for 1 u."""
@@ -113,7 +112,6 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
         unit="deg" if turns else "mm",
         length=length,
         turns=turns,
-        group=named,
         period=_period(read, notes),
         gain=gain / 1000.0 / length,
         constant=constant,
