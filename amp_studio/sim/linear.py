@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +23,10 @@ Response = npt.NDArray[np.complex128]
 
 _POINTS = 2400
 """Points of the grid on which crossings are sought before they are refined."""
+WELL_APART = 1e6
+"""Condition of the eigenvectors up to which they are used: nine digits of the response are left."""
+SHARP = 0.3
+"""Damping ratio of a pole around which the grid is closer."""
 CLOSE = 41
 """Points of the grid around a pole."""
 HALVINGS, COARSE = 48, 12
@@ -71,12 +76,16 @@ class LinearModel(SampledLoop):
 
     def loop(self, frequencies: Matrix) -> Response:
         """Return the open position loop at frequencies in Hz: from position error to position."""
-        return -_response(self.open, self.measured, self.sensed, self._z(frequencies))
+        z = self._z(frequencies)
+        if self._modes is None:
+            return -_response(self.open, self.measured, self.sensed, z)
+        closed = self._answer(self.measured, self.sensed, z)
+        return np.asarray(-closed / (1.0 + closed))
 
     def follows(self, frequencies: Matrix) -> Response:
         """Return the closed loop: from commanded to actual position, feed-forward included."""
         z, turn = self._z(frequencies), 2j * math.pi * frequencies
-        parts = [_response(self.closed, self.command[:, [n]], self.position, z) for n in range(3)]
+        parts = [self._answer(self.command[:, [n]], self.position, z) for n in range(3)]
         return np.asarray(parts[0] + turn * parts[1] + turn**2 * parts[2])
 
     def forwards_velocity(self) -> bool:
@@ -86,7 +95,7 @@ class LinearModel(SampledLoop):
     def forwards_position(self) -> bool:
         """Return whether the law uses the commanded position for more than the position error."""
         grid = np.geomspace(_LOWEST, 0.4, 20) / self.period
-        wanted = _response(self.closed, self.command[:, [0]], self.sensed, self._z(grid))
+        wanted = self._answer(self.command[:, [0]], self.sensed, self._z(grid))
         return not np.allclose(wanted, self.feedback(grid), rtol=1e-3)
 
     def feedback(self, frequencies: Matrix) -> Response:
@@ -99,7 +108,9 @@ class LinearModel(SampledLoop):
         low = _LOWEST / self.period
         even = np.geomspace(low, self.nyquist, points)
         found = np.concatenate([self.poles(), np.linalg.eigvals(self.open)])
-        peaks = np.abs(np.angle(found[np.abs(found) > 1e-6])) / (2.0 * math.pi * self.period)
+        rates = np.log(found[np.abs(found) > 1e-6])
+        sharp = rates[np.abs(rates.real) < SHARP * np.abs(rates)]
+        peaks = np.abs(sharp.imag) / (2.0 * math.pi * self.period)
         close = np.geomspace(0.8, 1.25, CLOSE if points >= _POINTS else CLOSE // 4)
         near = (peaks[:, None] * close[None, :]).ravel()
         every = np.concatenate([even, near[(near > low) & (near < self.nyquist)]])
@@ -133,6 +144,28 @@ class LinearModel(SampledLoop):
     def least_damping(self) -> float:
         """Return the least damping ratio of the closed loop's oscillations; 1 if there is none."""
         return min((damping for _, damping in self.oscillations()), default=1.0)
+
+    @cached_property
+    def _modes(self) -> tuple[Response, Response, Response] | None:
+        """Poles and eigenvectors of the closed loop, both ways, by which many frequencies cost little; None where they are
+        too close together for that.
+        """
+        values, vectors = np.linalg.eig(self.closed)
+        if not values.size or np.linalg.cond(vectors) > WELL_APART:
+            return None
+        return (
+            values.astype(np.complex128),
+            vectors.astype(np.complex128),
+            np.linalg.inv(vectors).astype(np.complex128),
+        )
+
+    def _answer(self, b: Matrix, c: Matrix, z: Response) -> Response:
+        """Return c (z - closed)^-1 b for every z."""
+        if self._modes is None:
+            return _response(self.closed, b, c, z)
+        values, vectors, inverse = self._modes
+        shares = (c @ vectors)[0] * (inverse @ b)[:, 0]
+        return np.asarray((shares / (z[:, None] - values)).sum(axis=1))
 
     def _z(self, frequencies: Matrix) -> Response:
         return np.asarray(np.exp(2j * math.pi * np.asarray(frequencies) * self.period))

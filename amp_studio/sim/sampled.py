@@ -9,15 +9,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
+from .errors import SimulationError
 from .machine import CONTACT, INERTIA_ASSUMED, Machine
 
 Matrix = npt.NDArray[np.float64]
 
+LONGEST_DELAY = 100
+"""Most samples of the faster loop from an output to its effect."""
 _STEP = 1e-7
 """Disturbance of a signal at rest, in its own unit: far below every limit, far above rounding."""
 
@@ -126,41 +128,32 @@ def sampled(
     if 1.0 - rest < 1e-9:
         whole, rest = whole + 1.0, 0.0
     waiting = int(whole) + (1 if rest > 1e-9 else 0)
+    if waiting > LONGEST_DELAY:
+        raise SimulationError(
+            f"The delay of the machine is {waiting} samples of the loop; at most {LONGEST_DELAY} are simulated",
+            "model.delay",
+        )
     x, law = len(plant.a), len(position)
     size = x + law + waiting
     signal = {name: x + place for name, place in places.signals.items()}
-    every = np.eye(size)
-
-    def applied(matrix: Matrix) -> Matrix:
-        full = np.eye(size)
-        full[x : x + law, x : x + law] = matrix
-        return full
-
-    def sensing(place: int, row: Matrix) -> Matrix:
-        full = np.eye(size)
-        full[place] = 0.0
-        full[place, :x] = row
-        return full
-
-    move = _moved(plant, step, rest, waiting, size, x, signal["output"])
-    clear = every.copy()
-    for name in ("command", "command_velocity", "command_acceleration", "position"):
-        clear[signal[name]] = 0.0
-    inputs = every[
-        :, [signal[n] for n in ("position", "command", "command_velocity", "command_acceleration")]
-    ]
-    after = applied(position) @ sensing(signal["motor"], plant.motor)
-    open_, inputs = after @ clear, after @ inputs
+    move = _Move.of(plant, step, rest, waiting, signal["output"], size)
+    taken = [signal[name] for name in ("position", "command", "command_velocity", "command_acceleration")]
+    # A row for each state and signal: what it is made of, the states before the period and the inputs.
+    rows = np.hstack([np.eye(size), np.zeros((size, len(taken)))])
+    rows[taken] = 0.0
+    rows[taken, range(size, size + len(taken))] = 1.0
+    rows[signal["motor"]] = plant.motor[0] @ rows[:x]
+    rows[x : x + law] = position @ rows[x : x + law]
     for _ in range(loops):
         if velocity is not None:
-            turn = move @ applied(velocity) @ sensing(signal["motor"], plant.motor)
-        else:
-            turn = move
-        open_, inputs = turn @ open_, turn @ inputs
+            rows[signal["motor"]] = plant.motor[0] @ rows[:x]
+            rows[x : x + law] = velocity @ rows[x : x + law]
+        move.apply(rows)
     sensed, load = np.zeros((1, size)), np.zeros((1, size))
     sensed[0, :x] = plant.load if places.load_sensor else plant.motor
     load[0, :x] = plant.load
-    return _reduced(SampledLoop(period, open_, inputs[:, :1], inputs[:, 1:], sensed, load))
+    inputs = rows[:, size:]
+    return _reduced(SampledLoop(period, rows[:, :size], inputs[:, :1], inputs[:, 1:], sensed, load))
 
 
 def jacobian(sample: Callable[[Matrix], Matrix], rest: Matrix) -> Matrix:
@@ -198,26 +191,36 @@ def held(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
     return over[:n, :n], over[:n, n:]
 
 
-def _moved(plant: Plant, step: float, rest: float, waiting: int, size: int, x: int, output: int) -> Matrix:
-    """Return the matrix of one velocity period of the machine: its input is ``waiting`` outputs old."""
-    late, early = rest * step, (1.0 - rest) * step
-    phi, _ = held(plant.a, plant.b, step)
-    phi_early, gamma_early = held(plant.a, plant.b, early)
-    _, gamma_late = held(plant.a, plant.b, late)
-    move = np.eye(size)
-    move[:x, :x] = phi
-    queue = size - waiting  # the oldest output first
-    places = [*range(queue, size), output]
-    if rest > 1e-9:
-        move[:x, places[0]] += (phi_early @ gamma_late)[:, 0]
-        move[:x, places[1]] += gamma_early[:, 0]
-    else:
-        _, gamma = held(plant.a, plant.b, step)
-        move[:x, places[0]] += gamma[:, 0]
-    for place, following in pairwise(places):
-        move[place] = 0.0
-        move[place, following] = 1.0
-    return move
+@dataclass(frozen=True)
+class _Move:
+    """One velocity period of the machine: its input is a number of outputs old, which wait in a queue, the oldest first."""
+
+    phi: Matrix
+    old: Matrix
+    """What the oldest output does, and the one after it if the delay is no whole number of periods."""
+    new: Matrix | None
+    places: list[int]
+    """Rows of the waiting outputs and of the present one."""
+
+    @classmethod
+    def of(cls, plant: Plant, step: float, rest: float, waiting: int, output: int, size: int) -> _Move:
+        """Return the move over ``step`` s; ``rest`` is the share of a period in the delay."""
+        places = [*range(size - waiting, size), output]
+        phi, gamma = held(plant.a, plant.b, step)
+        if rest <= 1e-9:
+            return cls(phi, gamma, None, places)
+        phi_early, gamma_early = held(plant.a, plant.b, (1.0 - rest) * step)
+        _, gamma_late = held(plant.a, plant.b, rest * step)
+        return cls(phi, phi_early @ gamma_late, gamma_early, places)
+
+    def apply(self, rows: Matrix) -> None:
+        """Move the machine in the first rows, and the queue."""
+        x = len(self.phi)
+        moved = self.phi @ rows[:x] + self.old * rows[self.places[0]]
+        if self.new is not None:
+            moved += self.new * rows[self.places[1]]
+        rows[:x] = moved
+        rows[self.places[:-1]] = rows[self.places[1:]]
 
 
 def _reduced(model: SampledLoop) -> SampledLoop:

@@ -8,6 +8,7 @@ import pytest
 import scipy.linalg
 import scipy.signal
 
+from amp_studio.sim import SimulationError
 from amp_studio.sim import sampled as matrices
 from amp_studio.sim.linear import LinearModel
 from amp_studio.sim.sampled import Places, Plant, exponential, held, jacobian
@@ -181,3 +182,18 @@ def test_a_gain_beyond_the_margin_is_unstable_and_has_a_negative_margin(model: L
 
 def test_signals_that_the_law_does_not_use_add_no_poles(model: LinearModel) -> None:
     assert len(model.open) == 4  # position and speed, the sum of the error and the error before
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.0045, 0.04])
+def test_the_response_by_modes_is_that_of_the_matrices(delay: float) -> None:
+    model = sampled(rigid(40.0, 3.0, delay), pid(20.0, 40.0, 0.6), None, PLACES, PERIOD, PERIOD)
+    frequencies = np.geomspace(0.05, 249.0, 40)
+    z = np.exp(2j * np.pi * frequencies * PERIOD)
+    size = np.eye(len(model.open))
+    direct = [-(model.sensed @ np.linalg.solve(each * size - model.open, model.measured))[0, 0] for each in z]
+    assert model.loop(frequencies) == pytest.approx(np.array(direct), rel=1e-6)
+
+
+def test_a_delay_beyond_any_loop_is_one_sentence() -> None:
+    with pytest.raises(SimulationError, match="at most 100 are simulated"):
+        sampled(rigid(40.0, 3.0, 0.5), pid(20.0, 40.0, 0.6), None, PLACES, PERIOD, PERIOD)

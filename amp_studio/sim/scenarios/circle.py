@@ -83,6 +83,7 @@ def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None)
         for each, motion in zip((axis, other), motions, strict=True)
         for alarm in alarms_of(each, motion)
     )
+    alarms = tuple(sorted(alarms, key=lambda alarm: alarm.time_s))
     alarms = _unstable(axis, other, models) or alarms
     columns = _columns(circle, *motions)
     return Trace(
@@ -115,8 +116,8 @@ def _circle(
     turns = max(1, math.ceil(dies * rate / (2.0 * math.pi) + 0.5))
     if turns > MOST_TURNS:
         raise SimulationError(
-            f"A circle of {shown(radius, axis.unit)} at {shown(feedrate * 60.0, axis.unit)}/min needs {turns} turns until the axes"
-            f" follow evenly; {MOST_TURNS} are simulated at most. Give a larger radius or a lower feedrate",
+            f"A circle of {radius:.4g} {axis.unit} at {feedrate * 60.0:.4g} {axis.unit}/min needs more than {MOST_TURNS} turns until"
+            " the axes follow evenly. Give a larger radius or a lower feedrate",
             "move.radius",
         )
     return _Circle(radius, rate, 2.0 * RISE / rate, turns)

@@ -100,9 +100,11 @@ def grows(series: Series, count: float) -> bool:
 
 
 def stability(axis: AxisLaw) -> tuple[bool, Margins | None]:
-    """Return (whether the loop is stable, its margins where it is not), of the linear model."""
+    """Return (whether the loop is stable, the margins of the loop that is not), of the linear model."""
     models = axis_model(axis)
     open_loop = not np.any(models.whole.measured)  # nothing controls the position, which may drift
     if models.whole.is_stable(drift=open_loop):
         return True, None
-    return False, models.cut.margins()
+    inner = models.inner
+    loop = inner if inner is not None and not inner.is_stable(drift=True) else models.cut
+    return False, loop.margins()

@@ -79,7 +79,7 @@ def tones_of(
         start = end
     if start > LONGEST:
         raise SimulationError(
-            f"The sweep takes {start:.0f} s of the axis; {LONGEST:.0f} s are simulated at most. Raise move.lowest",
+            f"The sweep takes {start:.6g} s of the axis; {LONGEST:.0f} s are simulated at most. Raise move.lowest",
             "move.lowest",
         )
     return tones
