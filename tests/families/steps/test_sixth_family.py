@@ -46,7 +46,7 @@ def test_it_is_listed_with_the_others(capsys: pytest.CaptureFixture[str]) -> Non
 
 def test_help_and_completion_name_it() -> None:
     assert FAMILY in families()
-    assert list(candidates(["new"], "st")) == [FAMILY]
+    assert FAMILY in candidates(["new"], "st")
 
 
 def test_its_rule_resolves_blu_through_the_increment_system(
