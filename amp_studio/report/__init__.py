@@ -2,17 +2,59 @@
 
 ``write_report`` prints a parameter file as PDF, HTML, CSV or text, in one of
 one of three orders; ``build_report`` returns the same as plain data.
+
+What is named here is loaded when it is first asked for: most verbs print findings, and no report.
 """
 
-from .build import build_report
-from .describe import definition, finding_json, finding_text, suppressed_text
-from .findings import alike, same_finding_text
-from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
-from .model import SORTS, Report, Sort
-from .printed_table import cells_of, table_lines, tables_of
-from .why import why_parts, why_text
-from .wording import counted
-from .write import FORMATS, write_report
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .build import build_report
+    from .describe import definition, finding_json, finding_text, suppressed_text
+    from .findings import alike, same_finding_text
+    from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
+    from .model import SORTS, Report, Sort
+    from .printed_table import cells_of, table_lines, tables_of
+    from .why import why_parts, why_text
+    from .wording import counted
+    from .write import FORMATS, write_report
+
+_PLACES = {
+    "FORMATS": "write",
+    "Report": "model",
+    "SORTS": "model",
+    "Sort": "model",
+    "alike": "findings",
+    "build_report": "build",
+    "cells_of": "printed_table",
+    "counted": "wording",
+    "definition": "describe",
+    "facts": "manual_page",
+    "finding_json": "describe",
+    "finding_text": "describe",
+    "formula_lines": "manual_page",
+    "help_parts": "manual_page",
+    "one_line": "manual_page",
+    "page_of": "manual_page",
+    "range_text": "manual_page",
+    "same_finding_text": "findings",
+    "suppressed_text": "describe",
+    "table_lines": "printed_table",
+    "tables_of": "printed_table",
+    "why_parts": "why",
+    "why_text": "why",
+    "write_report": "write",
+}
+"""Name -> its module."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    found = globals()[name] = getattr(import_module(f".{_PLACES[name]}", __name__), name)
+    return found
+
 
 __all__ = [
     "FORMATS",

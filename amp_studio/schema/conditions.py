@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
@@ -24,8 +24,7 @@ Reach = Literal["all", "whole", "each"]
 """For what a condition has the same answer: for all instances, for the parts of one, or for each by itself."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reference:
+class Reference(NamedTuple):
     """One entry of ``reads``: a single value, or a list over instances."""
 
     addresses: tuple[Address, ...]
@@ -97,6 +96,7 @@ class Conditions:
         """What ``state_plan`` has returned so far."""
         self._plans: dict[tuple[object, ...], StatePlan] = {}
         self._references: dict[Asked, Reference] = {}
+        self._names: dict[tuple[str, str | None], tuple[str, str, dict[str, int], bool]] = {}
         self._questions: dict[Asked, Question] = {}
         read = {read_address(t)[0] for c in schema.family.conditions.values() for t in c.reads.values()}
         self.deciding = tuple(address for address in self._here.addresses if address[0] in read)
@@ -240,25 +240,37 @@ class Conditions:
             found = self._references[key] = self._resolve(text, instance, scope)
         return found
 
+    def _named(self, text: str, scope: str | None) -> tuple[str, str, dict[str, int], bool]:
+        """Return the parameter and the instances that a text means, its own instances in order, and whether it is kin."""
+        found = self._names.get((text, scope))
+        if found is None:
+            parameter_id, which = read_address(text)
+            instances = self._here.instances(self._schema.parameter(parameter_id))
+            kin = scope is None or self._here.kin(self.scopes[parameter_id], scope)
+            order = {name: at for at, name in enumerate(instances)}
+            found = self._names[text, scope] = parameter_id, which, order, kin
+        return found
+
     def _resolve(self, text: str, instance: str, scope: str | None) -> Reference:
-        parameter_id, which = read_address(text)
-        parameter = self._schema.parameter(parameter_id)
-        instances = self._here.instances(parameter)
-        if scope is not None and not self._here.kin(self.scopes[parameter_id], scope):
+        parameter_id, which, order, kin = self._named(text, scope)
+        if not kin:
             instance = ""
         if which == "":
-            own = next((i for i in (instance, whole_of(instance), "") if i in instances), None)
-            if own is None:
-                raise UnknownParameterError(f"{parameter_id} has no instance '{instance}'")
-            return Reference(((parameter_id, own),), False)
+            if instance in order:
+                return Reference(((parameter_id, instance),), False)
+            for own in (whole_of(instance), ""):
+                if own in order:
+                    return Reference(((parameter_id, own),), False)
+            raise UnknownParameterError(f"{parameter_id} has no instance '{instance}'")
+        instances = tuple(order)
         if which == ".":
             head = f"{whole_of(instance)}."
             return Reference(tuple((parameter_id, i) for i in instances if i.startswith(head)), True)
         if which in ("*", "<", ">"):
-            at = instances.index(instance) if instance in instances else len(instances)
+            at = order.get(instance, len(instances))
             chosen = {"*": instances, "<": instances[:at], ">": instances[at + 1 :]}[which]
             return Reference(tuple((parameter_id, i) for i in chosen), True)
-        if which not in instances:
+        if which not in order:
             raise UnknownParameterError(f"{parameter_id} has no instance '{which}'")
         return Reference(((parameter_id, which),), False)
 

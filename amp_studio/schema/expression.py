@@ -107,7 +107,8 @@ class Expression:
     def __init__(self, compiled: Program, functions: Mapping[str, Callable[..., Any]]) -> None:
         self.program = compiled
         self.functions = {name: functions[name] for name in sorted(functions_called(compiled))}
-        named = set(compiled.variables())
+        self.named = named = frozenset(compiled.variables())
+        """Every name in it."""
         self.always = tuple(name for name in ALWAYS_THERE if name in named)
         """Which of the names that need not be read it depends on."""
         self._always = attrgetter(*self.always) if self.always else None

@@ -89,11 +89,14 @@ class Expressions:
         compiled = _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)")
         lists = _OVER_A_LIST.findall(rule.when) + _OVER_A_LIST.findall(rule.check)
         known = {*rule.reads, *ALWAYS_THERE, *TYPES, *lists}
-        if not (
-            known.issuperset(compiled.variables()) and functions_called(compiled) <= set(self._functions)
-        ):
-            check_rule(rule, self._functions)  # names in which of the two expressions
-        return Decision(compiled, self._functions)
+        try:
+            decision = Decision(compiled, self._functions)
+        except KeyError:  # a function that there is not
+            decision = None
+        if decision is None or not known.issuperset(decision.named):
+            check_rule(rule, self._functions)  # says in which of the two expressions
+        assert decision is not None
+        return decision
 
     @cached_property
     def finding(self) -> FindingExpressions:

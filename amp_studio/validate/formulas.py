@@ -70,12 +70,15 @@ def _guarded(function: Callable[..., Any]) -> Callable[..., Any]:
     A rule may hand over anything: Python would repeat a text a billion times for a whole number, and reckon a power of
     ten with a billion digits.
     """
-    places = inspect.signature(function).parameters.values()
-    takes_number = [parameter.annotation in NUMBER_ANNOTATIONS for parameter in places]
+
+    @cache
+    def takes_number() -> list[bool]:  # of most functions of a family no rule of a file asks
+        places = inspect.signature(function).parameters.values()
+        return [parameter.annotation in NUMBER_ANNOTATIONS for parameter in places]
 
     @wraps(function)
     def called(*arguments: Any) -> Any:
-        for argument, is_number in zip(arguments, takes_number, strict=False):
+        for argument, is_number in zip(arguments, takes_number(), strict=False):
             if is_number and type(argument) in (str, list, dict):
                 raise TypeError(f"{argument!r:.20} is no number")
         return function(*map(_with_doubles, arguments))

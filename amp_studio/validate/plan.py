@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from itertools import count
+from typing import NamedTuple
 
 from amp_studio.schema import (
     Address,
@@ -27,8 +28,7 @@ from .expressions import Expressions, RuleError, check_rule
 from .formulas import rule_functions
 
 
-@dataclass(frozen=True, slots=True)
-class Single:
+class Single(NamedTuple):
     """A single value that a check reads."""
 
     name: str
@@ -64,11 +64,10 @@ class RuleCheck:
     """Of the single values, then of the lists."""
     is_own: bool
     """Of a builder's rule."""
-
-    @cached_property
-    def is_lenient(self) -> bool:
-        """Whether some of the single values need not be there, or active."""
-        return any(single.optional or single.any_state for single in self.singles)
+    reads: tuple[Address, ...]
+    """The addresses of the single values."""
+    is_lenient: bool
+    """Whether some of the single values need not be there, or active."""
 
     @cached_property
     def always_about(self) -> tuple[tuple[Address, ...], tuple[Address, ...]] | None:
@@ -83,11 +82,6 @@ class RuleCheck:
             for named in (entries.blames, entries.compares)
         )
         return tuple(causes), tuple(address for address in compared if address not in causes)
-
-    @cached_property
-    def reads(self) -> tuple[Address, ...]:
-        """The addresses of the single values."""
-        return tuple(single.address for single in self.singles)
 
     @cached_property
     def addresses(self) -> tuple[Address, ...]:
@@ -196,21 +190,31 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
             raise RuleError(rule.id, "there are two rules of this name")
         seen.add(rule.id)
         finding = None if n < late else check_rule(rule, functions)
-        expressions = Expressions(rule, functions, finding)
+        expressions, is_own = Expressions(rule, functions, finding), isinstance(rule, BuilderRule)
         for instance, references in _resolved(evaluation, rule):
             singles = tuple(
-                Single(name, reference.addresses[0], name in rule.optional, name in rule.any_state)
-                for name, reference in references.items()
-                if not reference.is_list
+                [
+                    Single(name, reference.addresses[0], name in rule.optional, name in rule.any_state)
+                    for name, reference in references.items()
+                    if not reference.is_list
+                ]
             )
             lists = tuple(
-                (name, _listed(reference.addresses))
-                for name, reference in references.items()
-                if reference.is_list
+                [
+                    (name, _listed(reference.addresses))
+                    for name, reference in references.items()
+                    if reference.is_list
+                ]
             )
-            names = (*(single.name for single in singles), *(name for name, _ in lists))
-            is_own = isinstance(rule, BuilderRule)
-            checks.append(RuleCheck(next(places), rule, instance, expressions, singles, lists, names, is_own))
+            names = (*[single.name for single in singles], *[name for name, _ in lists])
+            reads = tuple([single.address for single in singles])
+            is_lenient = any(single.optional or single.any_state for single in singles)
+            place = next(places)
+            checks.append(
+                RuleCheck(
+                    place, rule, instance, expressions, singles, lists, names, is_own, reads, is_lenient
+                )
+            )
     return tuple(checks)
 
 
@@ -236,8 +240,8 @@ def _check_read(schema: Schema, rule: Rule, text: str) -> None:
     parameter = schema.parameters.get(parameter_id)
     if parameter is None:
         raise RuleError(rule.id, f"reads {quoted(parameter_id)}, which the family does not have")
-    offered = {i for machine in schema.family.machines for i in schema.on(machine.key).instances(parameter)}
-    if which not in ("", "*", "<", ">", ".") and which not in offered:
+    machines = (schema.on(machine.key) for machine in schema.family.machines)
+    if which not in ("", "*", "<", ">", ".") and not any(which in m.instances(parameter) for m in machines):
         raise RuleError(
             rule.id, f"reads {quoted(text)}, but {parameter.name} has no instance {quoted(which)}"
         )
