@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.files.local_time import with_local_times
 from amp_studio.schema import (
     MASKED,
     Address,
@@ -123,7 +124,7 @@ def row_of(
         state=state.state,
         why=state.why,
         state_mark=state_mark,
-        forced=file.forced.get(address, ""),
+        forced=with_local_times(file.forced.get(address, "")),
     )
 
 

@@ -1,8 +1,6 @@
-"""The words of severities and states, counts and times as a person reads them."""
+"""The words of severities and states, and counts as a person reads them."""
 
 from __future__ import annotations
-
-from datetime import datetime
 
 _SEVERITIES = {"advice": "recommendation", "suppressed": "suppressed finding"}
 _STATES = {"in-force": "active", "ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
@@ -21,12 +19,3 @@ def state_name(state: str) -> str:
 def counted(number: int, noun: str, none: str = "0") -> str:
     """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``none`` replaces the number 0."""
     return f"{number or none} {severity_name(noun)}{'' if number == 1 else 's'}"
-
-
-def local_time(stamp: str) -> str:
-    """Return a stored time as local date and time to the minute; a text that is no time is returned unchanged."""
-    try:
-        moment = datetime.fromisoformat(stamp)
-    except ValueError:
-        return stamp
-    return f"{moment.astimezone():%Y-%m-%d %H:%M}"

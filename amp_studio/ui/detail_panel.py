@@ -8,9 +8,10 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, QWidget
 
+from amp_studio.files.local_time import local_time
 from amp_studio.files.storage_text import storage_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
-from amp_studio.report.wording import local_time, severity_name, state_name
+from amp_studio.report.wording import severity_name, state_name
 from amp_studio.schema import (
     Address,
     Value,

@@ -23,8 +23,9 @@ from amp_studio.files import (
     same_file,
     secret_values,
 )
+from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import EditLock
-from amp_studio.report.wording import counted, local_time
+from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 from amp_studio.validate import Validator, rules_beside
 

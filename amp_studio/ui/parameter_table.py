@@ -13,6 +13,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelInd
 from PySide6.QtGui import QBrush, QFont
 
 from amp_studio.files import axis_title, fitted_axes
+from amp_studio.files.local_time import with_local_times
 from amp_studio.report.wording import state_name
 from amp_studio.schema import (
     Address,
@@ -319,7 +320,7 @@ class ParameterTable(QAbstractTableModel):
         if address in self._effective:
             lines.append(f"Effective value in the control: {self._shown(address, self._effective[address])}")
         if address in file.forced:
-            lines.append(f"Forced {file.forced[address]}")
+            lines.append(f"Forced {with_local_times(file.forced[address])}")
         value = file.get(address)
         if value is not None and self._in_units(address, value) != value:
             entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)

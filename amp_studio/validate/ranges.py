@@ -10,6 +10,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from functools import lru_cache
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.local_time import with_local_times
 from amp_studio.schema import (
     MASKED,
     Address,
@@ -192,7 +193,11 @@ class ValueChecks:
         allowed = mended is not None and mended != value
         allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
         fix = (Setting(address, mended),) if mended is not None and allowed else ()
-        forced = f" It was forced {self._file.forced[address]}." if address in self._file.forced else ""
+        forced = (
+            f" It was forced {with_local_times(self._file.forced[address])}."
+            if address in self._file.forced
+            else ""
+        )
         kind = "schema.choice" if parameter.choices else "schema.range"
         return Finding(
             kind,
