@@ -5,7 +5,7 @@ two programs on one file notice each other, and a file that is not fully
 understood is refused or kept whole.
 """
 
-from .atomic import ChangedOnDisk, Notify, SaveError, check_output, digest_of, write_atomic
+from .atomic import ChangedOnDiskError, Notify, SaveError, check_output, digest_of, write_atomic
 from .axes import (
     AxisError,
     axis_instances,
@@ -20,7 +20,7 @@ from .axes import (
 from .creation import new_file
 from .diff import Comparison, Conflict, Difference, compare, merge
 from .document import Document, HistoryEntry, Unsaved, recover_backup
-from .lock import InUse
+from .lock import InUseError
 from .parameter_file import (
     Change,
     Header,
@@ -40,14 +40,14 @@ __all__ = [
     "FORMAT",
     "AxisError",
     "Change",
-    "ChangedOnDisk",
+    "ChangedOnDiskError",
     "Comparison",
     "Conflict",
     "Difference",
     "Document",
     "Header",
     "HistoryEntry",
-    "InUse",
+    "InUseError",
     "InvalidNameError",
     "Notify",
     "Opened",

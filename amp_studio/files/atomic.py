@@ -24,7 +24,7 @@ Notify = Callable[[str], None]
 """Takes one sentence about what a save could not keep."""
 
 
-class ChangedOnDisk(OSError):
+class ChangedOnDiskError(OSError):
     """The file on disk is not the one that was opened."""
 
 
@@ -81,7 +81,7 @@ def write_atomic(
     file on disk must still have (None: there must be no file; "": do not look). The previous file becomes the backup.
     A companion is readable by those who may read its file, and takes the place of a link instead of following it.
     ``notify`` is called after the save with each thing of the old file that could not be kept.
-    Returns the digest of the new content; raises ChangedOnDisk, SaveError, and what ``content`` raises.
+    Returns the digest of the new content; raises ChangedOnDiskError, SaveError, and what ``content`` raises.
     """
     notes: list[str] = []
     with _as_save_error(path):
@@ -89,7 +89,7 @@ def write_atomic(
         looks = expected != "" or callable(content)
         previous = _content_of(real) if looks or keep_backup else None
         if expected != "" and _digest(previous) != expected:
-            raise ChangedOnDisk(f"{path.name} {_CHANGED if expected else 'exists already'}")
+            raise ChangedOnDiskError(f"{path.name} {_CHANGED if expected else 'exists already'}")
     made = content(previous) if callable(content) else content
     with _as_save_error(path), contextlib.ExitStack() as stack:
         like = real if os.path.lexists(real) and not companion_of else companion_of
@@ -99,7 +99,7 @@ def write_atomic(
             kept = backup_path(real)
             kept_temporary = stack.enter_context(_staged(kept, previous, real, []))
         if looks and _digest(_content_of(real)) != _digest(previous):
-            raise ChangedOnDisk(f"{path.name} has been changed by another program while it was saved")
+            raise ChangedOnDiskError(f"{path.name} has been changed by another program while it was saved")
         if kept is not None:
             stack.enter_context(_put_back_unless_saved(kept, temporary))
             os.replace(kept_temporary, kept)
@@ -123,7 +123,7 @@ def _as_save_error(path: Path) -> Iterator[None]:
     """Turn errors of the system into one clear sentence."""
     try:
         yield
-    except (ChangedOnDisk, SaveError):
+    except (ChangedOnDiskError, SaveError):
         raise
     except OSError as error:
         at = Path(os.fsdecode(error.filename2)).name if error.filename2 else path.name

@@ -16,7 +16,7 @@ from amp_studio.schema import MASKED, Address, InvalidValueError, Value, read_ad
 from amp_studio.schema.regular_file import read_file
 
 from .atomic import append_line, check_output, digest_of, write_atomic
-from .lock import EditLock, InUse, now, user
+from .lock import EditLock, InUseError, now, user
 from .parameter_file import Change, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
 from .storage import open_file, read_content, read_stored, save_file
@@ -68,7 +68,7 @@ class Document:
 
     @classmethod
     def open(cls, path: Path) -> Document:
-        """Open a file for editing; raises ParameterFileError, and InUse while another program edits it."""
+        """Open a file for editing; raises ParameterFileError, and InUseError while another program edits it."""
         document = cls._of(path)
         document._lock.take()
         try:  # the file may have changed while its lock was waited for
@@ -146,10 +146,10 @@ class Document:
     def save(self, how: str = "edit") -> None:
         """Save in place; the previous file becomes the backup; ``notes`` lists what could not be kept.
 
-        Raises ChangedOnDisk, SaveError, InUse.
+        Raises ChangedOnDiskError, SaveError, InUseError.
         """
         if self._only_viewed:
-            raise InUse(f"{self.path.name} was opened only to look at it: save it under a new name")
+            raise InUseError(f"{self.path.name} was opened only to look at it: save it under a new name")
         self._lock.take()
         changes = self.unsaved_changes() if self.digest is not None else []
         self.notes = [self._lock.note] if self._lock.note else []

@@ -38,7 +38,7 @@ _LONGEST_NOTE = 300
 """Characters of what the holder has left that a message shows."""
 
 
-class InUse(OSError):
+class InUseError(OSError):
     """Another program has the file open; the text contains which one, where and since when."""
 
 
@@ -55,7 +55,7 @@ class EditLock:
         self._place = path
 
     def take(self) -> None:
-        """Lock the file; raises InUse. Where the file system has no locks there is a note instead."""
+        """Lock the file; raises InUseError. Where the file system has no locks there is a note instead."""
         if self.is_taken:
             return
         self.note = ""
@@ -63,13 +63,17 @@ class EditLock:
             self._place = hidden_path(self.path, ".lock")
             self._handle = _locked(self._place)
         except BlockingIOError:
-            raise InUse(f"{self.path.name} is open in another program ({self._holder()})") from None
+            raise InUseError(f"{self.path.name} is open in another program ({self._holder()})") from None
         except OSError as error:
             message = error.strerror or str(error)
             if not _is_open_to_us(self._place.parent):
-                raise InUse(f"{self.path.name} cannot be changed: its folder cannot be written to") from None
+                raise InUseError(
+                    f"{self.path.name} cannot be changed: its folder cannot be written to"
+                ) from None
             if error.errno == errno.ENAMETOOLONG or not _is_sound(self._place):
-                raise InUse(f"{self.path.name} cannot be locked ({self._place.name}): {message}") from None
+                raise InUseError(
+                    f"{self.path.name} cannot be locked ({self._place.name}): {message}"
+                ) from None
             self.note = (
                 f"{self.path.name} could not be locked ({message}): see that no other program changes it"
             )

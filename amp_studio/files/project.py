@@ -141,14 +141,14 @@ class Project:
         return target
 
     def rename(self, source: Path, name: str) -> Path:
-        """Rename a file with its backup, its history and its unsaved work; raises InvalidNameError, and InUse while it is open."""
+        """Rename a file with its backup, its history and its unsaved work; raises InvalidNameError, and InUseError while it is open."""
         target = self._free(name)
         with EditLock(source):
             _move(source, target)
         return target
 
     def delete(self, source: Path) -> None:
-        """Delete a file; its last content stays as its backup, so that it can be recovered. Raises InUse.
+        """Delete a file; its last content stays as its backup, so that it can be recovered. Raises InUseError.
 
         Of a link only the link is removed: the file it leads to may be in other projects too.
         """
@@ -159,7 +159,7 @@ class Project:
                 source.replace(backup_path(source))
 
     def recover(self, path: Path) -> None:
-        """Make a backup the file again; raises FileNotFoundError, ParameterFileError, InUse."""
+        """Make a backup the file again; raises FileNotFoundError, ParameterFileError, InUseError."""
         with EditLock(path):
             recover_backup(path, digest_of(path))
 

@@ -311,7 +311,7 @@ def save_file(
 
     ``expected`` is the digest the file had when it was opened, None for a new
     one; ``notify`` is called with what could not be kept. The content is read back before it replaces anything.
-    Returns the new digest; raises ChangedOnDisk or SaveError.
+    Returns the new digest; raises ChangedOnDiskError or SaveError.
     """
     file.header.signature = file.schema.signature
     return write_atomic(

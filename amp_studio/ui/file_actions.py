@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
 
 from amp_studio.files import (
     Document,
-    InUse,
+    InUseError,
     Unsaved,
     backup_path,
     check_output,
@@ -145,7 +145,7 @@ class FileActions:
             if not path.exists():
                 document = write()
             else:
-                with EditLock(path):  # raises InUse while a program edits it
+                with EditLock(path):  # raises InUseError while a program edits it
                     os.replace(path, backup_path(path))
                 try:
                     document = write()
@@ -178,7 +178,7 @@ class FileActions:
             self.window.show_nothing()
         try:
             opened = in_background(self.window, "Opening", lambda: _opened(Document.open, path))
-        except InUse as error:
+        except InUseError as error:
             question = f"{error}.\n\nOpen it read-only?"
             if ask(self.window, "File in use", question, "&Open Read-Only", "Cancel") != "&Open Read-Only":
                 return

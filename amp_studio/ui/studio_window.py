@@ -13,7 +13,7 @@ from typing import Literal
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QStyle
 
-from amp_studio.files import ChangedOnDisk, Project
+from amp_studio.files import ChangedOnDiskError, Project
 from amp_studio.schema import Address
 
 from .detail_panel import DetailPanel
@@ -150,7 +150,7 @@ class StudioWindow(QMainWindow):
         assert self.workspace is not None
         try:
             self.workspace.save(lambda work: in_background(self, "Saving", work))
-        except ChangedOnDisk as error:
+        except ChangedOnDiskError as error:
             show_message(
                 self, "Not saved", f"{error}.\n\nSave your work under a new name, or reload the file."
             )

@@ -149,7 +149,7 @@ class Workspace(QObject):
         return self.document.is_dirty or self._saved != (Marks.of(self.file), self.file.header.units)
 
     def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
-        """Save in place, through ``run`` (a thread); raises ChangedOnDisk, SaveError, InUse."""
+        """Save in place, through ``run`` (a thread); raises ChangedOnDiskError, SaveError, InUseError."""
         self._journal.stop()
         self.is_saving = True
         try:

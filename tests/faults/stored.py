@@ -17,7 +17,7 @@ from pydantic import ValidationError
 
 from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
 from amp_studio.files.atomic import SaveError
-from amp_studio.files.lock import EditLock, InUse
+from amp_studio.files.lock import EditLock, InUseError
 from amp_studio.schema import DatabaseError
 from amp_studio.schema.compiled_cache import read_cached, write_cached
 from amp_studio.schema.load import Compiled, compile_family
@@ -179,7 +179,7 @@ def fuzz_locks(folder: Path, seed: int, count: int) -> list[str]:
             holder.write_bytes(text.encode("utf-8", "surrogatepass"))
             EditLock(path).take()
 
-        return violations(mutants(["me on here, process 12, since now"], seed, count), look, (InUse,))
+        return violations(mutants(["me on here, process 12, since now"], seed, count), look, (InUseError,))
 
 
 def fuzz_facts(folder: Path, seed: int, count: int) -> list[str]:

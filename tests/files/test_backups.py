@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import (
-    ChangedOnDisk,
+    ChangedOnDiskError,
     Document,
     ParameterFile,
     ParameterFileError,
@@ -66,7 +66,7 @@ def test_recovery_does_not_overwrite_what_another_program_saved(on_disk: Path, m
     mill.set(CALIBRATION, Value(8.0, "mm"))
     on_disk.write_bytes(content_of(mill))
     theirs = on_disk.read_bytes()
-    with pytest.raises(ChangedOnDisk):
+    with pytest.raises(ChangedOnDiskError):
         recover_backup(on_disk, opened)
     assert theirs == on_disk.read_bytes()
 

@@ -13,9 +13,9 @@ import pytest
 from amp_studio import cli
 from amp_studio.files import (
     Change,
-    ChangedOnDisk,
+    ChangedOnDiskError,
     Document,
-    InUse,
+    InUseError,
     ParameterFile,
     ParameterFileError,
     SaveError,
@@ -127,12 +127,12 @@ def test_what_another_program_saved_is_noticed_and_not_overwritten(
         theirs = on_disk.read_bytes()
         assert digest_of(on_disk) != document.digest
         document.file.set(CALIBRATION, Value(2.0, "mm"))
-        with pytest.raises(ChangedOnDisk):
+        with pytest.raises(ChangedOnDiskError):
             document.save()
         assert document.is_dirty
         on_disk.unlink()
         assert digest_of(on_disk) is None
-        with pytest.raises(ChangedOnDisk):
+        with pytest.raises(ChangedOnDiskError):
             document.save()
         on_disk.write_bytes(theirs)
 
@@ -154,7 +154,7 @@ def test_a_second_program_is_told_who_has_the_file(on_disk: Path, other) -> None
     program = other(OPEN, on_disk)
     assert program.says() == "open"
     with pytest.raises(
-        InUse, match=r"bench\.amp is open in another program \(.*process \d+, since 20"
+        InUseError, match=r"bench\.amp is open in another program \(.*process \d+, since 20"
     ) as refused:
         Document.open(on_disk)
     assert f"{getpass.getuser()} on " in str(refused.value)
@@ -162,7 +162,7 @@ def test_a_second_program_is_told_who_has_the_file(on_disk: Path, other) -> None
     with Document.view(on_disk) as looking:
         assert (False, Value(0.0, "mm")) == (looking.is_locked, looking.file.get(CALIBRATION))
         looking.file.set(CALIBRATION, Value(1.0, "mm"))
-        with pytest.raises(InUse):
+        with pytest.raises(InUseError):
             looking.save()
     program.go_on()
     assert program.says() == "closed"
@@ -184,7 +184,7 @@ def test_the_lock_of_a_killed_program_ends_with_it(on_disk: Path, other) -> None
 
 
 def test_two_documents_of_one_program_notice_each_other_too(on_disk: Path) -> None:
-    with Document.open(on_disk), pytest.raises(InUse, match=f"process {os.getpid()}"):
+    with Document.open(on_disk), pytest.raises(InUseError, match=f"process {os.getpid()}"):
         Document.open(on_disk)
     Document.open(on_disk).close()
 
@@ -192,7 +192,7 @@ def test_two_documents_of_one_program_notice_each_other_too(on_disk: Path) -> No
 def test_a_link_is_locked_with_the_file_it_leads_to(on_disk: Path) -> None:
     link = on_disk.with_name("link.amp")
     link.symlink_to(on_disk)
-    with Document.open(on_disk), pytest.raises(InUse):
+    with Document.open(on_disk), pytest.raises(InUseError):
         Document.open(link)
 
 
@@ -202,14 +202,14 @@ def test_giving_up_the_lock_twice_does_not_take_it_from_the_next(on_disk: Path) 
     with Document.open(on_disk) as second:
         first.close()
         assert second.is_locked
-        with pytest.raises(InUse):
+        with pytest.raises(InUseError):
             Document.open(on_disk)
 
 
 def test_a_holder_that_left_no_details_still_holds(on_disk: Path) -> None:
     with Document.open(on_disk):
         on_disk.with_name(".bench.amp.holder").unlink()
-        with pytest.raises(InUse, match="it left no details"):
+        with pytest.raises(InUseError, match="it left no details"):
             Document.open(on_disk)
 
 

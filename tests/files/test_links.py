@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.files import (
     Document,
-    InUse,
+    InUseError,
     Project,
     ProjectInfo,
     SaveError,
@@ -94,7 +94,7 @@ def test_a_link_that_cannot_be_followed_stays_a_link(tmp_path: Path, leads_to: s
     for write in (lambda: write_atomic(link, b"new"), lambda: write_atomic(link, b"new", None)):
         with pytest.raises(SaveError, match=r"loop\.amp cannot be written: "):
             write()
-    with pytest.raises(InUse, match=r"loop\.amp cannot be locked"):
+    with pytest.raises(InUseError, match=r"loop\.amp cannot be locked"):
         EditLock(link).take()
     assert (names(tmp_path), link.is_symlink()) == ({"loop.amp", "file"}, True)
 
@@ -123,7 +123,7 @@ def test_planted_links_in_the_place_of_companions_are_not_followed(on_disk: Path
     assert victim.read_bytes() == b"precious"
     lock = on_disk.with_name(".bench.amp.lock")
     lock.symlink_to(victim)
-    with pytest.raises(InUse, match=r"bench\.amp cannot be locked \(\.bench\.amp\.lock\)"):
+    with pytest.raises(InUseError, match=r"bench\.amp cannot be locked \(\.bench\.amp\.lock\)"):
         Document.open(on_disk)
     assert victim.read_bytes() == b"precious"
 

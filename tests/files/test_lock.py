@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
-from amp_studio.files import Document, InUse, new_file
+from amp_studio.files import Document, InUseError, new_file
 from amp_studio.schema import Value
 
 CALIBRATION = ("home.calibration", "1")
@@ -78,7 +78,7 @@ def test_what_is_no_lock_file_is_named(on_disk: Path, kind: str) -> None:
         place.mkdir()
     else:
         os.mkfifo(place)
-    with pytest.raises(InUse, match=r"bench\.amp cannot be locked \(\.bench\.amp\.lock\): Is a "):
+    with pytest.raises(InUseError, match=r"bench\.amp cannot be locked \(\.bench\.amp\.lock\): Is a "):
         Document.open(on_disk)
 
 
@@ -88,7 +88,7 @@ def test_a_folder_that_cannot_be_written_to_is_named(on_disk: Path, monkeypatch)
 
     monkeypatch.setattr(os, "access", lambda *_, **__: False)
     monkeypatch.setattr("amp_studio.files.lock._opened", denied)
-    with pytest.raises(InUse, match=r"bench\.amp cannot be changed: its folder cannot be written to"):
+    with pytest.raises(InUseError, match=r"bench\.amp cannot be changed: its folder cannot be written to"):
         Document.open(on_disk)
 
 
@@ -106,7 +106,7 @@ def test_the_lock_file_of_another_user_is_locked_though_it_cannot_be_written(
     monkeypatch.setattr(os, "open", read_only)
     with Document.open(on_disk) as document:
         assert document.is_locked
-        with pytest.raises(InUse, match="is open in another program"):
+        with pytest.raises(InUseError, match="is open in another program"):
             Document.open(on_disk)
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         document.save()
@@ -128,17 +128,17 @@ def test_the_lock_of_another_file_of_that_name_is_not_taken_for_ours(on_disk: Pa
     with Document.open(on_disk):
         assert len(calls) == 2
         monkeypatch.setattr(fcntl, "flock", flock)
-        with pytest.raises(InUse):
+        with pytest.raises(InUseError):
             Document.open(on_disk)
 
 
 def test_a_holder_who_writes_anything_is_shown_in_bounds(on_disk: Path) -> None:
     with Document.open(on_disk):
         on_disk.with_name(".bench.amp.holder").write_bytes(b"\xff" * 100_000)
-        with pytest.raises(InUse, match="it left no details"):
+        with pytest.raises(InUseError, match="it left no details"):
             Document.open(on_disk)
         on_disk.with_name(".bench.amp.holder").write_bytes(b"me\n\x1b[2J" + b"x" * 4000)
-        with pytest.raises(InUse, match=r"\(me\\n\\u001b\[2Jx{293}\)"):
+        with pytest.raises(InUseError, match=r"\(me\\n\\u001b\[2Jx{293}\)"):
             Document.open(on_disk)
 
 
@@ -156,5 +156,5 @@ def test_a_name_too_long_for_its_companions_is_told(tmp_path: Path) -> None:
     with Document.view(long) as looking:
         assert looking.file.get(CALIBRATION) == Value(2.0, "mm")
     for act in (lambda: Document.open(long), lambda: Document.create(mill, tmp_path / f"{'y' * 250}.amp")):
-        with pytest.raises(InUse, match="The name is too long for the files kept beside it"):
+        with pytest.raises(InUseError, match="The name is too long for the files kept beside it"):
             act()

@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.files import (
     Document,
-    InUse,
+    InUseError,
     InvalidNameError,
     ParameterFileError,
     Project,
@@ -310,7 +310,7 @@ def test_an_open_file_is_not_renamed_deleted_or_recovered(project: Project, with
             lambda: project.delete(with_file),
             lambda: project.recover(with_file),
         ):
-            with pytest.raises(InUse, match=r"first\.amp is open in another program"):
+            with pytest.raises(InUseError, match=r"first\.amp is open in another program"):
                 act()
         assert before == names(project.folder)
 

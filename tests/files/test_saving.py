@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import (
-    ChangedOnDisk,
+    ChangedOnDiskError,
     Document,
     SaveError,
     backup_path,
@@ -118,7 +118,7 @@ def test_the_content_is_on_the_disk_before_the_name_is_and_the_name_at_the_end(t
 def test_what_another_program_saved_is_not_overwritten(old: Path) -> None:
     opened = digest_of(old)
     old.write_bytes(b"theirs")
-    with pytest.raises(ChangedOnDisk, match=r"machine\.amp has been changed by another program"):
+    with pytest.raises(ChangedOnDiskError, match=r"machine\.amp has been changed by another program"):
         write_atomic(old, NEW, opened)
     assert (b"theirs", {"machine.amp"}) == (old.read_bytes(), names(old.parent))
 
@@ -126,11 +126,11 @@ def test_what_another_program_saved_is_not_overwritten(old: Path) -> None:
 def test_a_file_that_is_gone_or_has_come_counts_as_changed(old: Path) -> None:
     opened = digest_of(old)
     old.unlink()
-    with pytest.raises(ChangedOnDisk):
+    with pytest.raises(ChangedOnDiskError):
         write_atomic(old, NEW, opened)
     assert set() == names(old.parent)
     old.write_bytes(b"theirs")
-    with pytest.raises(ChangedOnDisk):
+    with pytest.raises(ChangedOnDiskError):
         write_atomic(old, NEW, None)
     assert old.read_bytes() == b"theirs"
 
@@ -143,7 +143,7 @@ def test_a_change_while_the_file_is_being_saved_is_seen(old: Path, monkeypatch) 
         old.write_bytes(b"theirs")
 
     monkeypatch.setattr(os, "fsync", somebody_saves)
-    with pytest.raises(ChangedOnDisk, match="while it was saved"):
+    with pytest.raises(ChangedOnDiskError, match="while it was saved"):
         write_atomic(old, NEW, opened)
     assert (b"theirs", {"machine.amp"}) == (old.read_bytes(), names(old.parent))
 

@@ -21,7 +21,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files.lock import EditLock, InUse
+from amp_studio.files.lock import EditLock, InUseError
 from amp_studio.transfer.house.message import Code, Commit, Committed, Flags, OpenDownload, RefusalError
 
 from .memory import Memory
@@ -65,7 +65,7 @@ class Control:
         self._lock = EditLock(folder / "control")
         try:
             self._lock.take()
-        except InUse as error:
+        except InUseError as error:
             raise StateError(f"{folder}: {error}") from None
         try:
             self._boot(initial, estop, autostart)
