@@ -106,10 +106,13 @@ def ticks(low: float, high: float, about: int = 5) -> list[float]:
     """Return round numbers (1, 2 or 5 times a power of ten apart) from low to high."""
     if not high > low:
         return [low]
-    rough = (high - low) / about
-    power = 10.0 ** math.floor(math.log10(rough))
-    step = next(power * n for n in (1.0, 2.0, 5.0, 10.0) if power * n >= rough * 0.999)
-    return multiples(step, low, high)
+    return multiples(round_step((high - low) / about), low, high)
+
+
+def round_step(least: float) -> float:
+    """Return the smallest of 1, 2 and 5 times the powers of ten that is not below a number."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(power * n for n in (1.0, 2.0, 5.0, 10.0) if power * n >= least * 0.999)
 
 
 def multiples(step: float, low: float, high: float) -> list[float]:
@@ -272,7 +275,7 @@ class _Frame:
         return " ".join(f"{_n(self.x(float(a)))},{_n(self.y(float(b)))}" for a, b in zip(x, y, strict=True))
 
     def _legend(self) -> Iterator[str]:
-        named = [c for c in self.panel.curves if c.name]
+        named = [c for c in self.panel.curves if c.name and len(c.x)]
         if len(named) < 2:
             return
         x = RIGHT - sum(_width(c.name) for c in named)
@@ -335,7 +338,7 @@ def _ball(picture: Picture, top: float) -> Iterator[str]:
 def ring_levels(rings: Sequence[Ring]) -> tuple[list[float], float]:
     """Return the deviations at which a ball-bar plot has rings, and the largest that it shows."""
     peak = max((float(np.max(np.abs(r.deviation), initial=0.0)) for r in rings), default=0.0) or 1e-6
-    step = ticks(0.0, peak, 2)[1] if len(ticks(0.0, peak, 2)) > 1 else peak
+    step = round_step(0.5 * peak)
     count = math.ceil(peak / step - 1e-9)
     return [n * step for n in range(-count, count + 1)], count * step
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from amp_studio.sim import SCENARIOS, Trace
-from amp_studio.sim.picture import banded, picture_of, settling_span, thinned, unheld
-from amp_studio.sim.svg import COLOURS, plot_svg
+from amp_studio.sim.picture import Ring, banded, picture_of, settling_span, thinned, unheld
+from amp_studio.sim.svg import COLOURS, plot_svg, ring_levels
 from tests.sim.tiny import tiny
 
 
@@ -112,3 +112,24 @@ def test_the_predicted_radius_error_is_drawn_on_the_side_of_the_circle_that_is_t
     (_, level) = panel.levels[1]
     assert level == pytest.approx(float(trace.columns["radius_deviation"].mean()), rel=0.01)
     assert level < 0.0
+
+
+@pytest.mark.parametrize(
+    ("peak", "levels"),
+    [
+        (0.0459, [-0.05, 0.0, 0.05]),
+        (0.012, [-0.02, -0.01, 0.0, 0.01, 0.02]),
+        (1.0, [-1.0, -0.5, 0.0, 0.5, 1.0]),
+    ],
+)
+def test_the_rings_of_a_ball_bar_plot_are_round_numbers_that_hold_the_path(
+    peak: float, levels: list[float]
+) -> None:
+    ring = Ring("", np.array([0.0, 1.0]), np.array([peak, -0.1 * peak]), "actual")
+    found, most = ring_levels([ring])
+    assert found == pytest.approx(levels)
+    assert most >= peak
+
+
+def test_a_curve_that_was_not_measured_is_not_in_the_legend() -> None:
+    assert "open loop, swept" not in plot_svg(SCENARIOS["frequency"].run(tiny(gain=3000.0), {}))
