@@ -40,6 +40,8 @@ MOST_GAIN = 65535.0
 """Both gains end there (7-54, 7-57)."""
 FIRST_INTEGRAL = 50.0
 """The first integral gain is the proportional one divided by this."""
+LONGEST = 30.0
+"""s of one tuning move."""
 WINDOW = 0.15
 """s in which a swing is looked for."""
 RESERVE = 0.5
@@ -94,6 +96,10 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     ramp = min(BELOW * limit * axis.machine.acceleration_per_output, feedrate / (2.0 * lag))
     profile = move(feedrate * (feedrate / ramp + 0.8 + 5.0 * lag), feedrate, Ramp("linear", ramp, ramp))
     end = end_of(profile)
+    if end > LONGEST:
+        raise SimulationError(
+            f"The tuning move of axis {axis.axis} takes {shown(end, 's', 3)}; at most {LONGEST:g} s are simulated. Raise its position gain or torque limits"
+        )
     motion = run_axis(axis, profile, Until(end + 13.0 * lag), engine="compiled", thin=True)
     time, velocity, torque = (motion.columns[name] for name in ("time_s", "velocity_feedback", "output"))
     if motion.stop or time[-1] < end:

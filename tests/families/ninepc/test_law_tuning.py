@@ -183,11 +183,16 @@ def test_tune_goes_without_torque_filter_and_discharge_as_table_a_a_wants_it(axi
         ({}, {"move.feedrate": 0.0}, "must be above 0"),
         ({}, {"move.speed": 1.0}, "move.speed"),
         ({}, {}, "No proportional gain keeps axis 1 from overshoot"),
+        ({"servo.initial_gain": 0.001}, {}, "at most 30 s are simulated"),
     ],
 )
 def test_an_axis_that_cannot_be_tuned_says_why(
     axis: Axis, values: Values, settings: Values, words: str, request: pytest.FixtureRequest
 ) -> None:
-    law = axis(values, delay=0.5) if words.startswith("No proportional") else axis(values)
+    law = (
+        axis({"servo.initial_gain": 20.0}, delay=0.05)
+        if words.startswith("No proportional")
+        else axis(values)
+    )
     with pytest.raises(SimulationError, match=words):
         tune(law, settings)
