@@ -86,7 +86,7 @@ def tables_verb(options: argparse.Namespace) -> int:
 
 
 def calculate_verb(options: argparse.Namespace) -> int:
-    """List the formulas of a family, describe one, or work it out."""
+    """List the formulas of a family, describe one, or calculate it."""
     known = calculators(family(options.family).family.family)
     if options.formula is None:
         for calculator in known.values():

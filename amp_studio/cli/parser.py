@@ -22,8 +22,8 @@ _USUAL = {
     "machine": "machine type: mill, lathe, …",
     "group": "only the parameters of this group",
     "table": "the table to print",
-    "formula": "the formula to work out",
-    "arguments": "what the formula is worked out of",
+    "formula": "the formula to calculate",
+    "arguments": "the values the formula needs",
     "text": "a control's own text file",
     "address": "where the control is reached",
     "a": "file, or address of a control",
@@ -143,7 +143,7 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("family")
     sub.add_argument("table", nargs="?")
     json_option(sub)
-    sub = verb("calculate", "facts", "work out a published formula of a family; without one, list them")
+    sub = verb("calculate", "facts", "calculate a published formula of a family; without one, list them")
     sub.add_argument("family")
     sub.add_argument("formula", nargs="?")
     sub.add_argument("arguments", nargs="*", metavar="NAME=VALUE")

@@ -87,7 +87,7 @@ def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
     try:
         return formulas(family)[name](**values)
     except ArithmeticError:
-        raise ValueError(f"{name} cannot be worked out: a number is too large or too small") from None
+        raise ValueError(f"{name} cannot be calculated: a number is too large or too small") from None
 
 
 def _read(argument: Argument, text: str) -> Any:

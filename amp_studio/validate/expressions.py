@@ -94,7 +94,7 @@ class Expressions:
         except KeyError:  # a function that there is not
             decision = None
         if decision is None or not known.issuperset(decision.named):
-            check_rule(rule, self._functions)  # says in which of the two expressions
+            check_rule(rule, self._functions)  # names in which of the two expressions
         assert decision is not None
         return decision
 

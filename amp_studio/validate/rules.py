@@ -191,7 +191,7 @@ class RuleChecks:
         rule, is_secret = check.rule, self._reads_secret(check)
         given = [f"{s.name} = {MASKED if is_secret else self._shown(s.address)}" for s in check.singles]
         message = (
-            f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be worked out"
+            f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be calculated"
             f"{f' with {_listed(given)}' if given else ''}: a number is too large, divided by zero or no number."
         )
         return Finding(

@@ -48,7 +48,7 @@ def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str
                 "activation_maximum_ms": "1e16",
                 "logic_maximum_ms": "1",
             },
-            "fine_scans_per_logic_scan cannot be worked out: a number is too large or too small",
+            "fine_scans_per_logic_scan cannot be calculated: a number is too large or too small",
         ),
     ],
 )

@@ -49,7 +49,7 @@ def test_a_check_that_fails_with_the_values_is_an_error_with_its_line(
 ) -> None:
     (said,) = told(checked(mill, tmp_path, check).run())
     assert said == (
-        "rules.yaml, line 3: builder.own: it cannot be worked out with rapid = 12000 mm/min: "
+        "rules.yaml, line 3: builder.own: it cannot be calculated with rapid = 12000 mm/min: "
         "a number is too large, divided by zero or no number."
     )
 
