@@ -79,4 +79,4 @@ def test_a_value_that_is_not_set_is_no_failure(mill: ParameterFile, tmp_path: Pa
 def test_a_secret_is_not_shown_where_a_rule_fails_with_it(mill: ParameterFile, tmp_path: Path) -> None:
     reads = "word: password.character@1, rapid: feedrate.rapid@1"
     (said,) = told(checked(mill, tmp_path, "int(word * 1e300) > 5", reads).run())
-    assert "worked out with word = •••• (secret), rapid = •••• (secret): a number" in said
+    assert "calculated with word = •••• (secret), rapid = •••• (secret): a number" in said
