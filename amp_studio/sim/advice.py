@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .law import AxisLaw, Source
 from .linear import LinearModel, Margins, axis_model, linear_model
@@ -35,6 +35,11 @@ POINTS = 160
 """Points of the grid for a value that is tried."""
 FURTHEST, HALVINGS = 5, 5
 """Doublings of a value that are tried, and halvings of the last of them."""
+
+INERTIAS = (1.0 / 16.0, 16.0)
+"""Shares of the total inertia within which an axis is tried."""
+STEPS = 8
+"""Steps to each of them."""
 
 POSITION = ("position_gain",)
 VELOCITY = (
@@ -131,7 +136,7 @@ def _sounder(trial: Trial, loops: Loops) -> Iterator[Recommendation]:
         shares = [(share, group) for group in groups if (share := _boundary(trial, group, good))]
         if shares:
             share, group = min(shares, key=lambda found: abs(math.log(found[0])) * len(found[1]))
-            yield from _changed(trial, loops, group, share, _why(loops))
+            yield from _changed(trial, loops, group, share, _why(loops, trial.axis))
             return
 
 
@@ -219,10 +224,40 @@ def _changed(
         yield Recommendation(source.parameter, number, old.unit, f"{why}; {with_it}{assumed}{page}.", price)
 
 
-def _why(loops: Loops) -> str:
+def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
+    """Return between which shares of its total inertia a stable axis stays stable, within INERTIAS; None where it does not
+    matter: a drive with a velocity loop is taken to fit its load.
+    """
+    if axis.machine.velocity_per_output > 0.0:
+        return None
+    return _stable_to(axis, INERTIAS[0]), _stable_to(axis, INERTIAS[1])
+
+
+def _stable_to(axis: AxisLaw, furthest: float) -> float:
+    """Return the last share of the inertia on the way to ``furthest`` with which an axis is stable."""
+    good, bad = 0.0, 0.0
+    for n in range(1, STEPS + 1):
+        if not _is_stable(axis, furthest ** (n / STEPS)):
+            bad = n / STEPS
+            break
+        good = n / STEPS
+    for _ in range(HALVINGS if bad else 0):
+        middle = 0.5 * (good + bad)
+        good, bad = (middle, bad) if _is_stable(axis, furthest**middle) else (good, middle)
+    return float(furthest**good)
+
+
+def _is_stable(axis: AxisLaw, inertia: float) -> bool:
+    machine = replace(axis.machine, acceleration_per_output=axis.machine.acceleration_per_output / inertia)
+    return linear_model(replace(axis, machine=machine)).is_stable()
+
+
+def _why(loops: Loops, axis: AxisLaw) -> str:
     if not loops.inner_sound() and loops.inner is not None:
         state = "has too little margin" if loops.inner_stable else "is not stable"
-        return f"The velocity loop {state}: {_margins(loops.inner)}"
+        ratio = axis.machine.inertia_ratio
+        load = f" with a load of {shown(ratio, digits=3)} times the inertia of the motor" if ratio else ""
+        return f"The velocity loop {state}{load}: {_margins(loops.inner)}"
     if not loops.stable:
         return f"The position loop is not stable: {_margins(loops.outer)}"
     if not _keeps(loops.outer, LEAST[0], LEAST[1]):
@@ -283,4 +318,4 @@ def recommendations(
         if trial.axis.assumed
         else ""
     )
-    return tuple(own), (f"{_why(loops)}. No change of the gains alone gives it enough{raised}.",)
+    return tuple(own), (f"{_why(loops, trial.axis)}. No change of the gains alone gives it enough{raised}.",)

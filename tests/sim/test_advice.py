@@ -11,8 +11,9 @@ import pytest
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 from amp_studio.sim import AxisLaw, Source, address_of, simulate
-from amp_studio.sim.advice import Loops, recommend
-from tests.sim.tiny import tiny
+from amp_studio.sim.advice import Loops, recommend, stable_inertias
+from amp_studio.sim.linear import linear_model, velocity_model
+from tests.sim.tiny import changed, tiny
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -95,3 +96,17 @@ def test_applied_recommendations_make_a_file_sound_again() -> None:
     after = simulate(file, "frequency", "X")
     assert after.alarms == ()
     assert after.result["gain_margin"][0] > 4.0
+
+
+def test_the_inertia_that_an_axis_bears_is_the_margin_of_its_velocity_loop() -> None:
+    """A lighter axis is a higher velocity gain: the loop ends where its gain margin does."""
+    axis = tiny(velocity_rate=800.0, delay=0.0004)
+    least, most = stable_inertias(axis)
+    assert least == pytest.approx(10 ** (-velocity_model(axis).margins().gain / 20), rel=0.03)
+    assert most == 16.0
+    assert linear_model(changed(axis, acceleration_per_output=50.0 / (1.05 * least))).is_stable()
+    assert not linear_model(changed(axis, acceleration_per_output=50.0 / (0.95 * least))).is_stable()
+
+
+def test_the_inertia_is_none_of_the_matter_of_a_drive_with_a_velocity_loop() -> None:
+    assert stable_inertias(tiny(velocity_per_output=10.0, velocity_bandwidth=50.0)) is None

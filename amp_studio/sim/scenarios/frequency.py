@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from amp_studio.sim.advice import stable_inertias
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.linear import LinearModel, Margins, axis_model
@@ -210,6 +211,7 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
     """Return the named figures; the margins are those of the loop that is unstable, where the velocity loop is."""
     inside = loop.inner.margins() if loop.inner else None
     margins = loop.margins if loop.model.is_stable_inside() or inside is None else inside
+    inertias = stable_inertias(loop.axis) if loop.stable else None
     peak = float(_db(loop.model.follows(curve)).max())
     return {
         "bandwidth": (loop.bandwidth if loop.stable else None, "Hz"),
@@ -222,6 +224,8 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "swept_gain_margin": (_swept_gain(swept.opened), "dB"),
         "resonance_peak": (peak if loop.stable else None, "dB"),
         "damping_ratio": (loop.model.least_damping(), ""),
+        "least_stable_inertia": (inertias[0] if inertias else None, ""),
+        "most_stable_inertia": (inertias[1] if inertias else None, ""),
         "velocity_loop_phase_margin": (inside.phase if inside else None, "deg"),
         "velocity_loop_gain_margin": (inside.gain if inside else None, "dB"),
         "velocity_loop_bandwidth": (inside.phase_frequency if inside else None, "Hz"),
