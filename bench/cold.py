@@ -31,6 +31,8 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     bare = median(python[1:])  # a start is judged by it, not in seconds
     yield Measure("--version, cold process", program("--version"), 8 * bare)
     yield Measure("validate, cold process", program("validate", full), 25 * bare)
+    picture = program("simulate", example, "step", "-o", folder / "step.svg")
+    yield Measure("simulate a move and draw it, cold process", picture, 1.0)
     yield Measure("report to PDF, cold process", program("report", full, "-o", folder / "full.pdf"), 3.0)
     paint = [_until_painted(example, settings) for _ in range(times + 1)]
     yield Measure("first paint of the desktop program, cold process", tuple(paint[1:]), 1.5)

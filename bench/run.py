@@ -21,6 +21,7 @@ import exchange
 import machine
 import rules
 import screen
+import sim
 import warm
 from measure import Measure, table
 
@@ -48,6 +49,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from cold.measures(folder, full, example, max(1, times // 2))
     yield from warm.measures(folder, full, example, times)
     yield from rules.measures(folder, full, times)
+    yield from sim.measures(folder, times)
     yield from screen.measures(folder, full, times)
     yield from exchange.measures(folder, example, max(1, times // 3))
 

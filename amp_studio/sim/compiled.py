@@ -26,8 +26,9 @@ Run = Callable[..., int]
 PLAIN_STEPS = 100_000
 """Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation.md)."""
 
-OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy"}
-"""Sums are computed in the written order; a division does not look whether it is by 0."""
+OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
+"""Sums are computed in the written order; a division does not look whether it is by 0; arrays are not counted (``_nrt``), as
+nothing here makes one: counting them at every call took more time than a law."""
 
 _loaded: set[tuple[Sample, Sample | None]] = set()
 

@@ -150,7 +150,8 @@ def run(
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])
     monitors = int(timing[MONITORS])
-    late = m[DELAY_STEPS] > 0.0 or m[DELAY_SHARE] > 0.0
+    delay, part, slot = int(m[DELAY_STEPS]), m[DELAY_SHARE], 0
+    late = delay > 0 or part > 0.0
     on_load = m[LOAD_SENSOR] == 1.0
     motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
     load, torque, error_sum = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5]
@@ -228,7 +229,10 @@ def run(
                     most = rows.shape[0]
                     brake(m)
                 since += 1
-                held = delayed(m, line, output) if late else output
+                held = output
+                if late:
+                    held = delayed(line, slot, delay, part, output)
+                    slot = slot + 1 if slot + 1 < len(line) else 0
                 motor_position, motor, load_position, load, torque, error_sum = advance(
                     m, motor_position, motor, load_position, load, torque, error_sum, held, h
                 )

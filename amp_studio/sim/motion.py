@@ -17,6 +17,8 @@ from .machine import DELAY_STEPS, machine_array
 from .ramps import end_of
 from .signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 
+IO, STATE, TIMING = 2, 4, 6
+"""Places of vectors that `prepared` returns."""
 Engine = Literal["auto", "plain", "compiled"]
 
 LONGEST_STEP = 0.25e-3
@@ -93,27 +95,13 @@ def run_axis(
 
         axis = axis.after(axis, lead)
     samples, substeps = steps(axis, refine)
-    step, stride = axis.servo_period / samples / substeps, substeps if thin else 1
-    if not (until.duration / step <= MOST_STEPS and until.duration / step / stride <= MOST_ROWS):
-        longest = min(MOST_STEPS, MOST_ROWS * stride) * step
-        raise SimulationError(
-            f"The move takes about {until.duration:.6g} s, more than can be simulated ({longest:.6g} s)."
-            " Give a shorter distance or a higher feedrate"
-        )
-    machine, timing = machine_array(axis.machine, step), _timing(axis, until, samples, substeps, step)
-    timing[kernel.SHARE_RATE], timing[kernel.STRIDE] = share_rate, float(stride)
-    timing[kernel.FORWARD], timing[kernel.COAST_TIME] = float(feed_forward), coast
-    timing[kernel.EMERGENCY] = emergency
-    driven = max(1, math.ceil((until.duration / step - 1e-6) / stride))
-    timing[kernel.DRIVEN_ROWS] = float(driven)
-    io = [0.0] * (MONITOR + len(axis.monitors))
-    io[FEED_SHARE], io[MODE] = 1.0, mode
-    x, line = [0.0] * kernel.STATE_SIZE, [0.0] * (int(machine[DELAY_STEPS]) + 3)
-    x[kernel.SHARE], x[kernel.ENDED], x[kernel.ALARM_ROW] = 1.0, -1.0, -1.0
-    rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
-    parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
-    vectors = [parameters, state, io, machine, x, line, timing, profile]
-    expected = min(until.duration, end_of(profile) + until.rest_time) / step
+    stride = substeps if thin else 1
+    vectors, rows = prepared(axis, profile, until, stride, refine, coast)
+    io, timing = vectors[IO], vectors[TIMING]
+    io[MODE] = mode
+    timing[kernel.SHARE_RATE], timing[kernel.FORWARD] = share_rate, float(feed_forward)
+    timing[kernel.COAST_TIME], timing[kernel.EMERGENCY] = coast, emergency
+    expected = min(until.duration, end_of(profile) + until.rest_time) / timing[kernel.STEP]
     filled, io, x = _run(axis, vectors, rows, engine, expected)
     if not np.isfinite(rows[:filled]).all():
         raise SimulationError(
@@ -129,14 +117,38 @@ def run_axis(
     )
 
 
-def _timing(axis: AxisLaw, until: Until, samples: int, substeps: int, step: float) -> list[float]:
+def prepared(
+    axis: AxisLaw, profile: list[float], until: Until, stride: int, refine: int = 1, coast: float = 0.0
+) -> tuple[list[list[float]], npt.NDArray[np.float64]]:
+    """Return the vectors of `kernel.run` for an axis at rest, and room for its rows, one in ``stride`` physics steps.
+
+    Raises SimulationError where the run would take too long.
+    """
+    samples, substeps = steps(axis, refine)
+    step = axis.servo_period / samples / substeps
+    if not (until.duration / step <= MOST_STEPS and until.duration / step / stride <= MOST_ROWS):
+        longest = min(MOST_STEPS, MOST_ROWS * stride) * step
+        raise SimulationError(
+            f"The move takes about {until.duration:.6g} s, more than can be simulated ({longest:.6g} s)."
+            " Give a shorter distance or a higher feedrate"
+        )
+    driven = max(1, math.ceil((until.duration / step - 1e-6) / stride))
     timing = [0.0] * kernel.TIMING_SIZE
     timing[kernel.SERVO_PERIOD], timing[kernel.STEP] = axis.servo_period, step
     timing[kernel.VELOCITY_SAMPLES], timing[kernel.SUBSTEPS] = float(samples), float(substeps)
+    timing[kernel.STRIDE], timing[kernel.MONITORS] = float(stride), float(len(axis.monitors))
     timing[kernel.REST_BAND], timing[kernel.REST_TIME] = until.rest_band, until.rest_time
     timing[kernel.IN_POSITION_BAND] = max(axis.inposition_band, 1.5 * axis.machine.position_count)
-    timing[kernel.SETTLE_TIME], timing[kernel.MONITORS] = until.settle_time, float(len(axis.monitors))
-    return timing
+    timing[kernel.SETTLE_TIME], timing[kernel.DRIVEN_ROWS] = until.settle_time, float(driven)
+    timing[kernel.SHARE_RATE], timing[kernel.EMERGENCY], timing[kernel.FORWARD] = math.inf, math.inf, 1.0
+    io, x = [0.0] * (MONITOR + len(axis.monitors)), [0.0] * kernel.STATE_SIZE
+    io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
+    x[kernel.SHARE], x[kernel.ENDED], x[kernel.ALARM_ROW] = 1.0, -1.0, -1.0
+    machine = machine_array(axis.machine, step)
+    line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
+    parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
+    rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
+    return [parameters, state, io, machine, x, line, timing, profile], rows
 
 
 def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
@@ -160,12 +172,12 @@ def _run(
     if machine_code and not jit_is_off():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
         filled = compiled(*law)(*arrays, rows)
-        return filled, arrays[2].tolist(), arrays[4].tolist()
+        return filled, arrays[IO].tolist(), arrays[STATE].tolist()
     try:
         filled = plain(*law)(*vectors, rows)
     except OverflowError:  # a count of a position without bounds
         raise SimulationError(f"Axis {axis.axis} runs away: its loop is not stable") from None
-    return filled, vectors[2], vectors[4]
+    return filled, vectors[IO], vectors[STATE]
 
 
 __all__ = ["DIVERGED", "Engine", "Motion", "Until", "run_axis", "steps"]

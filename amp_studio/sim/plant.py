@@ -16,8 +16,6 @@ from .machine import (
     BRAKE,
     COULOMB,
     DAMPING,
-    DELAY_SHARE,
-    DELAY_STEPS,
     ELASTIC_KICK,
     GRAVITY,
     HALF_GAP,
@@ -46,22 +44,20 @@ State = tuple[float, float, float, float, float, float]
 error in a drive with a velocity loop (u)."""
 
 
-def delayed(m: Vector, line: Vector, output: float) -> float:
+def delayed(line: Vector, slot: int, steps: int, share: float, output: float) -> float:
     """Return the output that reaches the drive in this step; the mean where a step sees two of them.
 
-    ``line`` are the outputs of the last steps, then the place of the next one; of length DELAY_STEPS + 3.
+    ``line`` are the outputs of the last steps, ``slot`` the place of this one; the delay is ``steps`` physics steps and a
+    ``share`` of one more.
     """
-    last = len(line) - 1
-    slot = int(line[last])
     line[slot] = output
-    newer = slot - int(m[DELAY_STEPS])
+    newer = slot - steps
     if newer < 0:
-        newer += last
+        newer += len(line)
     older = newer - 1
     if older < 0:
-        older += last
-    line[last] = float(slot + 1) if slot + 1 < last else 0.0
-    return (1.0 - m[DELAY_SHARE]) * line[newer] + m[DELAY_SHARE] * line[older]
+        older += len(line)
+    return (1.0 - share) * line[newer] + share * line[older]
 
 
 def wanted_torque(m: Vector, output: float, speed: float, error_sum: float, h: float) -> tuple[float, float]:

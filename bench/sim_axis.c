@@ -1,0 +1,85 @@
+/* The axis of sim.py once more, as a person would write it in C: the same law, machine and command, row by row. */
+#include <math.h>
+
+typedef struct { double keep, kick, coulomb, stiction; } Mass;
+
+static double after(const Mass *mass, double speed, double push) {
+    double dry, next;
+    if (speed == 0.0) {
+        if (fabs(push) <= mass->stiction) return 0.0;
+        dry = copysign(mass->coulomb, push);
+    } else {
+        dry = copysign(mass->coulomb, speed);
+    }
+    next = mass->keep * speed + mass->kick * (push - dry);
+    return next * dry < 0.0 ? 0.0 : next;
+}
+
+static double counted(double position, double count, double counts) {
+    return floor(position * counts + 0.5) * count;
+}
+
+static void command(const double *piece, double time, double *position, double *velocity) {
+    double t = time - piece[0], v = piece[3], a = piece[4], j = piece[5];
+    *position = piece[2] + t * (v + t * (0.5 * a + t * j * (1.0 / 6.0)));
+    *velocity = v + t * (a + 0.5 * t * j);
+}
+
+/* p: gain, velocity gain, integral gain, limit, velocity rate; m: as machine.py lays it out; rows of 9 figures. */
+long run(const double *p, const double *m, const double *profile, double period, long samples, long substeps,
+         long stride, long most, double *rows) {
+    Mass motor_mass = {m[4], m[5], m[6], m[7]}, load_mass = {m[8], m[9], m[10], m[11]};
+    double xm = 0, vm = 0, xl = 0, vl = 0, torque = 0, sum = 0, last = 0, output = 0, line[16] = {0};
+    long slot = 0, delay = (long)m[22], length = delay + 2, row = 0, since = stride;
+    double h = period / (double)(samples * substeps), clock = 0;
+    for (long n = 0;; n++, clock += period) {
+        double start = (double)n * period, now, velocity, wanted;
+        while (clock >= profile[0] + profile[1]) profile += 8;
+        command(profile, clock, &now, &velocity);
+        wanted = p[0] * (now - counted(xl, m[31], m[35])) + velocity;
+        for (long k = 0; k < samples; k++) {
+            double motor = counted(xm, m[30], m[34]), error = wanted - (motor - last) * p[4];
+            last = motor;
+            output = p[1] * error + sum;
+            if (output > p[3]) output = p[3];
+            else if (output < -p[3]) output = -p[3];
+            else sum += p[2] * error;
+            for (long j = 0; j < substeps; j++) {
+                if (since == stride) {
+                    double *r, at = (double)(k * substeps + j) * h;
+                    const double *piece = profile;
+                    if (row >= most) return row;
+                    r = rows + 9 * row++;
+                    since = 0;
+                    while (clock + at >= piece[0] + piece[1]) piece += 8;
+                    command(piece, clock + at, &now, &velocity);
+                    r[0] = start + at, r[1] = now, r[2] = velocity, r[3] = xl;
+                    r[4] = counted(xl, m[31], m[35]), r[5] = now - r[4], r[6] = vl, r[7] = output, r[8] = torque;
+                }
+                since++;
+                line[slot] = output;
+                long newer = slot >= delay ? slot - delay : slot - delay + length;
+                long older = newer > 0 ? newer - 1 : length - 1;
+                slot = slot + 1 < length ? slot + 1 : 0;
+                double target = (1.0 - m[23]) * line[newer] + m[23] * line[older];
+                if (target > m[25]) target = m[25];
+                else if (target < -m[26]) target = -m[26];
+                double mean = target + (torque - target) * m[21];
+                torque = target + (torque - target) * m[20];
+                xm += 0.5 * h * vm;
+                xl += 0.5 * h * vl;
+                double weight = -m[18] - m[19] * xl, twist = xm - xl, coupling = 0.0;
+                if (fabs(twist) > m[14]) {
+                    double elastic = m[12] * (twist - copysign(m[14], twist));
+                    double kick = m[15] * mean - m[16] * weight - m[17] * elastic;
+                    coupling = elastic + m[13] * ((vm - vl) + kick);
+                    if (m[14] > 0.0 && coupling * elastic < 0.0) coupling = 0.0;
+                }
+                vm = after(&motor_mass, vm, mean - coupling);
+                vl = after(&load_mass, vl, coupling + weight);
+                xm += 0.5 * h * vm;
+                xl += 0.5 * h * vl;
+            }
+        }
+    }
+}
