@@ -48,8 +48,6 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     import numba
 
     own = _own(position_sample, velocity_sample)
-    described = [repr(OPTIONS), *_described(kernel.run, own, {})]
-    digest = hashlib.sha256("\n".join(described).encode()).hexdigest()[:16]
     jitted: dict[FunctionType, Any] = {}
 
     def machine_code(function: FunctionType) -> Any:
@@ -60,12 +58,18 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
 
     called = {name: machine_code(each) for name, each in _called(kernel.run, own).items()}
     run = _copy(kernel.run, called)
-    run.__qualname__ = run.__name__ = f"run_{digest}"
+    run.__qualname__ = run.__name__ = kernel_name(position_sample, velocity_sample)
     vector = numba.float64[::1]
     signature = numba.int64(*[vector] * 8, numba.float64[:, ::1])
     found = cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
     _loaded.add((position_sample, velocity_sample))
     return found
+
+
+def kernel_name(position_sample: Sample, velocity_sample: Sample | None) -> str:
+    """Return the name of the machine code of a law: another one as soon as any of its code or constants is another."""
+    described = [repr(OPTIONS), *_described(kernel.run, _own(position_sample, velocity_sample), {})]
+    return f"run_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
 
 def jit_is_off() -> bool:

@@ -13,6 +13,8 @@ TARGETS = {
     "--version, cold process",
     "validate, cold process",
     "report to PDF, cold process",
+    "simulate a move and draw it, cold process",
+    "10 s of an axis with all non-linear parts",
     "first paint of the desktop program, cold process",
     "load the schema from its cache",
     "the loaded schema in memory",

@@ -1,0 +1,56 @@
+"""Machine code of a law: found again in later processes, and never that of another law."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from types import FunctionType
+
+import pytest
+
+from amp_studio.sim.arrays import Vector
+from amp_studio.sim.compiled import jit_is_off, kernel_name
+from tests.sim import tiny as law
+
+LIMIT = 5.0
+
+
+def limited(value: float) -> float:
+    return min(value, LIMIT)
+
+
+def sample(p: Vector, s: Vector, io: Vector) -> None:
+    io[6] = limited(p[0])
+
+
+def with_globals(function: FunctionType, **names: object) -> FunctionType:
+    return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
+
+
+def test_the_same_law_has_the_same_name_in_every_process() -> None:
+    script = (
+        "from amp_studio.sim.compiled import kernel_name; from tests.sim import tiny;"
+        "print(kernel_name(tiny.position_sample, tiny.velocity_sample))"
+    )
+    told = subprocess.run(
+        [sys.executable, "-c", script],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"PYTHONPATH": ".", "PYTHONHASHSEED": "7"},
+    )
+    assert told.stdout.strip() == kernel_name(law.position_sample, law.velocity_sample)
+
+
+def test_another_constant_or_function_far_below_makes_another_name() -> None:
+    name = kernel_name(sample, None)
+    assert kernel_name(with_globals(sample), None) == name
+    assert kernel_name(with_globals(sample, limited=with_globals(limited, LIMIT=6.0)), None) != name
+    assert kernel_name(law.position_sample, None) != name
+    assert kernel_name(sample, sample) != name
+
+
+def test_the_environment_can_ask_for_plain_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    for value, off in (("", False), ("0", False), ("1", True)):
+        monkeypatch.setenv("NUMBA_DISABLE_JIT", value)
+        assert jit_is_off() is off
