@@ -12,11 +12,20 @@ static double after(const Mass *mass, double speed, double push) {
         dry = copysign(mass->coulomb, speed);
     }
     next = mass->keep * speed + mass->kick * (push - dry);
-    return next * dry < 0.0 ? 0.0 : next;
+    if (next * dry < 0.0) return fabs(push) > mass->stiction ? next * (push + dry) / (push - dry) : 0.0;
+    return next;
 }
 
 static double counted(double position, double count, double counts) {
     return floor(position * counts + 0.5) * count;
+}
+
+static double stretch(double gap, double twist, double half) {
+    double to, from;
+    if (fabs(twist) - fabs(half) >= gap) return twist - copysign(gap, twist);
+    if (fabs(twist) + fabs(half) <= gap) return 0.0;
+    to = fmax(fabs(twist + half) - gap, 0.0), from = fmax(fabs(twist - half) - gap, 0.0);
+    return 0.25 * (to * to - from * from) / half;
 }
 
 static void command(const double *piece, double time, double *position, double *velocity) {
@@ -68,9 +77,10 @@ long run(const double *p, const double *m, const double *profile, double period,
                 torque = target + (torque - target) * m[20];
                 xm += 0.5 * h * vm;
                 xl += 0.5 * h * vl;
-                double weight = -m[18] - m[19] * xl, twist = xm - xl, coupling = 0.0;
-                if (fabs(twist) > m[14]) {
-                    double elastic = m[12] * (twist - copysign(m[14], twist));
+                double weight = -m[18] - m[19] * xl, coupling = 0.0;
+                double stretched = stretch(m[14], xm - xl, 0.5 * h * (vm - vl));
+                if (stretched != 0.0) {
+                    double elastic = m[12] * stretched;
                     double kick = m[15] * mean - m[16] * weight - m[17] * elastic;
                     coupling = elastic + m[13] * ((vm - vl) + kick);
                     if (m[14] > 0.0 && coupling * elastic < 0.0) coupling = 0.0;

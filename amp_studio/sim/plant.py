@@ -78,7 +78,8 @@ def wanted_torque(m: Vector, output: float, speed: float, error_sum: float, h: f
 def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
     """Return the speed in u/s after a step under the torque ``push`` and friction, of the mass whose figures begin at ``k``.
 
-    A mass at rest stays there until the push is above the static friction; one whose speed changes its sign is at rest.
+    A mass at rest stays there until the push is above the static friction; one whose speed changes its sign comes to rest
+    unless the push is above it: then friction turns with the speed, in the part of the step that is left.
     """
     if speed == 0.0:
         if abs(push) <= m[k + STATIC]:
@@ -88,7 +89,7 @@ def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
         dry = math.copysign(m[k + COULOMB], speed)
     after = m[k + KEEP] * speed + m[k + KICK] * (push - dry)
     if after * dry < 0.0:
-        return 0.0
+        return after * (push + dry) / (push - dry) if abs(push) > m[k + STATIC] else 0.0
     return after
 
 
@@ -99,14 +100,33 @@ def brake(m: Vector) -> None:
         m[k + STATIC] += m[BRAKE]
 
 
-def coupling_torque(m: Vector, twist: float, difference: float, torque: float, weight: float) -> float:
-    """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load.
+def stretch(gap: float, twist: float, half: float) -> float:
+    """Return the mean stretch of a spring with ``gap`` u of play to each side, in u, over a step that takes its twist from
+    ``twist - half`` to ``twist + half``.
+
+    The mean of the whole way, not the stretch in its middle: so contact takes up and gives back the same energy, wherever in a
+    step it begins.
+    """
+    if abs(twist) - abs(half) >= gap:
+        return twist - math.copysign(gap, twist)
+    if abs(twist) + abs(half) <= gap:
+        return 0.0
+    after, before = max(abs(twist + half) - gap, 0.0), max(abs(twist - half) - gap, 0.0)
+    return 0.25 * (after * after - before * before) / half
+
+
+def coupling_torque(
+    m: Vector, twist: float, half: float, difference: float, torque: float, weight: float
+) -> float:
+    """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load, ``half`` the change of the
+    twist in half a step.
 
     The damping acts on the mean difference of speeds in the step, so that it takes energy out at any step.
     """
-    if abs(twist) <= m[HALF_GAP]:
+    stretched = stretch(m[HALF_GAP], twist, half)
+    if stretched == 0.0:
         return 0.0
-    elastic = m[STIFFNESS] * (twist - math.copysign(m[HALF_GAP], twist))
+    elastic = m[STIFFNESS] * stretched
     kick = m[MOTOR_KICK] * torque - m[LOAD_KICK] * weight - m[ELASTIC_KICK] * elastic
     coupling = elastic + m[DAMPING] * (difference + kick)
     if m[HALF_GAP] > 0.0 and coupling * elastic < 0.0:
@@ -137,7 +157,8 @@ def advance(
         return motor_position, motor, motor_position, motor, torque, error_sum
     load_position += 0.5 * h * load
     weight = -m[GRAVITY] - m[SPRING] * load_position
-    coupling = coupling_torque(m, motor_position - load_position, motor - load, mean, weight)
+    twist, difference = motor_position - load_position, motor - load
+    coupling = coupling_torque(m, twist, 0.5 * h * difference, difference, mean, weight)
     motor = speed_after(m, MOTOR, motor, mean - coupling)
     load = speed_after(m, LOAD, load, coupling + weight)
     motor_position += 0.5 * h * motor

@@ -139,15 +139,16 @@ def test_energy_never_appears_from_nowhere(values: dict[str, float], output: flo
     have = np.array([energy(machine, state) for state in states])
     scale = float(np.max(np.abs(have)) + np.max(np.abs(work)) + 1e-9)
     # The leapfrog scheme lets the energy of a spring go to and fro within its own order, and never lets it drift.
-    assert np.max(have - have[0] - work) <= 0.03 * scale
+    assert np.max(have - have[0] - work) <= 0.01 * scale
 
 
 @given(figures)
 @settings(max_examples=15, deadline=None)
 def test_a_machine_left_alone_ends_with_less_energy_than_it_had(values: dict[str, float]) -> None:
     machine = Machine(**values)
-    states = moved(machine, 1000, 0.0, (0.3, 20.0, 0.2, -10.0, 0.0, 0.0))
-    assert energy(machine, states[-1]) <= energy(machine, states[0]) * 1.05 + 1e-9
+    start = (0.3, 20.0, 0.2, -10.0, 0.0, 0.0) if machine.two_masses else (0.3, 20.0, 0.3, 20.0, 0.0, 0.0)
+    states = moved(machine, 1000, 0.0, start)
+    assert energy(machine, states[-1]) <= energy(machine, states[0]) * 1.01 + 1e-9
 
 
 FULL = {
@@ -241,3 +242,11 @@ def test_an_impossible_machine_is_refused_in_a_sentence(figure: str, value: floa
         SimulationError, match=figure.partition("_")[0].capitalize()[:5] + "|motor|acceleration"
     ):
         Machine(**{"acceleration_per_output": 50.0, figure: value})
+
+
+def test_contact_across_a_gap_takes_up_and_gives_back_the_same_energy() -> None:
+    machine = Machine(1.0, backlash=0.01, coulomb_friction=5.0, gravity=-3.0, spring=0.5, damping=0.0)
+    states = moved(machine, 1000, 0.0, (0.3, 20.0, 0.2, -10.0, 0.0, 0.0))
+    have = [energy(machine, state) for state in states]
+    assert max(b - a for a, b in pairwise(have)) < 0.02 * have[0]
+    assert have[-1] <= have[0]
