@@ -18,10 +18,11 @@ from pydantic import ValidationError
 from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
 from amp_studio.files.atomic import SaveError
 from amp_studio.files.lock import EditLock, InUseError
+from amp_studio.files.storage import read_content
 from amp_studio.schema import DatabaseError
 from amp_studio.schema.compiled_cache import read_cached, write_cached
 from amp_studio.schema.load import Compiled, compile_family
-from amp_studio.transfer.client.kept import CopyError, keep_image, open_copy
+from amp_studio.transfer.client.kept import CopyError, digest_path, keep_image, open_copy
 from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.record import Identity, StateError, to_json, written
 from amp_studio.transfer.house.message import Commit, Committed, OpenDownload
@@ -120,6 +121,7 @@ def fuzz_copies(folder: Path, seed: int, count: int) -> list[str]:
         copy = open_copy(kept)
         assert copy.image == kept.read_bytes()
         assert copy.is_checked
+        assert digest_path(kept).read_bytes()[:64].lower() == hashlib.sha256(copy.image).hexdigest().encode()
         copy = open_copy(readable)
         assert not copy.is_kept or copy.image == kept.read_bytes()
 
@@ -136,6 +138,7 @@ def fuzz_backups(folder: Path, seed: int, count: int) -> list[str]:
         path_before, before = path.read_bytes(), backup.read_bytes()
         recover_backup(path)
         assert (path.read_bytes(), backup.read_bytes()) == (before, path_before)
+        read_content(path, before)
 
     return _one_damaged(folder, seed, count, look, (ParameterFileError,))
 
