@@ -202,10 +202,11 @@ def test_no_value_whatever_makes_it_raise(name: str, a_machine) -> None:
     for address in file.addresses():
         if EVERY_EDIT or name != "lathe" or address[0] not in on_the_mill:
             one_of_each.setdefault(address[0], []).append(address)
-    for addresses in one_of_each.values():
+    for n, addresses in enumerate(one_of_each.values()):
         address = addresses[min(3, len(addresses) - 1)]
         before = file.get(address)
-        for value in nasty(file.schema.parameters[address[0]], file.schema):
+        values = nasty(file.schema.parameters[address[0]], file.schema)
+        for value in values if EVERY_EDIT else values[n % 3 :: 3]:  # each in its turn
             file.set(address, value)
             assert all(finding.message for finding in validator.update([address]))
         file.set(address, before)
