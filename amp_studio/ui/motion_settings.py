@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QScrollArea, QWidget
 
 from amp_studio.schema import canonical, dimension, shown, unit_named
 from amp_studio.schema.values import read_number
@@ -110,3 +111,23 @@ def _read(name: str, text: str, unit: str) -> float:
 def _title(name: str) -> str:
     words = name.partition(".")[2].replace("_", " ")
     return "Ramp" if name == MODE else words[:1].upper() + words[1:]
+
+
+def scrolled(form: QWidget) -> QScrollArea:
+    """Return a form that can be scrolled."""
+    area = QScrollArea()
+    area.setFrameShape(QScrollArea.Shape.NoFrame)
+    area.setWidgetResizable(True)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setWidget(form)
+    return area
+
+
+def refill(box: QComboBox, entries: Sequence[tuple[str, str]], wanted: str) -> None:
+    """Fill a box without a signal and choose an entry by its key, else the first."""
+    box.blockSignals(True)
+    box.clear()
+    for key, title in entries:
+        box.addItem(title, key)
+    box.setCurrentIndex(max(box.findData(wanted), 0))
+    box.blockSignals(False)

@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QSplitter,
     QTabWidget,
     QVBoxLayout,
@@ -42,7 +41,7 @@ from amp_studio.sim.picture import picture_of, settling_span
 
 from .motion_plot import MotionPlot
 from .motion_results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
-from .motion_settings import SettingsForm
+from .motion_settings import SettingsForm, refill, scrolled
 from .pages import LINK
 from .task import Progress, Task
 from .theme import severity_ink
@@ -122,7 +121,7 @@ class MotionView(QWidget):
         )
         note.setWordWrap(True)
         column.addWidget(note)
-        column.addWidget(_scrolled(self.machine))
+        column.addWidget(scrolled(self.machine))
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         pages = (
@@ -136,7 +135,7 @@ class MotionView(QWidget):
         right = QVBoxLayout(side)
         right.setContentsMargins(0, 0, 0, 0)
         right.addLayout(form)
-        self._above = _scrolled(self.settings)
+        self._above = scrolled(self.settings)
         right.addWidget(self._above)
         right.addWidget(self.tabs, 1)
         left = QWidget()
@@ -174,12 +173,12 @@ class MotionView(QWidget):
         file = self._workspace.file
         found, self._impossible = _possible(file)
         titled = [(axis, axis_title(file, axis) if file.schema.family.axes else axis) for axis in found.axes]
-        _refill(
+        refill(
             self.scenario,
             [(each.name, each.name.capitalize()) for each in found.scenarios],
             str(self.scenario.currentData() or "step"),
         )
-        _refill(self.axis, titled, wanted)
+        refill(self.axis, titled, wanted)
         chosen = next((each for each in found.scenarios if each.name == self.scenario.currentData()), None)
         others = [each for each in titled if each[0] != self.axis.currentData()]
         self.scenario.setToolTip(chosen.title if chosen else "")
@@ -217,7 +216,7 @@ class MotionView(QWidget):
             self._again = True
             return
         if self._impossible is not None:
-            self._fail(self._impossible)
+            self._stop(self._impossible)
             return
         try:
             settings = {**self.settings.values(), **self.machine.values()}
@@ -236,7 +235,7 @@ class MotionView(QWidget):
         self.summary.setText("Simulating …")
         self._task = Task(work)
         self._task.done.connect(self._show_result)
-        self._task.failed.connect(self._fail)
+        self._task.failed.connect(self._stop)
         self._task.finished.connect(self._ended)
         self._task.begin()
 
@@ -245,6 +244,18 @@ class MotionView(QWidget):
         if self._again:
             self._again = False
             self.run()
+
+    def _stop(self, error: Exception) -> None:
+        """Show why there is no trace, and no old one that is not true any more."""
+        self.trace = None
+        self.plot.clear_picture()
+        self.figures.clear()
+        self.assumptions.clear()
+        self.recommendations.show_all(self._workspace.file.schema, (), self._may_apply)
+        self.tabs.setTabText(1, "Recommended")
+        for button in (self.save_button, self.settling, self.all_of_it, self.keep):
+            button.setEnabled(False)
+        self._fail(error)
 
     def _fail(self, error: Exception) -> None:
         """Show what is true, with a way to the parameter that has to be set."""
@@ -354,7 +365,7 @@ class MotionView(QWidget):
         """Ignore the result of a run that has not finished."""
         if self._task is not None:
             self._task.done.disconnect(self._show_result)
-            self._task.failed.disconnect(self._fail)
+            self._task.failed.disconnect(self._stop)
             self._task.finished.disconnect(self._ended)
         super().closeEvent(event)
 
@@ -366,23 +377,3 @@ def _possible(file: ParameterFile) -> tuple[Listing, SimulationError | None]:
     except SimulationError as error:
         return Listing((), (), {}), error
     return found, None if found.axes else SimulationError(law_of(file.schema.family.family).without_axes)
-
-
-def _scrolled(form: QWidget) -> QScrollArea:
-    """Return a form that can be scrolled."""
-    area = QScrollArea()
-    area.setFrameShape(QScrollArea.Shape.NoFrame)
-    area.setWidgetResizable(True)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    area.setWidget(form)
-    return area
-
-
-def _refill(box: QComboBox, entries: Sequence[tuple[str, str]], wanted: str) -> None:
-    """Fill a box without a signal and choose an entry by its key, else the first."""
-    box.blockSignals(True)
-    box.clear()
-    for key, title in entries:
-        box.addItem(title, key)
-    box.setCurrentIndex(max(box.findData(wanted), 0))
-    box.blockSignals(False)

@@ -10,9 +10,11 @@ from PySide6.QtCore import QUrl
 from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
+from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.sim import SCENARIOS, Recommendation
+from amp_studio.sim import SCENARIOS, Recommendation, Trace, simulate
 from amp_studio.sim.picture import picture_of
+from amp_studio.ui import motion_view
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion_plot import MotionPlot
 from amp_studio.ui.motion_view import MotionView
@@ -20,6 +22,21 @@ from amp_studio.ui.task import Task
 from tests.sim.tiny import tiny
 
 from .conftest import WAIT_MS, action
+
+_TRACES: dict[tuple[object, ...], Trace] = {}
+
+
+@pytest.fixture(autouse=True)
+def each_run_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Simulate the same values with the same settings once for all tests."""
+
+    def remembered(file: ParameterFile, scenario: str, axis: str, settings: dict[str, float | str]) -> Trace:
+        key = (scenario, axis, *settings.items(), *file.values.items())
+        if key not in _TRACES:
+            _TRACES[key] = simulate(file, scenario, axis, settings)
+        return _TRACES[key]
+
+    monkeypatch.setattr(motion_view, "simulate", remembered)
 
 
 @pytest.fixture
@@ -127,6 +144,7 @@ def test_what_cannot_be_simulated_is_shown_with_a_way_to_what_has_to_be_set(
     window.workspace.edit("gain", {("servo.initial_gain", "2"): None})
     settled(view, qtbot)
     assert 'href="param:servo.initial_gain"' in view.summary.text()
+    assert (view.trace, view.plot.picture, view.save_button.isEnabled()) == (None, None, False)
     view.summary.linkActivated.emit("param:servo.initial_gain")
     assert window.selected() == ("servo.initial_gain", "2")
 
