@@ -94,6 +94,12 @@ def test_a_file_with_errors_elsewhere_is_said_too(mill: ParameterFile) -> None:
     assert "other error" in doubt
 
 
+def test_a_value_that_is_not_set_is_said_where_the_axis_would_have_used_it(mill: ParameterFile) -> None:
+    mill.set(mill.find("servo.torque_offset@1"), None)
+    (doubt,) = simulate(mill, "step", "1").doubts
+    assert doubt.startswith("Not set, and simulated as if there were none: Torque Offset Percentage")
+
+
 @pytest.mark.parametrize(
     ("setting", "value"),
     [
