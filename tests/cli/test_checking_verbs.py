@@ -358,6 +358,15 @@ def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, argumen
     assert before == folder()
 
 
+def test_a_recommendation_of_a_simulation_is_what_set_reads(amp, tmp_path: Path) -> None:
+    path = tmp_path / "mill.amp"
+    path.write_bytes((Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp").read_bytes())
+    (advice,) = amp("simulate", path, "step", "--json").json["advice"]
+    assert advice["price"]
+    assert amp("set", path, f"{advice['param']}={advice['value']}").code == 0
+    assert amp("simulate", path, "step", "--json").json["advice"] == []
+
+
 def test_a_changed_value_is_drawn_over_the_one_of_the_file(amp, mill: Path, tmp_path: Path) -> None:
     amp("set", mill, "1030=sercos", "1031=digital")
     for name, changed in (("plain", ()), ("changed", ("--set", "servo.initial_gain@1=0.98"))):
