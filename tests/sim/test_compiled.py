@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from types import FunctionType
+from types import FunctionType, SimpleNamespace
 
+import numpy as np
 import pytest
 
 from amp_studio.sim.arrays import Vector
-from amp_studio.sim.compiled import jit_is_off, kernel_name
+from amp_studio.sim.compiled import compiled, jit_is_off, kernel_name
 from tests.sim import tiny as law
 
 LIMIT = 5.0
@@ -54,3 +55,25 @@ def test_the_environment_can_ask_for_plain_python(monkeypatch: pytest.MonkeyPatc
     for value, off in (("", False), ("0", False), ("1", True)):
         monkeypatch.setenv("NUMBA_DISABLE_JIT", value)
         assert jit_is_off() is off
+
+
+def test_machine_code_that_can_be_stored_nowhere_is_used_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    stored = []
+
+    def njit(first: object, *, cache: bool = False, **_options: object) -> object:
+        def jitted(function: FunctionType) -> FunctionType:
+            stored.append(cache)
+            if cache:
+                raise RuntimeError("cannot cache function: no locator available")
+            return function
+
+        return first if isinstance(first, FunctionType) else jitted
+
+    numbers = SimpleNamespace(
+        njit=njit, float64=np.empty((1, 1), dtype=object), int64=lambda *_types: "signature"
+    )
+    monkeypatch.setitem(sys.modules, "numba", numbers)
+    assert compiled(with_globals(sample), None).__name__.startswith("run_")
+    assert stored == [True, False]
