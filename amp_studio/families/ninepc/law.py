@@ -34,6 +34,9 @@ GAIN, BREAK_POINT, BREAK_RATIO = "servo.initial_gain", "servo.gain_break_point",
 FEED_FORWARD, BAND = "servo.feed_forward", "servo.inposition_band"
 SUPPRESSION, EXCESS, REVERSAL = "servo.feedrate_suppression", "servo.excess_error", "servo.reversal_error"
 
+LONGEST_CYCLE = 1000.0
+"""ms; 30 is the longest one printed (7-4)."""
+
 SETTINGS = {
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
     "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
@@ -181,6 +184,9 @@ def _common(
     """Return what every kind of axis has, as fields of AxisLaw."""
     said = notes if notes is not None else []
     cycle = above_zero(read, CYCLE, everywhere=True)
+    demand(
+        read, CYCLE, cycle, cycle <= LONGEST_CYCLE, f"must be {LONGEST_CYCLE:g} ms or less", everywhere=True
+    )
     ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, said)
     rapid = if_set(master or read, RAPID)
     said += [notes_of.SAMPLED, notes_of.RAMPS]

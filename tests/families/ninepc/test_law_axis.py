@@ -105,6 +105,7 @@ def test_a_needed_parameter_that_is_not_set_is_named(axis: Axis, parameter: str)
         ({"servo.max_torque_positive": math.inf}, "max_torque_positive@1 is inf, which no machine has"),
         ({"servo.torque_filter": 0.0}, "servo.torque_filter@1 is 0; it must be above 0"),
         ({"servo.sercos_cycle": 0.0}, "servo.sercos_cycle is 0; it must be above 0"),
+        ({"servo.sercos_cycle": 1e6}, "servo.sercos_cycle is 1e+06; it must be 1000 ms or less"),
         ({"accdec.linear_acceleration": -1.0}, "linear_acceleration@1 is -1; it must not be negative"),
         (
             {"servo.load_inertia_ratio": "r9"},
