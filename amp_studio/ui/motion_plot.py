@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QFont
+from PySide6.QtGui import QColor, QFont, QKeyEvent
 
 from amp_studio.sim.picture import Curve, Panel, Picture, Ring, Series, unheld
 from amp_studio.sim.rounding import shown
@@ -248,6 +248,16 @@ class MotionPlot(pg.GraphicsLayoutWidget):
                 lines.append(line)
             self.cursors.append(lines)
         self._emit_values()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move cursor A with the arrow keys, cursor B with Shift, by a hundredth of what is visible."""
+        way = {Qt.Key.Key_Left: -0.01, Qt.Key.Key_Right: 0.01}.get(Qt.Key(event.key()))
+        if way is None or not self.cursors:
+            super().keyPressEvent(event)
+            return
+        number = 1 if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 0
+        low, high = self.panels[0].viewRange()[0]
+        self._move(number, self.cursors[number][0].value() + way * (high - low))
 
     def _move(self, number: int, place: float) -> None:
         """Move one cursor in all panels."""

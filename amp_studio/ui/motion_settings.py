@@ -40,6 +40,9 @@ class SettingsForm(QWidget):
     ) -> None:
         """Show the fields of these settings (name -> what it is) and keep what is in them; ``units`` of length and feedrate."""
         texts = {name: field.text() for name, field in self.fields.items() if isinstance(field, QLineEdit)}
+        chosen = {
+            name: field.currentData() for name, field in self.fields.items() if isinstance(field, QComboBox)
+        }
         if list(settings) == list(self.fields) and units == self._units and SECOND not in settings:
             return
         while self._layout.rowCount():
@@ -49,6 +52,10 @@ class SettingsForm(QWidget):
             field = self._choice(name, axes) if name in (MODE, SECOND) else self._line(name, meaning)
             if isinstance(field, QLineEdit):
                 field.setText(texts.get(name, ""))
+            else:
+                field.blockSignals(True)
+                field.setCurrentIndex(max(0, field.findData(chosen.get(name, ""))))
+                field.blockSignals(False)
             field.setToolTip(meaning)
             field.setAccessibleName(_title(name))
             self._layout.addRow(_title(name), field)

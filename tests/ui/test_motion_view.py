@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QUrl
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
@@ -184,6 +184,14 @@ def test_a_cursor_moves_through_all_panels_and_its_values_are_shown(view: Motion
     assert {line.value() for line in view.plot.cursors[0]} == {0.4}
     error = np.interp(0.4, view.trace.columns["time_s"], view.trace.columns["following_error"])
     assert f"{error:.5g}" in view.values.text()
+
+
+def test_the_arrow_keys_move_the_cursors(view: MotionView, qtbot: QtBot) -> None:
+    a, b = (lines[0].value() for lines in view.plot.cursors)
+    qtbot.keyClick(view.plot, Qt.Key.Key_Right)
+    qtbot.keyClick(view.plot, Qt.Key.Key_Left, Qt.KeyboardModifier.ShiftModifier)
+    assert view.plot.cursors[0][1].value() > a
+    assert view.plot.cursors[1][1].value() < b
 
 
 def test_zoom_to_settling_shows_the_end_of_the_move_and_all_of_it_comes_back(view: MotionView) -> None:
