@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -9,6 +10,9 @@ from PySide6.QtCore import QByteArray, QRect, QSettings, QStandardPaths
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QDockWidget, QMainWindow
 
+from amp_studio.schema.regular_file import read_file
+
+_NEVER_STORED = re.compile(rb"@\s*(?:Variant|DateTime)")
 _LEAST = 320, 200
 """Least useful width and height of the window in pixels."""
 
@@ -108,11 +112,19 @@ def _screens() -> list[QRect]:
 
 
 def stored_in(place: Path) -> QSettings:
-    """Return the stored settings; where a pipe or a device lies in their place, which Qt would wait for, none are kept."""
-    try:
-        is_usable = not place.exists() or place.is_file()
-    except OSError:
-        is_usable = True  # Qt meets the same refusal and goes on without
-    if is_usable:
+    """Return the stored settings; where something lies in their place that Qt cannot bear, none are kept."""
+    if is_usable(place):
         return QSettings("AMP Studio", "AMP Studio")
-    return QSettings(str(place / "none"), QSettings.Format.IniFormat)  # a name that cannot be
+    nothing = QSettings(str(place / "none"), QSettings.Format.IniFormat)  # a name that cannot be
+    nothing.clear()  # of what another window of this program has kept there in memory
+    return nothing
+
+
+def is_usable(place: Path) -> bool:
+    """Return whether Qt can read the settings: it waits for a pipe or a device, and a damaged value of a type that is never
+    stored here makes it ask for more memory than there is, which ends the program.
+    """
+    try:
+        return not place.exists() or (place.is_file() and not _NEVER_STORED.search(read_file(place)))
+    except OSError:
+        return True  # Qt meets the same refusal and goes on without

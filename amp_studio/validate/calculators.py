@@ -14,9 +14,12 @@ from pydantic import TypeAdapter, ValidationError
 from amp_studio.schema import InvalidValueError, read_number, write_number
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.quoting import quoted
+from amp_studio.schema.visible import visible
 
 from .formulas import formulas
 
+_LONGEST = 500
+"""Characters of what a formula says of its arguments that are shown."""
 _YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
 
@@ -88,6 +91,9 @@ def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
         return formulas(family)[name](**values)
     except ArithmeticError:
         raise ValueError(f"{name} cannot be calculated: a number is too large or too small") from None
+    except ValueError as error:  # it may repeat a text of any length
+        message = visible(str(error))
+        raise ValueError(message if len(message) <= _LONGEST else f"{message[: _LONGEST - 1]}…") from None
 
 
 def _read(argument: Argument, text: str) -> Any:

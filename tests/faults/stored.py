@@ -222,7 +222,7 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
     from PySide6.QtCore import QSettings, Qt, qInstallMessageHandler
     from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow
 
-    from amp_studio.ui.settings import Settings, is_there
+    from amp_studio.ui.settings import Settings, is_there, is_usable
 
     application = QApplication.instance() or QApplication([])
     window = QMainWindow()
@@ -230,7 +230,8 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
 
     def look(text: str) -> None:
         path.write_bytes(text.encode("utf-8", "surrogatepass"))
-        stored = QSettings(str(path), QSettings.Format.IniFormat)
+        place = path if is_usable(path) else path / "none"
+        stored = QSettings(str(place), QSettings.Format.IniFormat)
         with mock.patch("amp_studio.ui.settings.stored_in", return_value=stored):
             settings = Settings()
         assert isinstance(settings.control(), str)

@@ -133,3 +133,15 @@ def test_a_pipe_in_the_place_of_the_settings_is_not_waited_for(tmp_path: Path) -
     stored.sync()
     assert stored.value("recent") is None
     assert [path.name for path in tmp_path.iterdir()] == ["AMP Studio.conf"]
+
+
+@pytest.mark.parametrize(
+    "damage", [b"\\0\\0\\0\\x\t7f\\0\\0\\0\\x8QString", b"\\0\\0\\0\\t\\x7f\\xff\\xff\\xff", b""]
+)
+def test_settings_of_a_type_that_is_never_stored_are_not_read(tmp_path: Path, damage: bytes) -> None:
+    """Qt would ask for the memory of two thousand million entries and end the program."""
+    place = tmp_path / "AMP Studio.conf"
+    place.write_bytes(b"[General]\ncontrol=tcp://127.0.0.1:7090\nother=@Variant(" + damage + b")\n")
+    settings = stored_in(place)
+    assert Path(settings.fileName()) == place / "none"
+    assert settings.value("control") is None

@@ -79,7 +79,7 @@ def _tcp(text: str) -> Endpoint:
 
 def _serial(text: str, rest: str) -> Endpoint:
     device, _, query = rest.partition("?")
-    if not device:
+    if not device.strip() or device != device.strip() or not device.isprintable():
         raise ValueError(f"{quoted(text)} names no port: write serial:/dev/ttyUSB0 or serial:COM3")
     options = _options(text, query, "a serial line", ("baud", "protocol"))
     rate = options.get("baud", str(DEFAULT_BAUD))

@@ -41,6 +41,8 @@ def test_the_forms_of_an_address(text: str, expected: Endpoint) -> None:
         ("tcp://host:70x", "tcp://host:port"),
         ("tcp://ho st:7090", "tcp://host:port"),
         ("serial:", "names no port"),
+        ("serial:/dev/ttyS0\n?", "names no port"),
+        ("serial: COM3?", "names no port"),
         ("serial:?baud=9600", "names no port"),
         ("serial:/dev/ttyS0?baud=fast", "rate 'fast'"),
         ("serial:/dev/ttyS0?baud=0", "rate '0'"),
