@@ -396,9 +396,9 @@ def test_a_unit_of_a_family_contradicts_no_other(facts, head: str, own: str, sai
 
 
 def test_a_unit_of_a_family_is_written_and_shown_in_its_own_ways(facts, head: str) -> None:
-    own = "own_units:\n  cubit: {measures: length, factor: '201168', shown: cub., also: [cubits]}\n"
+    own = "own_units:\n  league: {measures: length, factor: '201168', shown: lea., also: [leagues]}\n"
     facts.write("family.yaml", f"{own}{head}")
     facts.write("groups/all.yaml", 'key: all\nname: All\nchapter: "1"\nparameters: []\n')
     compile_family(facts.folder)
-    assert {unit_named(text) for text in ("cubit", "cubits", "cub.", "Cubits")} == {"cubit"}
-    assert (convert(2.0, "cubit", "mm"), shown("cubit")) == (402336.0, "cub.")
+    assert {unit_named(text) for text in ("league", "leagues", "lea.", "Leagues")} == {"league"}
+    assert (convert(2.0, "league", "mm"), shown("league")) == (402336.0, "lea.")
