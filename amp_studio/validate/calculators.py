@@ -19,7 +19,7 @@ from amp_studio.schema.visible import visible
 from .formulas import formulas
 
 _LONGEST = 500
-"""Characters of what a formula says of its arguments that are shown."""
+"""Most characters that are shown of the message of a formula about its arguments."""
 _YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
 
