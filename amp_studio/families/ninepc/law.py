@@ -16,6 +16,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AlarmText, AxisLaw, Law, Ramp, Source
 from amp_studio.sim.rounding import shown
 
+from . import law_dac as dac
 from . import law_notes as notes_of
 from . import law_samples as samples
 from . import law_split as split
@@ -40,6 +41,7 @@ LONGEST_CYCLE = 1000.0
 SETTINGS = {
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
     "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
+    **dac.SETTINGS,
 }
 """Settings of the model that are no parameters of the control."""
 
@@ -110,13 +112,15 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
     loop = _loop(read, kind)
     parameters = _position_parameters(read, kind, loop, feedback, notes)
     common = _common(read, kind, notes, master)
+    shown_in_volts = dac.columns(read, kind.drive, parameters, notes)
     common |= {
         "inposition_band": not_negative(read, BAND),
         "position_rate": loop.rate,
         "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
         "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
         "alarms": _alarms(read, kind, parameters),
-        "monitors": [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS],
+        "monitors": [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS]
+        + shown_in_volts,
     }
     partner = split.slave_named(read)
     if partner is not None:

@@ -48,8 +48,10 @@ DESKEW, SKEW_LIMIT, MASTER_SAMPLES = 25, 26, 27
 """1/u: change of the slave's gain by the skew; u; number of following errors of the master, from MASTER on."""
 CUTTING, TORQUE_UNIT = 28, 29
 """Not used by the loops: u/s of Maximum Cutting Feedrate; PROPORTIONAL for a gain of 1."""
-MASTER = 30
-SIZE = 30
+CHANNELS, DAC, DAC_FIGURES = 30, 31, 3
+"""Number of DAC monitors shown; from DAC on for each: number of the monitor it shows, V for 1 of its unit, V at full scale."""
+MASTER = 37
+SIZE = 37
 
 # -- state -----------------------------------------------------------------------------------------
 CAME_FROM, SHIFT = 0, 1
@@ -74,6 +76,10 @@ MONITORS = (
     ("feed_share", ""),
     ("velocity_feedback", "u/s"),
 )
+VELOCITY_ERROR, INTEGRAL_TORQUE, FOLLOWING_ERROR, VELOCITY_FEEDBACK = 1, 2, 3, 6
+"""Places in MONITORS of what a DAC monitor can show."""
+DAC_MONITOR = 7
+"""The DAC monitors come after those."""
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
@@ -104,6 +110,7 @@ def analog_sample(p: Vector, s: Vector, io: Vector) -> None:
         velocity = s[VELOCITY_COMMAND]
         volts = velocity * (p[VOLTS_POSITIVE] if velocity > 0.0 else p[VOLTS_NEGATIVE])
     io[OUTPUT] = min(max(volts, -p[VOLTS_LIMIT]), p[VOLTS_LIMIT])
+    dac_monitors(p, io)
 
 
 def position_loop(p: Vector, s: Vector, io: Vector) -> None:
@@ -188,6 +195,15 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     s[FILTERED] += p[FILTER] * (proportional + p[INTEGRAL] * s[ERROR_SUM] + added - s[FILTERED])
     io[OUTPUT] = min(max(s[FILTERED], -limit), limit)
     io[MONITOR + 1], io[MONITOR + 2], io[MONITOR + 6] = error, p[INTEGRAL] * s[ERROR_SUM], velocity
+    dac_monitors(p, io)
+
+
+def dac_monitors(p: Vector, io: Vector) -> None:
+    """Show signals as voltages within their full scale (A-5 to A-7)."""
+    for n in range(int(p[CHANNELS])):
+        first = DAC + DAC_FIGURES * n
+        volts = p[first + 1] * io[MONITOR + int(p[first])]
+        io[MONITOR + DAC_MONITOR + n] = min(max(volts, -p[first + 2]), p[first + 2])
 
 
 def summed(total: float, error: float, discharge: float) -> float:

@@ -60,6 +60,13 @@ EVERYWHERE = (
     "timing.scans_per_logic",
 )
 
+DAC_PLACES = {
+    "patch.dac_monitor": ("2", "3"),
+    "spindle.voltage_at_max": ("1.1", "2.1"),
+    "spindle.max_speed": ("1.1", "2.1"),
+}
+"""Instances behind 86 and 87, 820 and 830, 910 and 930; a test sets `parameter@instance`."""
+
 Values = dict[str, ParameterValue]
 Axis = Callable[..., AxisLaw]
 
@@ -74,6 +81,9 @@ def axis() -> Axis:
         def value(parameter: str, instance: str) -> ParameterValue:
             if parameter.startswith("deskew.") or parameter == "axis.name":
                 return None
+            if parameter in DAC_PLACES:
+                assert instance in DAC_PLACES[parameter]
+                return merged.get(f"{parameter}@{instance}")
             known = ("",) if parameter in EVERYWHERE else ("1",)
             assert instance in known, f"{parameter} was asked for at '{instance}'"
             return merged.get(parameter)

@@ -1,0 +1,105 @@
+"""The DAC monitor of a 9/PC: signals of a servo as voltages for a chart recorder (appendix A).
+
+Two channels, parameters 86 and 87. The manual prints what they show (Table A.B), the voltage at full scale (820, 830) and what the
+signal is divided by (910, 930), but not what the control counts a signal in. So a channel is a column of the result as soon as
+that unit is set.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+
+from . import law_samples as samples
+from .formulas.tuning import dac_monitor_function
+from .law_reading import above_zero, demand
+
+CODE, FULL_SCALE, DIVISOR = "patch.dac_monitor", "spindle.voltage_at_max", "spindle.max_speed"
+VOLTS = 10.0
+"""V: the end of a DAC output (12-2)."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One output: number of its parameter, its instance, and that of gear 1 of the spindle that scales it (A-5)."""
+
+    number: str
+    place: str
+    gear: str
+
+    @property
+    def unit(self) -> str:
+        """The setting that makes it a column."""
+        return f"model.dac_unit_{self.number}"
+
+
+CHANNELS = (Channel("86", "2", "1.1"), Channel("87", "3", "2.1"))
+SETTINGS = {
+    each.unit: f"what counts as 1 in DAC monitor {each.number}, in the unit of the signal shown: mm, mm/s, % (deg for mm on an axis that turns)"
+    for each in CHANNELS
+}
+SIGNALS = {
+    100: samples.VELOCITY_FEEDBACK,
+    200: samples.FOLLOWING_ERROR,
+    300: samples.INTEGRAL_TORQUE,
+    400: samples.VELOCITY_ERROR,
+}
+"""Function code (Table A.B, A-6) -> column. Coarse IPCs (500) and Final Velocity (600) are named there and nowhere explained."""
+OF_ANALOG = (200,)
+"""Those that an analog servo has, too (A-6)."""
+
+NOTE = (
+    "DAC monitor {0}: {1} V x {2} / ({3} x {4}), at most {5} V (A-5, A-7, 12-2). INFERRED: full scale at {3} (A-4); ASSUMED: renewed at each sample"
+    " of the loop. The manual does not print the unit of the signal: {4} is that of {6}."
+)
+
+
+def columns(read: AxisParameters, drive: str, p: list[float], notes: list[str]) -> list[tuple[str, str]]:
+    """Return the columns of the channels whose unit is set, and set their figures in ``p``.
+
+    Raises SimulationError for a code that selects no signal, and for an impossible scale.
+    """
+    found: list[tuple[str, str]] = []
+    for channel in CHANNELS:
+        if read.optional(channel.unit) is None:
+            continue
+        unit = above_zero(read, channel.unit)
+        signal = _signal(read, channel, drive, notes)
+        if signal is None:
+            continue
+        volts = read.number(FULL_SCALE, at=channel.gear)
+        divisor = read.number(DIVISOR, at=channel.gear)
+        demand(read, FULL_SCALE, volts, abs(volts) <= VOLTS, "must be from -10 to 10 V", everywhere=True)
+        demand(read, DIVISOR, divisor, divisor > 0.0, "must be above 0", everywhere=True)
+        first = samples.DAC + samples.DAC_FIGURES * len(found)
+        p[first : first + samples.DAC_FIGURES] = [float(signal), volts / (divisor * unit), abs(volts)]
+        found.append((f"dac_{channel.number}", "V"))
+        shown = f"{volts:g}", samples.MONITORS[signal][0], f"{divisor:g}", f"{unit:g}"
+        notes.append(NOTE.format(channel.number, *shown, f"{abs(volts):g}", channel.unit))
+    p[samples.CHANNELS] = float(len(found))
+    return found
+
+
+def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]) -> int | None:
+    """Return the column that a channel shows: function code + axis number (A-6); None where it shows another axis."""
+    code = read.number(CODE, at=channel.place)
+    place = f"DAC monitor {channel.number} ({CODE}@{channel.place}) is {code:g}"
+    if code == 0.0:
+        raise SimulationError(f"{place}. Set it to a function code plus the axis number, as 101 (A-6)", CODE)
+    try:
+        function, axis = dac_monitor_function(code)
+    except ValueError:
+        why = "no function code plus axis number; the control stays in E-STOP (A-6)"
+        raise SimulationError(f"{place}, {why}", CODE) from None
+    if str(axis) != read.axis:
+        notes.append(f"{place}: it shows axis {axis}, so it is no column of axis {read.axis}.")
+        return None
+    if function not in SIGNALS:
+        raise SimulationError(
+            f"{place}: the manual does not say what this signal is (A-6). Take 100 to 400", CODE
+        )
+    if drive == "analog" and function not in OF_ANALOG:
+        raise SimulationError(f"{place}: an analog servo has no such signal (A-6). Take 200", CODE)
+    return SIGNALS[function]
