@@ -70,6 +70,8 @@ class HostileControl:
         )
         self.window, self.chunk = chance.choice([(16, 512), (1, 1), (255, 4_096), (255, 1), (4, 7)])
         self.heard_commit = False
+        self.answers: set[bytes] = set()
+        self.answered_at = 0.0
 
     def open_link(self, look: Callable[[], None]) -> HostileLink:
         look()
@@ -106,6 +108,8 @@ class HostileLink:
         if self._out and self._out[0][0] <= clock.now + timeout:
             at, data = self._out.pop(0)
             clock.now = max(at, clock.now)
+            if data in self._hostile.answers:
+                self._hostile.answered_at = clock.now
             return data
         if self._flood:
             clock.sleep(0.02)
@@ -122,6 +126,7 @@ class HostileLink:
     def _answers(self, request: Message, number: int, good: bytes) -> list[tuple[float, bytes]]:
         hostile, chance, now = self._hostile, self._hostile.chance, self._hostile.clock.now
         name = type(request).__name__
+        hostile.answers.add(good)
         hostile.spared -= 1
         spared = hostile.spared >= 0 or (hostile.victims and name not in hostile.victims)
         if spared or not good or chance.randrange(hostile.one_in):
@@ -129,7 +134,9 @@ class HostileLink:
         answer = unpack(FrameDecoder().feed(good)[0])
         match chance.choice(hostile.tricks):
             case "fields":
-                return [(now, encode_frame(pack(self._absurd(answer), number)))]
+                absurd = encode_frame(pack(self._absurd(answer), number))
+                hostile.answers.add(absurd)
+                return [(now, absurd)]
             case "silent":
                 return []
             case "noise":
@@ -191,7 +198,8 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
 
     def progress(stage: str, done: int, total: int) -> None:
         nonlocal told_at, longest
-        longest, told_at = max(longest, clock.now - told_at), clock.now
+        # A line that has answered meanwhile was not silent for so long.
+        longest, told_at = max(longest, clock.now - max(told_at, hostile.answered_at)), clock.now
         if not (0 <= done <= total or stage == "silent"):
             faults.append(f"progress says {stage} {done} of {total}")
 
