@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
 from .model import BoundRef, Family, Group, Parameter, StateRule
+from .quoting import quoted
 from .yaml_reader import KeyPath
 
 
@@ -47,30 +48,32 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
         try:
             unknown = sorted(functions_called(compile_expression(condition.when)) - WORD_FUNCTIONS.keys())
             if unknown:
-                what = f"condition {name} calls '{unknown[0]}', which is no function"
+                what = f"condition {name} calls {quoted(unknown[0])}, which is no function"
                 yield Inconsistency(None, (*here, "when"), what)
         except ValueError as error:
             yield Inconsistency(None, (*here, "when"), f"condition {name}: {_first_line(error)}")
         for short, text in condition.reads.items():
             if text.partition("@")[0] not in ids:
                 yield Inconsistency(
-                    None, (*here, "reads", short), f"condition {name} reads '{text}', which does not exist"
+                    None,
+                    (*here, "reads", short),
+                    f"condition {name} reads {quoted(text)}, which does not exist",
                 )
     if family.angular_when is not None and family.angular_when not in family.conditions:
-        yield Inconsistency(None, ("angular_when",), f"there is no condition '{family.angular_when}'")
+        yield Inconsistency(None, ("angular_when",), f"there is no condition {quoted(family.angular_when)}")
     if family.axis_names is not None and family.axis_names.param not in ids:
-        what = f"there is no parameter '{family.axis_names.param}'"
+        what = f"there is no parameter {quoted(family.axis_names.param)}"
         yield Inconsistency(None, ("axis_names", "param"), what)
     for unit, scale in family.scales.items():
         for kind in ("length", "angle"):
             size = getattr(scale, kind)
             if size is not None and size.param not in ids:
-                what = f"there is no parameter '{size.param}'"
+                what = f"there is no parameter {quoted(size.param)}"
                 yield Inconsistency(None, ("scales", unit, kind, "param"), what)
     for key in ("machine_parameter", "unit_parameter"):
         named = getattr(family, key)
         if named is not None and named not in ids:
-            yield Inconsistency(None, (key,), f"there is no parameter '{named}'")
+            yield Inconsistency(None, (key,), f"there is no parameter {quoted(named)}")
 
 
 def _first_line(error: Exception) -> str:
@@ -87,18 +90,21 @@ def _in_group_states(family: Family, group: Group) -> Iterator[Inconsistency]:
                 yield Inconsistency(group.key, (key, n, *place), what)
             if state.scope is not None and state.scope not in scopes:
                 yield Inconsistency(
-                    group.key, (key, n, "scope"), f"no parameter here has scope '{state.scope}'"
+                    group.key, (key, n, "scope"), f"no parameter here has scope {quoted(state.scope)}"
                 )
             for at, named in enumerate(state.not_for):
                 if named not in ids:
                     yield Inconsistency(
-                        group.key, (key, n, "not_for", at), f"there is no parameter '{named}' here"
+                        group.key, (key, n, "not_for", at), f"there is no parameter {quoted(named)} here"
                     )
 
 
 def _in_state(family: Family, state: StateRule) -> Iterator[tuple[KeyPath, str]]:
     if (state.when or state.unless) not in family.conditions:
-        yield ("when" if state.when else "unless",), f"there is no condition '{state.when or state.unless}'"
+        yield (
+            ("when" if state.when else "unless",),
+            f"there is no condition {quoted(state.when or str(state.unless))}",
+        )
 
 
 def _in_parameter(
@@ -109,19 +115,22 @@ def _in_parameter(
             yield ("states", n, *place), what
     for n, variant in enumerate(parameter.range_variants):
         if variant.when not in family.conditions:
-            yield ("range_variants", n, "when"), f"there is no condition '{variant.when}'"
+            yield ("range_variants", n, "when"), f"there is no condition {quoted(variant.when)}"
     command = parameter.storage.command if parameter.storage else None
     for named in re.findall(r"{(.*?)}", command or ""):
         if named not in ("i", "k", "n", "v") and named not in ids:
-            yield ("storage", "command"), f"there is no parameter '{named}' for its command"
+            yield ("storage", "command"), f"there is no parameter {quoted(named)} for its command"
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
             for end, bound in enumerate(pair):
                 if isinstance(bound, BoundRef) and bound.param not in ids:
-                    yield (*place, unit, end, "param"), f"there is no parameter '{bound.param}' to bound it"
+                    yield (
+                        (*place, unit, end, "param"),
+                        f"there is no parameter {quoted(bound.param)} to bound it",
+                    )
     for place, scope in _all_scopes(parameter):
         if scope not in family.scopes:
-            yield place, f"the family has no scope '{scope}'"
+            yield place, f"the family has no scope {quoted(scope)}"
 
 
 def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[KeyPath, str]]:
@@ -130,7 +139,7 @@ def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[Ke
         for unit, pair in ranges:
             for end, bound in enumerate(pair):
                 if isinstance(bound, BoundRef) and bound.param in secrets:
-                    yield (*place, unit, end, "param"), f"the secret '{bound.param}' cannot bound it"
+                    yield (*place, unit, end, "param"), f"the secret {quoted(bound.param)} cannot bound it"
 
 
 def _all_ranges(parameter: Parameter) -> Iterator[tuple[KeyPath, list[tuple[str, tuple[object, object]]]]]:

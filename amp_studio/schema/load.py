@@ -24,7 +24,7 @@ from .folder import database_folder
 from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
 from .model_errors import Slip, slips
 from .nearest import unknown_name
-from .quoting import short
+from .quoting import LONGEST, quoted, short
 from .registration import added_facts
 from .units import UNITS_FILE
 from .yaml_reader import KeyPath, YamlDocument
@@ -95,10 +95,12 @@ def load_compiled(family_id: str) -> Compiled:
 def compile_family(folder: Path) -> Compiled:
     """Parse and check every fact file of one family; raises DatabaseError with file and line."""
     family = _read(folder / "family.yaml", Family)
+    if odd := next((key for key in family.groups if len(key) > LONGEST), None):
+        raise DatabaseError(folder / "family.yaml", 1, f"{quoted(odd)} is too long for the key of a group")
     groups = tuple(_read(folder / "groups" / f"{key}.yaml", Group, family) for key in family.groups)
     for key, group in zip(family.groups, groups, strict=True):
         if group.key != key:
-            raise DatabaseError(folder / "groups" / f"{key}.yaml", 1, f"its key is '{group.key}'")
+            raise DatabaseError(folder / "groups" / f"{key}.yaml", 1, f"its key is {quoted(group.key)}")
     rules = tuple(rule for path in _of(family, folder / "rules") for rule in _read(path, Rules).rules)
     errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)

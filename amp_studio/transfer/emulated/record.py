@@ -7,6 +7,7 @@ import re
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
+from amp_studio.schema.quoting import short
 from amp_studio.transfer.house.message import Committed, Flags
 
 from .memory import Memory
@@ -96,7 +97,9 @@ def load_record(memory: Memory, identity: Identity) -> Record:
     if record is None or not _is_sound(record):
         raise StateError(f"{memory.folder / RECORD} is not what an emulated control writes")
     if record.family != identity.family:
-        raise StateError(f"{memory.folder} is the memory of a {record.family}, not of a {identity.family}")
+        raise StateError(
+            f"{memory.folder} is the memory of a {short(record.family)}, not of a {identity.family}"
+        )
     if record.signature != identity.signature:
         raise StateError(f"{memory.folder} is the memory of a control with another parameter schema")
     return record
