@@ -27,6 +27,7 @@ from .law_figures import Loop, predictions
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
 from .law_tune import tune
+from .law_units import OWN_INERTIA, OWN_TORQUE
 
 TITLE = "9/PC axis"
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
@@ -40,6 +41,8 @@ LONGEST_CYCLE = 1000.0
 
 SETTINGS = {
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
+    OWN_TORQUE: "rated torque of a digital motor (N m)",
+    OWN_INERTIA: "inertia of a digital motor without its load (kg m2)",
     "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
     **dac.SETTINGS,
 }

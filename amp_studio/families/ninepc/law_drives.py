@@ -21,6 +21,8 @@ from .law_units import (
     CURRENT_LOOP,
     DELAY,
     NOMINAL,
+    OWN_INERTIA,
+    OWN_TORQUE,
     VELOCITY_PERIOD,
     Inertia,
     acceleration_for,
@@ -78,13 +80,8 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     motor = str(read.value(MOTOR) or "nonstandard")
     ratio = _inertia_ratio(read)
     proportional, integral = _gains(read, motor, ratio, notes)
-    inertia = inertia_of(motor, ratio, read.tables)
-    own = read.optional(OWN_ACCELERATION)
-    if own is not None:
-        demand(read, OWN_ACCELERATION, own, own > 0.0, "must be above 0")
     travel = feedback.motor_turn
-    if own is not None:
-        inertia = Inertia(100.0 * own * 2.0 * math.pi / travel, "")
+    inertia = _inertia(read, motor, ratio, travel)
     p[samples.PROPORTIONAL], p[samples.INTEGRAL] = (
         torque_for(proportional, travel),
         torque_for(integral, travel),
@@ -111,10 +108,11 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         motor_friction=1.0,
     )
     assumed = {
-        "acceleration_per_output": inertia.why + " All torques depend on it.",
         "bandwidth": "No current loop is printed; with the delay it ends appendix A as printed (A-9, A-10).",
         "delay": "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10).",
     }
+    if inertia.why:
+        assumed = {"acceleration_per_output": inertia.why + " All torques depend on it.", **assumed}
     if p[samples.OFFSET]:
         assumed["gravity"] = "The weight is taken as what Torque Offset Percentage balances (7-63)."
     if _dry(p) + p[samples.STICTION]:
@@ -137,6 +135,18 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         assumptions=tuple(notes),
         assumed=assumed,
     )
+
+
+def _inertia(read: AxisParameters, motor: str, ratio: int, travel: float) -> Inertia:
+    """Return what the axis accelerates with: as it is set, as its motor is set, or as it is assumed."""
+    own = read.optional(OWN_ACCELERATION)
+    if own is not None:
+        demand(read, OWN_ACCELERATION, own, own > 0.0, "must be above 0")
+        return Inertia(100.0 * own * 2.0 * math.pi / travel, "")
+    torque, inertia = (
+        above_zero(read, name) if read.given(name) else None for name in (OWN_TORQUE, OWN_INERTIA)
+    )
+    return inertia_of(motor, ratio, read.tables, torque, inertia)
 
 
 def _without_faults(p: list[float]) -> list[float]:

@@ -31,6 +31,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from amp_studio.schema import Table
+from amp_studio.sim.errors import SimulationError
 
 FULL = 65536.0
 """Gain for rated torque at a velocity error (or sum) of 1 rad/s."""
@@ -57,9 +58,12 @@ NOMINAL = 1000.0
 SEPARATE = 3.0
 """Least ratio of velocity loop to position loop (7-54: 3277 / 65536 per ms to gain / 60 per ms), below which a closed position loop overshoots."""
 
-KNOWN_MOTORS = {"b410": (2.7, 0.004), "b420": (4.5, 0.007)}
-"""Frame -> rated torque in N m and inertia in lb in s2: not from this manual but from the maker's data sheet 1326AB Torque Plus
-(values within 10 %). Of the other frames nothing is at hand."""
+ASSUMED_MOTORS = {"b410": (2.7, 0.004), "b420": (4.5, 0.007)}
+"""Frame -> rated torque in N m and inertia in lb in s2. ASSUMED: no manual here prints them, they come from an excerpt of the maker's
+data sheet 1326AB Torque Plus (within 10 %). Of the other frames nothing is at hand."""
+DATA_SHEET = "an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %), not from a manual"
+OWN_TORQUE, OWN_INERTIA = "model.motor_torque", "model.motor_inertia"
+"""N m and kg m2 of the motor, when they are set."""
 LB_IN_S2 = 0.112984829
 """kg m2 of 1 lb in s2."""
 ODD_FRAMES = ("b7",)
@@ -115,7 +119,7 @@ def highest_rate(lag: float = LAG, integral_time: float = math.inf) -> float:
 
 def frame_acceleration(frame: str) -> float:
     """Return rad/s2 of a motor alone at its rated torque."""
-    torque, inertia = KNOWN_MOTORS[frame]
+    torque, inertia = ASSUMED_MOTORS[frame]
     return torque / (inertia * LB_IN_S2)
 
 
@@ -128,32 +132,67 @@ def standard_gains(tables: Mapping[str, Table], motor: str, ratio: int) -> tuple
 
 
 def typical_rate(tables: Mapping[str, Table]) -> float:
-    """Return the velocity loop in 1/s that Table 7.B gives the motors whose data are known: the geometric mean."""
+    """Return the velocity loop in 1/s that Table 7.B gives the motors whose data are assumed: the geometric mean."""
     rates = []
-    for frame in KNOWN_MOTORS:
+    for frame in ASSUMED_MOTORS:
         column = tables["7.B"].column(f"{frame.upper()}{'G' if frame == 'b410' else 'E'}")
         assert column is not None
         rates.append(loop_rate(float(column[0]), frame_acceleration(frame)))
     return math.exp(sum(map(math.log, rates)) / len(rates))
 
 
-def inertia_of(motor: str, ratio: int, tables: Mapping[str, Table]) -> Inertia:
-    """Return what a digital axis accelerates with, from Motor Type and Load Inertia Ratio (7-71, 7-72)."""
+def inertia_of(
+    motor: str,
+    ratio: int,
+    tables: Mapping[str, Table],
+    torque: float | None = None,
+    inertia: float | None = None,
+) -> Inertia:
+    """Return what a digital axis accelerates with, from Motor Type and Load Inertia Ratio (7-71, 7-72).
+
+    ``torque`` in N m and ``inertia`` in kg m2 are those of the motor where they are set. Raises SimulationError where one is set
+    and the other unknown.
+    """
     name, loaded = f"1326AB-{motor.upper()}", f"Load Inertia Ratio 1 : {ratio} (7-71)"
+    frame = ASSUMED_MOTORS.get(motor[:4])
+    if torque is not None or inertia is not None:
+        return _of_set_motor(name, frame, ratio, torque, inertia)
     column = tables["7.B"].column(motor.upper()) if "7.B" in tables else None
-    if motor[:4] in KNOWN_MOTORS:
+    if frame is not None:
         return Inertia(
             frame_acceleration(motor[:4]) / (1.0 + ratio),
-            f"Rated torque / inertia of a {name} (not in this manual: data sheet of the motor, within 10 %) with {loaded}.",
+            f"A {name} is taken to have {OWN_TORQUE} = {frame[0]:g} N m (rated) and {OWN_INERTIA} = {frame[1] * LB_IN_S2:.6f} kg m2, from"
+            f" {DATA_SHEET}, with {loaded}.",
         )
     if column is not None:
         rate = typical_rate(tables)
         return Inertia(
             rate * FULL / float(column[0]) / (1.0 + ratio),
             f"The manual has no data of a {name}: its cell of Table 7.B (7-55) is taken to give a velocity loop of {rate:.0f} 1/s, the"
-            f" mean of the motors with known data, with {loaded}.",
+            f" mean of the 410 and 420 frames, whose torque and inertia are from {DATA_SHEET}, with {loaded}; set {OWN_TORQUE} and {OWN_INERTIA}.",
         )
     return Inertia(
         NOMINAL,
-        f"Nothing is known of the motor and its load: {NOMINAL:.0f} rad/s2 at rated torque, the axis that the bounds of 7-54 are about.",
+        f"Nothing is known of the motor and its load: {NOMINAL:.0f} rad/s2 at rated torque, the axis that the bounds of 7-54 are about;"
+        f" set {OWN_TORQUE} and {OWN_INERTIA}.",
     )
+
+
+def _of_set_motor(
+    name: str, frame: tuple[float, float] | None, ratio: int, torque: float | None, inertia: float | None
+) -> Inertia:
+    """Return what an axis accelerates with whose motor has a torque (N m) or an inertia (kg m2) that was set."""
+    why = []
+    if torque is None:
+        if frame is None:
+            raise SimulationError(
+                f"The rated torque of a {name} is not known: set {OWN_TORQUE} too", OWN_TORQUE
+            )
+        torque = frame[0]
+        why.append(f"{OWN_TORQUE} of a {name} is taken as {torque:g} N m")
+    if inertia is None:
+        if frame is None:
+            raise SimulationError(f"The inertia of a {name} is not known: set {OWN_INERTIA} too", OWN_INERTIA)
+        inertia = frame[1] * LB_IN_S2
+        why.append(f"{OWN_INERTIA} of a {name} is taken as {inertia:.6f} kg m2")
+    return Inertia(torque / inertia / (1.0 + ratio), f"{why[0]}, from {DATA_SHEET}." if why else "")

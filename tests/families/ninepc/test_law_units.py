@@ -10,10 +10,11 @@ import pytest
 from amp_studio.families.ninepc import law_samples as samples
 from amp_studio.families.ninepc import law_units as units
 from amp_studio.schema import load_schema
+from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.profiles import POLYNOMIAL
 
-from .conftest import Axis
+from .conftest import Axis, Values
 
 TABLES = load_schema("9pc").tables
 MOTORS = ["b410g", "b420e", "b430e", "b515e", "b520e", "b520f", "b530e"]
@@ -80,7 +81,7 @@ def test_the_gains_of_a_motor_keep_their_ratio_but_for_the_7xx() -> None:
 
 
 def test_with_the_default_torque_filter_the_tables_are_stable_at_rated_torque_and_not_at_twice_it() -> None:
-    # Gain margin of the 420, whose data are known; 200 Hz is the filter as delivered (37-3).
+    # Gain margin of the 420, whose data are assumed; 200 Hz is the filter as delivered (37-3).
     cells = units.standard_gains(TABLES, "b420e", 0)
     assert cells is not None
     lag = units.LAG + 1.0 / (2.0 * math.pi * 200.0)
@@ -111,6 +112,44 @@ def test_an_axis_says_where_its_inertia_is_from(axis: Axis) -> None:
         5974.3 * 10.0 / (2.0 * math.pi) / 100.0, rel=1e-4
     )
     assert unknown.machine.acceleration_per_output == pytest.approx(15.915, rel=1e-4)
+
+
+@pytest.mark.parametrize("motor", ["b410g", "b530e"])
+def test_motor_data_from_a_data_sheet_are_assumed_with_their_source(axis: Axis, motor: str) -> None:
+    # No manual prints them: of the 530 the mean of those two stands in its place.
+    said = axis({"servo.motor_type": motor}).assumed["acceleration_per_output"]
+    assert "data sheet 1326AB Torque Plus (within 10 %), not from a manual" in said
+    assert "model.motor_torque" in said
+    assert "model.motor_inertia" in said
+
+
+def test_torque_and_inertia_of_the_motor_can_be_set(axis: Axis) -> None:
+    # 8 N m on 0.001 kg m2, 1 : 3, 10 mm for a turn.
+    set_both = axis(
+        {"servo.motor_type": "b530e", "servo.load_inertia_ratio": "r3"},
+        {"model.motor_torque": 8.0, "model.motor_inertia": 0.001},
+    )
+    assert set_both.machine.acceleration_per_output == pytest.approx(
+        8.0 / 0.001 / 4.0 / (2.0 * math.pi) * 10.0 / 100.0
+    )
+    assert "acceleration_per_output" not in set_both.assumed
+    half = axis(settings={"model.motor_torque": 5.4})
+    assert half.machine.acceleration_per_output == pytest.approx(2.0 * axis().machine.acceleration_per_output)
+    assert half.assumed["acceleration_per_output"].startswith(
+        "model.motor_inertia of a 1326AB-B410G is taken as 0.000452 kg m2"
+    )
+
+
+def test_half_of_an_unknown_motor_or_a_motor_beside_its_acceleration_is_refused(axis: Axis) -> None:
+    other: Values = {"servo.motor_type": "b530e"}
+    with pytest.raises(SimulationError, match=r"set model\.motor_inertia too"):
+        axis(other, {"model.motor_torque": 8.0})
+    with pytest.raises(SimulationError, match=r"set model\.motor_torque too"):
+        axis(other, {"model.motor_inertia": 0.001})
+    with pytest.raises(SimulationError, match="must be above 0"):
+        axis(settings={"model.motor_torque": 0.0})
+    with pytest.raises(SimulationError, match=r"model\.motor_torque is not used"):
+        axis(settings={"model.motor_torque": 5.0, "model.acceleration_per_output": 10.0})
 
 
 def test_maximum_servo_acceleration_is_nothing_to_a_digital_axis(axis: Axis) -> None:
