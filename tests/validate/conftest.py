@@ -15,3 +15,9 @@ from amp_studio.files import ParameterFile
 def machine() -> Callable[[str], ParameterFile]:
     """Return what builds a sound machine: ``machine("mill")``."""
     return partial(sound, "9pc")
+
+
+@pytest.fixture
+def mill(machine: Callable[[str], ParameterFile]) -> ParameterFile:
+    """Return a sound mill of its own, whose rapid is 12000 mm/min on seven axes."""
+    return machine("mill")

@@ -7,7 +7,6 @@ from collections import defaultdict
 import pytest
 from rule_stands import FAMILIES, cases, stand
 
-from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json
 from amp_studio.schema import Rule, Value, load_schema
 from amp_studio.validate import BuilderRules, Finding, RuleError, Validator
@@ -17,12 +16,6 @@ ALWAYS_SO = {
     ("57c422b.control.geared-to-each-other", "modes", False),
 }
 """Conditions that cannot be met, or not be missed, in a file: rule, name, and which of the two."""
-
-
-@pytest.fixture
-def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own."""
-    return machine("mill")
 
 
 def found(family: str, machine: str, changes: dict[str, str | None], rule: str, given: str = "") -> Finding:

@@ -38,12 +38,6 @@ rules:
 
 
 @pytest.fixture
-def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own, whose rapid is 12000 mm/min on seven axes."""
-    return machine("mill")
-
-
-@pytest.fixture
 def path(tmp_path: Path) -> Path:
     """Return where the rules of a builder lie."""
     return tmp_path / "rules.yaml"

@@ -12,12 +12,6 @@ from amp_studio.validate import BuilderRules, Explanation, Validator, explain
 RAPID = ("feedrate.rapid", "1")
 
 
-@pytest.fixture
-def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own."""
-    return machine("mill")
-
-
 def why(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> Explanation:  # noqa: B008  # frozen
     """Return the explanation of the first finding of a rule."""
     validator = Validator(file, own)

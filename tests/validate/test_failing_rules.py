@@ -13,11 +13,6 @@ from amp_studio.validate import Finding, Validator, rules_beside
 RAPID = ("feedrate.rapid", "1")
 
 
-@pytest.fixture
-def mill(machine) -> ParameterFile:
-    return machine("mill")
-
-
 def checked(
     mill: ParameterFile, folder: Path, check: str, reads: str = "rapid: feedrate.rapid@1"
 ) -> Validator:

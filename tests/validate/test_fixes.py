@@ -12,12 +12,6 @@ RAPID, CUTTING = ("feedrate.rapid", "1"), ("feedrate.max_cutting", "1")
 EXCESS, SUPPRESSION = ("servo.excess_error", "1"), ("servo.feedrate_suppression", "1")
 
 
-@pytest.fixture
-def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own."""
-    return machine("mill")
-
-
 def rule(
     name: str, severity: str, check: str, *fix: tuple[str, str], safe: bool = False, **more: object
 ) -> Rule:

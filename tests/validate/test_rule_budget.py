@@ -15,12 +15,6 @@ from amp_studio.validate.builder_rules import MOST_FAULTS
 
 
 @pytest.fixture
-def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own, whose rapid is 12000 mm/min on seven axes."""
-    return machine("mill")
-
-
-@pytest.fixture
 def path(tmp_path: Path) -> Path:
     """Return where the rules of a builder lie."""
     return tmp_path / "rules.yaml"

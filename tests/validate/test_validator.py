@@ -1,190 +1,20 @@
-"""Findings of one file: ranges, choices, units, states, and kept up to date whatever is written into it."""
+"""Findings of one file: states, rules and their order, kept up to date whatever is written into it."""
 
 from __future__ import annotations
 
 import math
 
 import pytest
+from findings import found, the
 
-from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json, finding_text
-from amp_studio.schema import (
-    Address,
-    Rule,
-    Value,
-)
+from amp_studio.schema import Address, Rule, Value
 from amp_studio.schema.expression import Circumstances, Decision, program
-from amp_studio.validate import SEVERITIES, BuilderRules, Finding, Setting, Validator
+from amp_studio.validate import SEVERITIES, BuilderRules, Setting, Validator
 
 RAPID = ("feedrate.rapid", "1")
 CUTTING = ("feedrate.max_cutting", "1")
 EXCESS = ("servo.excess_error", "1")
-
-
-@pytest.fixture
-def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own."""
-    return machine("mill")
-
-
-def found(file: ParameterFile, rule: str) -> list[Finding]:
-    """Return the findings of one rule in a file."""
-    return [finding for finding in Validator(file).run() if finding.rule == rule]
-
-
-def the(file: ParameterFile, rule: str) -> Finding:
-    """Return the only finding of a rule."""
-    (finding,) = found(file, rule)
-    return finding
-
-
-# ------------------------------------------------------------------------------------- ranges and choices
-
-
-def test_a_value_out_of_range_is_an_error_with_its_range_page_and_fix(mill) -> None:
-    mill.set(("home.g28_speed", "1"), Value(10161.0, "mm/min"))
-    assert the(mill, "schema.range") == Finding(
-        rule="schema.range",
-        severity="error",
-        causes=(("home.g28_speed", "1"),),
-        message="G28 Home Speed 10161 mm/min is outside 0 to 10160 mm/min.",
-        fix=(Setting(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
-        page="5-16",
-    )
-
-
-def test_a_negative_speed_is_not_mended_by_an_axis_that_stands_still(mill) -> None:
-    mill.set(("home.g28_speed", "1"), Value(-5000.0, "mm/min"))
-    assert the(mill, "schema.range").fix == ()
-
-
-def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
-    mill.set(("home.g28_speed", "1"), Value(400.0, "in/min"))
-    assert found(mill, "schema.range") == []
-    mill.set(("home.g28_speed", "1"), Value(400.0001, "in/min"))
-    finding = the(mill, "schema.range")
-    assert finding.message == "G28 Home Speed 400.0001 in/min is outside 0 to 400 in/min."
-    assert finding.fix == (Setting(("home.g28_speed", "1"), Value(400.0, "in/min")),)
-
-
-def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
-    mill.set(CUTTING, Value(12000.00001, "mm/min"))
-    finding = the(mill, "schema.range")
-    assert finding.message == (
-        "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
-        "(set by 1203 Rapid Feedrate for Positioning, 12000 mm/min)."
-    )
-    assert finding.fix == (Setting(CUTTING, Value(12000.0, "mm/min")),)
-
-
-def test_a_bound_that_moves_is_noticed(mill) -> None:
-    validator = Validator(mill)
-    validator.run()
-    mill.set(RAPID, Value(5000.0, "mm/min"))
-    assert [f.addresses for f in validator.update([RAPID]) if f.rule == "schema.range"] == [(CUTTING, RAPID)]
-
-
-def test_a_code_without_a_choice_is_an_error_that_no_default_mends(mill) -> None:
-    """Nobody but the control knows what the code does: a default in its place may turn an axis the other way."""
-    mill.set(("servo.sercos_baud", ""), Value("raw:999"))
-    assert the(mill, "schema.choice") == Finding(
-        rule="schema.choice",
-        severity="error",
-        causes=(("servo.sercos_baud", ""),),
-        message="999 is no code of Baud Rate for SERCOS.",
-        page="7-3",
-    )
-
-
-@pytest.mark.parametrize(
-    ("speed", "mended"),
-    [
-        (243840.1, 243840.0),
-        (268224.0, 243840.0),
-        (268224.1, None),
-        (2438400.0, None),
-        (1e300, None),
-        (-1.0, None),
-    ],
-)
-def test_a_number_that_just_misses_its_range_goes_to_the_bound_and_one_far_beyond_to_none(
-    mill, speed: float, mended: float | None
-) -> None:
-    """A digit too many means nobody knows what; the bound is the fastest that there is."""
-    mill.set(RAPID, Value(speed, "mm/min"))
-    finding = next(f for f in Validator(mill).run() if f.rule == "schema.range" and f.causes == (RAPID,))
-    assert [setting.value.value for setting in finding.fix] == [mended] * (mended is not None)
-
-
-@pytest.mark.parametrize(
-    ("address", "value", "said"),
-    [
-        (("servo.sercos_baud", ""), Value("9 MHz"), "9 MHz is no choice of Baud Rate for SERCOS."),
-        (("servo.sercos_baud", ""), Value(2.0), "2.0 is no choice of Baud Rate for SERCOS."),
-        (("zone.overtravel_used", "1"), Value("yes"), "yes is no choice of Software Overtravel Used."),
-        (EXCESS, Value("much", "mm"), "Excess Error takes a number, not much."),
-        (EXCESS, Value(True), "Excess Error takes a number, not True."),
-        (EXCESS, Value(math.nan, "mm"), "Excess Error takes a number, not nan."),
-        (EXCESS, Value(math.inf, "mm"), "Excess Error takes a number, not inf."),
-        (("servo.sercos_cycle", ""), Value(2.5, "ms"), "Cycle Time for SERCOS takes whole numbers, not 2.5."),
-    ],
-)
-def test_a_value_of_the_wrong_kind_is_an_error(mill, address: Address, value: Value, said: str) -> None:
-    mill.set(address, value)
-    (finding,) = (f for f in Validator(mill).run() if f.rule.startswith("schema.") and f.severity == "error")
-    assert finding.message == said
-    assert [setting.value for setting in finding.fix] == [mill.default(address)]
-
-
-@pytest.mark.parametrize(
-    ("address", "value", "said", "mended"),
-    [
-        (EXCESS, Value(20.0, "deg"), "Excess Error 20° should be in mm here.", Value(20.0, "mm")),
-        (
-            ("servo.excess_error", "4"),
-            Value(20.0, "mm"),
-            "Excess Error 20 mm should be in ° here.",
-            Value(20.0, "deg"),
-        ),
-        (EXCESS, Value(20.0), "Excess Error 20 should be in mm here.", Value(20.0, "mm")),
-        (
-            ("servo.initial_gain", "1"),
-            Value(1.0, "mm"),
-            "Initial Gain of Position Loop 1 mm should be in a bare number here.",
-            Value(1.0),
-        ),
-    ],
-)
-def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
-    mill, address: Address, value: Value, said: str, mended: Value
-) -> None:
-    mill.set(address, value)
-    finding = the(mill, "schema.range")
-    assert finding.message == said
-    assert finding.fix == (Setting(address, mended),), "the control knows the figure only"
-
-
-def test_an_axis_that_turns_wants_degrees(mill) -> None:
-    validator = Validator(mill)
-    validator.run()
-    mill.set(("axis.type", "1"), Value("rotary"))
-    wrong = {f.addresses[0] for f in validator.update([("axis.type", "1")]) if f.rule == "schema.range"}
-    assert EXCESS in wrong
-    assert {address[1] for address in wrong} == {"1"}
-
-
-def test_a_fix_that_would_be_wrong_too_is_not_offered(mill) -> None:
-    positive, negative = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
-    mill.set(negative, Value(2540001.0, "mm"))
-    offered = {f.addresses[0]: [r.value for r in f.fix] for f in found(mill, "schema.range")}
-    assert offered == {positive: [], negative: []}
-
-
-def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
-    mill.set_many({EXCESS: Value(500.0, "mm")}, force="by J. Fitter on 2026-07-01")
-    assert the(mill, "schema.range").message == (
-        "Excess Error 500 mm is outside 0 to 214.1 mm. It was forced by J. Fitter on 2026-07-01."
-    )
 
 
 # -------------------------------------------------------------------------------- states, unset, unknown
