@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 import pytest
-from rule_stands import sound
+from rule_machines import sound
 
 from amp_studio.files import ParameterFile
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from random import Random
 
-from rule_stands import FAMILIES, machines, sound
+from rule_machines import FAMILIES, machines, sound
 from test_any_values import anything, fitting, often
 
 from amp_studio.files import ParameterFile

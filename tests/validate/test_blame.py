@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 
 import pytest
-from rule_stands import FAMILIES, cases, stand
+from rule_machines import FAMILIES, cases, trial_machine
 
 from amp_studio.report import finding_json
 from amp_studio.schema import Rule, Value, load_schema
@@ -20,7 +20,7 @@ ALWAYS_SO = {
 
 def found(family: str, machine: str, changes: dict[str, str | None], rule: str, given: str = "") -> Finding:
     """Return the one finding of a rule after changes; ``given`` is another model of the control."""
-    here = stand(family, machine, given)
+    here = trial_machine(family, machine, given)
     with here.changed(changes):
         (finding,) = here.of(rule)
     return finding
@@ -202,7 +202,7 @@ def test_every_condition_is_met_by_one_value_of_the_cases_and_missed_by_another(
     for case in cases(family):
         if case.breaks is None or not getattr(rules[case.rule], part):
             continue
-        here = case.stand
+        here = case.machine
         with here.changed(case.given), here.changed(case.breaks):
             for finding in here.of(case.rule):
                 check = here.validator.check_of(finding)

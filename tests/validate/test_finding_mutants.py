@@ -1,8 +1,8 @@
-"""What a rule offers and says is in the tables of cases too: changed in one place, it no longer offers or says that.
+"""The fixes and figures of a rule are in the tables of cases too: changed in one place, a case notices it.
 
 Of every rule of every family the expressions of its fixes, of what the control uses instead and of the figures in its
-message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by what it ``mends``, by what it
-``uses`` and by what it ``says``; also, as ``test_rules.py`` does, when there is no longer a fix, or one that should
+message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by its ``fix``, ``effective``
+and ``message``; also, as ``test_rules.py`` does, when there is no longer a fix, or one that should
 not be there, or when what the control uses instead breaks the rule as well.
 """
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import pytest
 from mutations import EVERY_MUTANT, variations
-from rule_stands import FAMILIES, HERE, Case, cases, read
+from rule_machines import FAMILIES, HERE, Case, cases, read
 
 from amp_studio.schema import Rule, load_schema, program
 from amp_studio.schema.expression import Expression
@@ -28,14 +28,14 @@ PARTS = {"fix": "fixes", "effective": "effective", "values": "values"}
 """Part of a rule -> the field of its compiled expressions."""
 
 EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_finding_mutants.yaml")
-"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it tells the same as the rule."""
+"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the rule."""
 
 CHOICE = re.compile(r"'([^']*)'")
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A rule of which one expression of what it tells was changed."""
+    """A rule of which one expression of its findings was changed."""
 
     part: str
     n: int
@@ -45,7 +45,7 @@ class Mutant:
     change: str
 
     def has(self, piece: str) -> bool:
-        """Tell whether a piece of text is what was changed here."""
+        """Return whether a piece of text is what was changed here."""
         return piece in self.text and piece not in self.before
 
     def of(self, rule: Rule, expressions: FindingExpressions) -> Expressions:
@@ -58,7 +58,7 @@ class Mutant:
 
 
 def parts_of(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
-    """Yield the expressions of what a rule tells: the part, which of it, its name, its text."""
+    """Yield the expressions of a rule's findings: the part, which of it, its name, its text."""
     for part in ("fix", "effective"):
         for n, assignment in enumerate(getattr(rule, part)):
             yield part, n, assignment.set, assignment.value
@@ -67,7 +67,7 @@ def parts_of(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
 
 
 def mutants_of(rule: Rule) -> Iterator[Mutant]:
-    """Yield what a rule tells with one thing changed after the other."""
+    """Yield the findings' expressions of a rule with one thing changed after the other."""
     for part, n, name, written in parts_of(rule):
         text = " ".join(written.split())
         for changed, change in (*variations(text), *other_values(rule, part, name, text)):
@@ -88,25 +88,25 @@ def other_values(rule: Rule, part: str, name: str, text: str) -> Iterator[tuple[
             yield text.replace(f"'{named}'", f"'{instead}'"), f"{named} → {instead}"
 
 
-def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck], mends: bool) -> bool:
-    """Tell whether a case gets something else than it says; the findings are those of the checks.
+def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck], has_fix: bool) -> bool:
+    """Return whether a case gets something else than it lists; the findings are those of the checks.
 
-    ``mends`` is whether the rule as it is written has a fix there, which a trial may refuse.
+    ``has_fix`` is whether the rule as it is written has a fix there, which a trial may refuse.
     """
     rule = checks[0].rule
-    if rule.fix and any(finding.fix for finding in found) is not mends:
+    if rule.fix and any(finding.fix for finding in found) is not has_fix:
         return True
-    if case.mends is not None and not case.offers(found):
+    if case.fix is not None and not case.offers(found):
         return True
-    if any("?" in finding.message for finding in found) or not case.is_said(found):
+    if any("?" in finding.message for finding in found) or not case.has_message(found):
         return True
     if not rule.effective:
         return False
-    if case.uses is not None:
-        return not case.knows_used(found)
+    if case.effective is not None:
+        return not case.has_effective(found)
     if not all(finding.effective for finding in found):
         return True
-    here = case.stand
+    here = case.machine
     with here.recorded():
         here.set({used.address: used.value for finding in found for used in finding.effective})
         values = RuleChecks(here.file, here.file.machine)
@@ -115,13 +115,13 @@ def notices(case: Case, found: Sequence[Finding], checks: Sequence[RuleCheck], m
 
 def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ...]:
     """Return the mutants of a rule that a case does not notice."""
-    here, left = case.stand, []
+    here, left = case.machine, []
     with here.changed(case.given), here.changed(case.breaks or {}):
         values = RuleChecks(here.file, here.file.machine)
         broken = [
             check for check in checks_of(here.file.evaluation, (rule,)) if values.finding(check) is not None
         ]
-        mends = any(one.fix for check in broken if (one := values.finding(check)) is not None)
+        has_fix = any(one.fix for check in broken if (one := values.finding(check)) is not None)
         for mutant in mutants:
             try:
                 expressions = mutant.of(rule, broken[0].expressions.finding)
@@ -132,7 +132,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ..
                 for check in broken
                 if (one := values.finding(replace(check, expressions=expressions))) is not None
             ]
-            if not notices(case, found, broken, mends):
+            if not notices(case, found, broken, has_fix):
                 left.append(mutant)
     return tuple(left)
 
@@ -152,7 +152,7 @@ def test_no_mutant_of_what_a_rule_tells_passes_the_tables(family: str) -> None:
         for mutant in mutants
         if not any(mutant.has(piece) for piece in EQUIVALENT.get(rule, {}))
     ]
-    assert unknown == [], "let a case say what it mends, uses or says"
+    assert unknown == [], "add the fix, effective value or message to a case"
     listed = {(rule, piece) for rule in left for piece in EQUIVALENT.get(rule, {})}
     met = {(rule, piece) for rule, piece in listed for mutant in left[rule] if mutant.has(piece)}
     assert not EVERY_MUTANT or listed == met, "what is listed is alive"

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 from fix_campaign import unkept
-from rule_stands import FAMILIES, Case, cases
+from rule_machines import FAMILIES, Case, cases
 
 from amp_studio.schema import fault, load_schema
 
@@ -33,7 +33,7 @@ NO_MOTION = {
 
 def broken_promises(case: Case) -> Iterator[str]:
     """Apply each fix that is offered while a case is broken, and tell what it does not keep."""
-    here = case.stand
+    here = case.machine
     with here.changed(case.given), here.changed(case.breaks or {}):
         before = here.findings
         for finding in [finding for finding in before if finding.fix]:
@@ -58,6 +58,6 @@ def test_a_safe_fix_changes_no_motion(family: str) -> None:
     assert safe.keys() - used == {name for name in NO_MOTION if name.startswith(f"{family}.")}
     for case in cases(family):
         if case.rule in used and case.breaks is not None:
-            with case.stand.changed(case.given), case.stand.changed(case.breaks):
-                found = case.stand.of(case.rule)
+            with case.machine.changed(case.given), case.machine.changed(case.breaks):
+                found = case.machine.of(case.rule)
                 assert all(f.fix == f.effective for f in found if f.fix), "what the control uses anyway"

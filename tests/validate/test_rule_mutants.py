@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import pytest
 from mutations import EVERY_MUTANT, operands, variations
-from rule_stands import FAMILIES, HERE, Stand, cases, machines, read, stand
+from rule_machines import FAMILIES, HERE, TrialMachine, cases, machines, read, trial_machine
 
 from amp_studio.schema import Rule, load_schema
 from amp_studio.validate.plan import RuleCheck, checks_of
@@ -62,19 +62,19 @@ class Campaign:
     def __init__(self, family: str) -> None:
         self.alive = {rule.id: tuple(mutants(rule)) for rule in load_schema(family).rules}
         self.total = sum(map(len, self.alive.values()))
-        self._checks: dict[tuple[Stand, str], dict[str, list[RuleCheck]]] = {}
+        self._checks: dict[tuple[TrialMachine, str], dict[str, list[RuleCheck]]] = {}
         for name in machines(family)["machines"]:
             for rule in self.alive:
-                self._expect(stand(family, name), rule, 0)
+                self._expect(trial_machine(family, name), rule, 0)
         for case in cases(family):
-            with case.stand.changed(case.given):
-                self._expect(case.stand, case.rule, 0)
-                for texts, times in ((case.breaks, case.times), (case.holds, 0)):
+            with case.machine.changed(case.given):
+                self._expect(case.machine, case.rule, 0)
+                for texts, times in ((case.breaks, case.times), (case.passes, 0)):
                     if texts is not None:
-                        with case.stand.changed(texts):
-                            self._expect(case.stand, case.rule, times)
+                        with case.machine.changed(texts):
+                            self._expect(case.machine, case.rule, times)
 
-    def _expect(self, here: Stand, rule: str, times: int) -> None:
+    def _expect(self, here: TrialMachine, rule: str, times: int) -> None:
         """Strike out the mutants of a rule that give another number of findings."""
         checks, values = self._checks_of(here, rule), RuleChecks(here.file, here.file.machine)
         self.alive[rule] = tuple(
@@ -83,7 +83,7 @@ class Campaign:
             if sum(values.finding(check) is not None for check in checks.get(mutant.rule.id, ())) == times
         )
 
-    def _checks_of(self, here: Stand, rule: str) -> Mapping[str, list[RuleCheck]]:
+    def _checks_of(self, here: TrialMachine, rule: str) -> Mapping[str, list[RuleCheck]]:
         """Return the checks of a rule's mutants on a machine."""
         found = self._checks.get((here, rule))
         if found is None:

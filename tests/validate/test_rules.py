@@ -1,4 +1,4 @@
-"""Every rule of every family is broken by the change its table names, holds beside it, and its fix mends it.
+"""Every rule of every family is broken by the change of its table, not by the one beside it, and its fix ends the finding.
 
 The tables are in ``rule_cases/``; the machines they change are in ``sound_machines/``.
 """
@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 
 import pytest
-from rule_stands import FAMILIES, HERE, Case, all_cases, cases, machines, stand
+from rule_machines import FAMILIES, HERE, Case, all_cases, cases, machines, trial_machine
 
 from amp_studio.schema import Value, canonical_unit, load_schema, program
 from amp_studio.validate import Finding
@@ -25,7 +25,7 @@ for each in all_cases():
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_a_rule_does_what_its_cases_say(rule: str) -> None:
+def test_a_rule_does_what_its_cases_list(rule: str) -> None:
     failed: list[Exception] = []
     for check, case in checks_of(rule):
         try:
@@ -38,15 +38,15 @@ def test_a_rule_does_what_its_cases_say(rule: str) -> None:
 
 
 def checks_of(rule: str) -> Iterator[tuple[Callable[[Case], None], Case]]:
-    """Yield what is tried of a rule, and with which of its cases."""
+    """Yield each check of a rule with one of its cases."""
     breaking = [case for case in CASES[rule] if case.breaks is not None]
-    holding = [case for case in CASES[rule] if case.holds is not None]
+    passing = [case for case in CASES[rule] if case.passes is not None]
     yield from ((a_broken_rule_is_found, case) for case in breaking)
-    yield from ((a_rule_that_just_holds_says_nothing, case) for case in holding)
+    yield from ((a_rule_that_just_passes_has_no_finding, case) for case in passing)
     if RULES[rule].fix:
-        yield from ((its_fixes_mend_it_and_cause_no_error, case) for case in breaking)
+        yield from ((its_fixes_end_the_finding_and_cause_no_error, case) for case in breaking)
     if RULES[rule].effective:
-        yield from ((what_the_control_uses_instead_is_told, case) for case in breaking)
+        yield from ((the_effective_value_is_in_the_finding, case) for case in breaking)
     if compares_numbers(rule):
         yield a_comparison_turns_exactly_at_its_bound, breaking[0]
 
@@ -55,17 +55,19 @@ def test_no_check_of_a_case_is_lost() -> None:
     """How many there were when this was written: more may come, a filter that drops some is noticed."""
     tried = Counter(check for rule in RULES for check, _ in checks_of(rule))
     assert tried[a_broken_rule_is_found] >= 2418
-    assert tried[a_rule_that_just_holds_says_nothing] >= 2518
-    assert tried[its_fixes_mend_it_and_cause_no_error] >= 706
-    assert tried[what_the_control_uses_instead_is_told] >= 191
+    assert tried[a_rule_that_just_passes_has_no_finding] >= 2518
+    assert tried[its_fixes_end_the_finding_and_cause_no_error] >= 706
+    assert tried[the_effective_value_is_in_the_finding] >= 191
     assert tried[a_comparison_turns_exactly_at_its_bound] >= 217
 
 
 @pytest.mark.parametrize(
     ("family", "name"), [(f, name) for f in FAMILIES for name in machines(f)["machines"]]
 )
-def test_in_a_sound_machine_nothing_is_found(family: str, name: str) -> None:
-    assert [finding for finding in stand(family, name).findings if finding.rule != "schema.unset"] == []
+def test_a_sound_machine_has_no_finding(family: str, name: str) -> None:
+    assert [
+        finding for finding in trial_machine(family, name).findings if finding.rule != "schema.unset"
+    ] == []
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -73,7 +75,7 @@ def test_every_rule_has_a_case_that_breaks_it_and_one_that_just_does_not(family:
     rules = {rule.id for rule in load_schema(family).rules}
     assert {case.rule for case in cases(family)} == rules, "a rule without a row, or a row without a rule"
     assert {case.rule for case in cases(family) if case.breaks is not None} == rules
-    assert {case.rule for case in cases(family) if case.holds is not None} == rules
+    assert {case.rule for case in cases(family) if case.passes is not None} == rules
 
 
 def test_no_table_of_cases_is_beside_the_folders_of_the_families() -> None:
@@ -81,7 +83,7 @@ def test_no_table_of_cases_is_beside_the_folders_of_the_families() -> None:
 
 
 def a_broken_rule_is_found(case: Case) -> None:
-    rule, here = RULES[case.rule], case.stand
+    rule, here = RULES[case.rule], case.machine
     with here.changed(case.given):
         assert here.of(case.rule) == []
         with here.changed(case.breaks or {}):
@@ -91,42 +93,42 @@ def a_broken_rule_is_found(case: Case) -> None:
                 assert (finding.severity, finding.page) == (rule.severity, rule.page)
                 assert finding.causes
                 assert not re.search(r"[{}?]", finding.message), "every name of the message has its value"
-            assert case.is_said(found), [finding.message for finding in found]
+            assert case.has_message(found), [finding.message for finding in found]
 
 
-def a_rule_that_just_holds_says_nothing(case: Case) -> None:
-    with case.stand.changed(case.given), case.stand.changed(case.holds or {}):
-        assert case.stand.of(case.rule) == []
+def a_rule_that_just_passes_has_no_finding(case: Case) -> None:
+    with case.machine.changed(case.given), case.machine.changed(case.passes or {}):
+        assert case.machine.of(case.rule) == []
 
 
 # --------------------------------------------------------------------------------------------- fixes
 
 
 def errors_of(findings: tuple[Finding, ...]) -> set[tuple[str, object]]:
-    """Return which errors there are, and about what."""
+    """Return the errors, each with what it is about."""
     return {finding.key for finding in findings if finding.severity == "error"}
 
 
-def its_fixes_mend_it_and_cause_no_error(case: Case) -> None:
-    here = case.stand
+def its_fixes_end_the_finding_and_cause_no_error(case: Case) -> None:
+    here = case.machine
     with here.changed(case.given), here.changed(case.breaks or {}):
         broken = here.findings
-        mendable = [finding for finding in here.of(case.rule) if finding.fix]
-        assert bool(mendable) is not bool(case.unmended), "a case whose findings offer no fix says why"
-        assert case.mends is None or case.offers(mendable), [finding.fix for finding in mendable]
+        fixable = [finding for finding in here.of(case.rule) if finding.fix]
+        assert bool(fixable) is not bool(case.no_fix), "a case whose findings offer no fix has the reason"
+        assert case.fix is None or case.offers(fixable), [finding.fix for finding in fixable]
         with here.recorded():
-            here.set({setting.address: setting.value for finding in mendable for setting in finding.fix})
-            assert {f.key for f in mendable} & {f.key for f in here.of(case.rule)} == set()
+            here.set({setting.address: setting.value for finding in fixable for setting in finding.fix})
+            assert {f.key for f in fixable} & {f.key for f in here.of(case.rule)} == set()
             assert errors_of(here.findings) - errors_of(broken) == set()
 
 
-def what_the_control_uses_instead_is_told(case: Case) -> None:
-    here = case.stand
+def the_effective_value_is_in_the_finding(case: Case) -> None:
+    here = case.machine
     with here.changed(case.given), here.changed(case.breaks or {}):
         found = here.of(case.rule)
         uses = {setting.address: setting.value for finding in found for setting in finding.effective}
-        if case.uses is not None:
-            assert case.knows_used(found), uses
+        if case.effective is not None:
+            assert case.has_effective(found), uses
             return
         assert all(finding.effective for finding in found)
         with here.recorded():
@@ -136,8 +138,8 @@ def what_the_control_uses_instead_is_told(case: Case) -> None:
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_rule_with_a_fix_offers_it(family: str) -> None:
-    mended = {case.rule for case in cases(family) if case.breaks is not None and not case.unmended}
-    assert {rule.id for rule in load_schema(family).rules if rule.fix} <= mended
+    fixed = {case.rule for case in cases(family) if case.breaks is not None and not case.no_fix}
+    assert {rule.id for rule in load_schema(family).rules if rule.fix} <= fixed
 
 
 # ----------------------------------------------------------------------------- the bound, taken from the rule
@@ -154,7 +156,7 @@ COMPARISON = re.compile(r"(\w+) (<=|>=|==|!=|<|>) ([^<>=!&|?']+)")
 
 
 def compares_numbers(rule_id: str) -> bool:
-    """Tell whether the check of a rule compares a number with another one, or with an expression."""
+    """Return whether the check of a rule compares a number with another one, or with an expression."""
     rule = RULES[rule_id]
     found = COMPARISON.fullmatch(rule.check)
     if not found or found[3] == "null":
@@ -166,7 +168,7 @@ def compares_numbers(rule_id: str) -> bool:
 def a_comparison_turns_exactly_at_its_bound(case: Case) -> None:
     rule = RULES[case.rule]
     left, sign, right = COMPARISON.fullmatch(rule.check).groups()
-    here = case.stand
+    here = case.machine
     with here.changed(case.given), here.changed(case.breaks):
         check = here.validator.check_of(here.of(case.rule)[0])
         address = check.address_of(left)
@@ -177,7 +179,7 @@ def a_comparison_turns_exactly_at_its_bound(case: Case) -> None:
                 applies = program(rule.when).execute(
                     RuleChecks(here.file, here.file.machine).context_of(check)
                 )
-                said = any(here.validator.check_of(finding) is check for finding in here.of(case.rule))
-            assert said is (applies and not OPERATORS[sign](number, bound)), (
+                is_found = any(here.validator.check_of(finding) is check for finding in here.of(case.rule))
+            assert is_found is (applies and not OPERATORS[sign](number, bound)), (
                 f"{left} = {number!r} at {bound!r}"
             )

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from rule_stands import Stand, sound, stand
+from rule_machines import TrialMachine, sound, trial_machine
 
 from amp_studio.schema import Value
 from amp_studio.validate import Validator
 
 
-def mill() -> Stand:
+def mill() -> TrialMachine:
     """Return the Syntec mill."""
-    return stand("syntec", "generic")
+    return trial_machine("syntec", "generic")
 
 
 def test_nobody_is_asked_for_what_a_file_is_complete_without() -> None:

@@ -32,12 +32,12 @@ SEVERAL = re.compile(r"(?P<before>.*?)(?:(?P<first>\d+)\.\.(?P<last>\d+)|(?<=@)(
 
 
 def read(path: Path) -> dict[str, Any]:
-    """Return what a YAML file of these folders holds."""
+    """Return the content of a YAML file of these folders."""
     return YAML(typ="safe").load(path.read_text("utf-8")) or {}
 
 
 def each(name: str) -> list[str]:
-    """Return the names that one name of a change stands for."""
+    """Return the names that one name of a change means."""
     several = SEVERAL.fullmatch(name)
     if several is None:
         return [name]
@@ -47,12 +47,12 @@ def each(name: str) -> list[str]:
 
 
 def value_of(file: ParameterFile, address: Address, text: str) -> Value:
-    """Return what a person means who writes millimetres also for what turns."""
+    """Return the value of a text that has millimetres also for what turns."""
     return file.read(address, text.replace("mm", "deg") if file.evaluation.turns(address) else text)
 
 
 def change(file: ParameterFile, texts: Change) -> list[Address]:
-    """Write values into a file as a person would, out of range if it must be; returns where."""
+    """Set values in a file, also out of range; returns their addresses."""
     wanted: dict[Address, Value | None] = {}
     for name, text in ((one, text) for several, text in texts.items() for one in each(several)):
         address = file.find(name)
@@ -66,17 +66,17 @@ def change(file: ParameterFile, texts: Change) -> list[Address]:
 
 @cache
 def machines(family: str) -> dict[str, Any]:
-    """Return the sound machines of a family, as they are written; the first is the one that cases start from."""
+    """Return the sound machines of a family, as written; cases start from the first."""
     return read(HERE / "sound_machines" / family / "machines.yaml")
 
 
 def sound(family: str, name: str) -> ParameterFile:
-    """Return a machine in which nothing is to be found: a new one or an example, with values of its own."""
+    """Return a machine without a finding: a new one or an example, with its values changed."""
     written = machines(family)
     one = written["machines"][name]
 
     def values(of: Mapping[str, Any]) -> Iterator[Change]:
-        """Yield the values of the parts that a machine or an axis is like, then its own."""
+        """Yield the values of the parts that a machine or an axis is made of, then its own."""
         for part in of.get("like", ()):
             listed = written.get("parts", {})
             yield listed[part] if part in listed else read(HERE / "sound_machines" / family / f"{part}.yaml")
@@ -97,8 +97,8 @@ def sound(family: str, name: str) -> ParameterFile:
     return file
 
 
-class Stand:
-    """A machine on which changes are tried and taken back."""
+class TrialMachine:
+    """A machine on which changes are tried and undone."""
 
     def __init__(self, family: str, machine: str, application: str = "") -> None:
         self.file = sound(family, machine)
@@ -108,11 +108,11 @@ class Stand:
         self.validator = Validator(self.file)
         self._findings = self.validator.run()
         self._changed: set[Address] = set()
-        """What was changed since anybody asked for the findings."""
+        """What was changed since the findings were last asked for."""
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is found in the machine as it stands now."""
+        """The findings of the machine as it is now."""
         if self._changed:
             self._findings = self.validator.update(self._changed)
             self._changed = set()
@@ -130,14 +130,14 @@ class Stand:
 
     @contextmanager
     def changed(self, texts: Change) -> Iterator[None]:
-        """Make changes, and take back at the end whatever was changed."""
+        """Make changes, and undo at the end everything that was changed."""
         with self.recorded():
             self._changed.update(change(self.file, texts))
             yield
 
     @contextmanager
     def recorded(self) -> Iterator[None]:
-        """Take back at the end whatever is changed."""
+        """Undo at the end everything that is changed."""
         values, forced = dict(self.file.values), dict(self.file.forced)
         try:
             yield
@@ -153,9 +153,9 @@ class Stand:
 
 
 @cache
-def stand(family: str, machine: str, application: str = "") -> Stand:
-    """Return the machine, the same one for all who ask."""
-    return Stand(family, machine, application)
+def trial_machine(family: str, machine: str, application: str = "") -> TrialMachine:
+    """Return a machine, the same one at each call."""
+    return TrialMachine(family, machine, application)
 
 
 # ---------------------------------------------------------------------------------------------------- cases
@@ -163,7 +163,7 @@ def stand(family: str, machine: str, application: str = "") -> Stand:
 
 @dataclass(frozen=True)
 class Case:
-    """One way to break a rule, and one that nearly does; ``rule_cases/README.md`` explains the fields."""
+    """A change that breaks a rule, and one that just does not; ``rule_cases/README.md`` explains the fields."""
 
     family: str
     rule: str
@@ -173,45 +173,47 @@ class Case:
     given: Change = field(default_factory=dict)
     breaks: Change | None = None
     times: int = 1
-    uses: Change | None = None
-    mends: Change | None = None
-    says: str | list[str] = ""
-    unmended: str = ""
-    holds: Change | None = None
+    effective: Change | None = None
+    fix: Change | None = None
+    message: str | list[str] = ""
+    no_fix: str = ""
+    passes: Change | None = None
 
     def __str__(self) -> str:
         return f"{self.rule}-{self.n}"
 
     @property
-    def stand(self) -> Stand:
+    def machine(self) -> TrialMachine:
         """The machine it starts from."""
-        return stand(self.family, self.of, self.application)
+        return trial_machine(self.family, self.of, self.application)
 
     def offers(self, found: Iterable[Finding]) -> bool:
-        """Tell whether findings, of the machine as it stands now, offer what the case says it ``mends``."""
-        return self._are(self.mends or {}, (setting for finding in found for setting in finding.fix))
+        """Return whether findings of the machine as it is now offer the ``fix`` of the case."""
+        return self._are(self.fix or {}, (setting for finding in found for setting in finding.fix))
 
-    def knows_used(self, found: Iterable[Finding]) -> bool:
-        """Tell whether findings, of the machine as it stands now, tell what the case says the control ``uses``."""
-        return self._are(self.uses or {}, (used for finding in found for used in finding.effective))
+    def has_effective(self, found: Iterable[Finding]) -> bool:
+        """Return whether findings of the machine as it is now have the ``effective`` values of the case."""
+        return self._are(self.effective or {}, (used for finding in found for used in finding.effective))
 
-    def is_said(self, found: Collection[Finding]) -> bool:
-        """Tell whether every piece that the case ``says`` is in the message of a finding."""
-        pieces = [self.says] if isinstance(self.says, str) else self.says
+    def has_message(self, found: Collection[Finding]) -> bool:
+        """Return whether every piece of the case's ``message`` is in the message of a finding."""
+        pieces = [self.message] if isinstance(self.message, str) else self.message
         return all(any(piece in finding.message for finding in found) for piece in pieces)
 
     def _are(self, texts: Change, settings: Iterable[Setting]) -> bool:
-        """Tell whether settings are the values written, but for the last digits of a number."""
-        wanted = {a: str(text) for name, text in texts.items() for a in map(self.stand.file.find, each(name))}
+        """Return whether settings are the values written, but for the last digits of a number."""
+        wanted = {
+            a: str(text) for name, text in texts.items() for a in map(self.machine.file.find, each(name))
+        }
         got = {setting.address: setting.value for setting in settings}
         return wanted.keys() == got.keys() and all(
-            _as_good_as_equal(value_of(self.stand.file, address, text), got[address])
+            _as_good_as_equal(value_of(self.machine.file, address, text), got[address])
             for address, text in wanted.items()
         )
 
 
 def _as_good_as_equal(one: Value, other: Value) -> bool:
-    """Tell whether two values are equal, numbers but for the last digits."""
+    """Return whether two values are equal, numbers but for the last digits."""
     numbers = [canonical_value(value) for value in (one, other)]
     if all(isinstance(number, float) for number in numbers):
         return math.isclose(*numbers, rel_tol=1e-9)
