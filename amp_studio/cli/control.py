@@ -16,9 +16,10 @@ from amp_studio.transfer.client.parameters import (
     restore_copy,
     sha256,
 )
-from amp_studio.transfer.client.verification import verify_images
-from amp_studio.transfer.emulated.family_control import emulate
-from amp_studio.transfer.image import ImageError, decode_image, encode_image
+from amp_studio.transfer.client.verification import verify_content
+from amp_studio.transfer.content import decode_content
+from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
+from amp_studio.transfer.image import ImageError
 
 from .console import family, note, print_json, progress
 from .errors import UsageError
@@ -33,8 +34,9 @@ from .stopping import asked_politely
 def emulate_verb(options: argparse.Namespace) -> int:
     """Be a control until stopped."""
     family(options.family)
-    return emulate(options.family, options.listen, options.state, machine=options.machine, estop=not options.no_estop,
-                   autostart=not options.manual_restart, faults=options.faults)  # fmt: skip
+    return emulate(options.listen, EmulatedOptions(
+        options.family, options.state, machine=options.machine, estop=not options.no_estop,
+        autostart=not options.manual_restart, faults=options.faults))  # fmt: skip
 
 
 def download_verb(options: argparse.Namespace) -> int:
@@ -120,7 +122,7 @@ def upload_verb(options: argparse.Namespace) -> int:
 
 def _readable(image: bytes, output: Path) -> ParameterFile:
     try:
-        return decode_image(image)
+        return decode_content(image)
     except ImageError as error:
         raise UsageError(
             f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"
@@ -130,13 +132,12 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
 def verify_verb(options: argparse.Namespace) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
     file = open_file(options.path).file
-    image = encode_image(file)
     fetched = fetch_image(options.control, progress(), family=file.schema.family.family)
-    found = verify_images(image, fetched)
+    found = verify_content(file, fetched)
     if options.json:
         print_json({
             "differences": [difference_json(file, d, options.secrets) for d in found.values.differences], "same": found.values.same,
-            "same_bytes": found.is_same, "sha256": sha256(fetched), "unreadable": found.unreadable or None,
+            "same_bytes": found.is_same, "sha256": sha256(fetched), "unreadable": found.unreadable or None, "absent": found.absent or None,
             "header": [asdict(d) for d in found.head],
             "other_units": [difference_json(file, d, options.secrets) for d in found.other_units]})  # fmt: skip
         return int(not found.is_same)

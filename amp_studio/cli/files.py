@@ -252,10 +252,10 @@ def _side(text: str) -> tuple[ParameterFile, str | None]:
     if not is_endpoint(text):
         return open_file(Path(text)).file, None
     from amp_studio.transfer.client.parameters import fetch_image, sha256
-    from amp_studio.transfer.image import decode_image
+    from amp_studio.transfer.content import decode_content
 
     image = fetch_image(text, progress())
-    return decode_image(image), sha256(image)
+    return decode_content(image), sha256(image)
 
 
 def merge_verb(options: argparse.Namespace) -> int:

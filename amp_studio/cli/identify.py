@@ -10,7 +10,8 @@ from amp_studio.files import fitted_axes
 from amp_studio.report.wording import counted
 from amp_studio.transfer.client.drivers import open_driver
 from amp_studio.transfer.client.exchange import look_at
-from amp_studio.transfer.image import ImageError, decode_image
+from amp_studio.transfer.content import decode_content
+from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.serial_ports import serial_ports
 
 from .console import family, print_json, progress
@@ -41,7 +42,7 @@ def identify_verb(options: argparse.Namespace) -> int:
         control, content, digest = look_at(driver, progress())
     unreadable, axes, values = "", list(control.axes), None
     try:
-        file = decode_image(content)
+        file = decode_content(content)
         axes, values = axes or list(fitted_axes(file)), len(file.values)
     except ImageError as error:
         unreadable = str(error) if content else "it is empty"

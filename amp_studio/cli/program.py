@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 FAULT, CHANGED, UNKNOWN = 2, 3, 4
 BEGINNING, END = 1500, 1500
 """Signs of a message that are shown at most."""
-AT_CONTROL = {"old": FAULT, "new": CHANGED, "unknown": UNKNOWN}
+AT_CONTROL = {"old": FAULT, "new": CHANGED, "mixed": CHANGED, "defaults": CHANGED, "unknown": UNKNOWN}
 """The exit code of an exchange by what the control contains after it."""
 
 _OBJECTS = 300_000

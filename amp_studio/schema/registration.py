@@ -26,6 +26,8 @@ class Registration:
     ``formulas``  a mapping of names to functions: the published formulas, for rules and calculators
     ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which they are tried on a text
     ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
+    ``contents``  first line of what a control contains -> the ``ContentKind`` class that reads it
+    ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
@@ -34,6 +36,8 @@ class Registration:
     formulas: str = ""
     formats: tuple[str, ...] = ()
     drivers: Mapping[str, str] = field(default_factory=dict)
+    contents: Mapping[str, str] = field(default_factory=dict)
+    emulators: Mapping[str, str] = field(default_factory=dict)
     law: str = ""
     facts: Path | None = None
 

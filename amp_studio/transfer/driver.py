@@ -1,7 +1,7 @@
 """What every way of speaking to a control can be asked for: who is there, what does it contain, take this instead.
 
-A driver moves whole contents as bytes; ``image`` knows what they mean. It opens its own link, bounds its peer and its
-waiting, and ends every exchange with a TransferError that names what the control contains, or with success.
+A driver moves contents as bytes and is of the kind (``content``) that knows what they mean. It opens its own link, bounds
+its peer and its waiting, and ends every exchange with a TransferError that names what the control contains, or with success.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
+from .content import ContentKind
 from .links.endpoint import Endpoint
 from .progress import Progress, quiet
 
@@ -19,12 +20,16 @@ from .progress import Progress, quiet
 class Abilities:
     """What a way of speaking to a control can do.
 
-    ``can_send``   it takes a download, all or nothing
-    ``remembers``  it knows by itself what the control has contained before, and takes that back whatever it is
+    ``can_send``        it takes a download
+    ``remembers``       it knows by itself what the control has contained before, and takes that back whatever it is
+    ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
+    ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
     """
 
     can_send: bool = True
     remembers: bool = False
+    all_or_nothing: bool = True
+    maps_numbers: bool = False
 
 
 @dataclass(frozen=True)
@@ -52,13 +57,20 @@ class ControlIdentity:
 
 @dataclass(frozen=True)
 class Receipt:
-    """What a control answered when it took a download: whether it restarts now, and the number of the start that ends."""
+    """What a control answered when it took a download.
+
+    ``restarting``      whether it restarts now; ``incarnation`` is the number of the start that ends
+    ``restart_needed``  whether a restart by hand makes it current, where it does not restart by itself
+    ``notes``           sentences that the person has to know
+    """
 
     restarting: bool = False
     incarnation: int = 0
+    restart_needed: bool = True
+    notes: tuple[str, ...] = ()
 
 
-class ControlDriver(Protocol):
+class ControlDriver(ContentKind, Protocol):
     """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one thread.
 
     ``progress`` is called for steps and silences; ``cancel`` may be set from another thread and breaks off what waits.
@@ -74,18 +86,22 @@ class ControlDriver(Protocol):
     def fetch(
         self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
     ) -> bytes:
-        """Return what the control contains, whole and undamaged."""
+        """Return all that the control contains, whole and undamaged; the same bytes while it contains the same."""
 
     def send(
         self,
-        image: bytes,
+        content: bytes,
         *,
         signature: str,
         expected: bytes,
+        held: bytes,
         progress: Progress = quiet,
         cancel: threading.Event | None = None,
     ) -> Receipt:
-        """Have the control replace the content whose SHA-256 is ``expected``; ``at_control`` of an error is what it contains."""
+        """Have the control contain ``content`` instead of ``held``, whose SHA-256 is ``expected``.
+
+        A driver that sends single values sends those that differ. ``at_control`` of an error is what the control contains then.
+        """
 
     def wait_restarted(
         self,

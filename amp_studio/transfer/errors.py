@@ -6,13 +6,16 @@ from typing import Literal
 
 from amp_studio.schema.visible import visible
 
-# "old": what it contained before this exchange; "new": the image that was sent; "": nothing was to be sent.
-AtControl = Literal["", "old", "new", "unknown"]
+# "old": what it contained before this exchange; "new": the content that was sent; "mixed": some of both; "defaults": it has
+# lost its memory and begins anew; "": nothing was to be sent.
+AtControl = Literal["", "old", "new", "mixed", "defaults", "unknown"]
 
 AT_CONTROL_TEXT: dict[AtControl, str] = {
     "": "",
     "old": "nothing was replaced in the control",
     "new": "the control contains the new image, which was not read back",
+    "mixed": "the control contains some of the new values and the old ones of the rest",
+    "defaults": "the control has lost its memory and contains its defaults",
     "unknown": "whether the control contains the old or the new image is not known: verify before you go on "
     "(amp-studio verify FILE --with ADDRESS)",
 }
@@ -22,16 +25,19 @@ class TransferError(OSError):
     """An exchange that did not reach its end.
 
     ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it contained
-    before was kept, if it was.
+    before was kept, if it was; ``new`` the numbers of the parameters that are new already, where some are.
     """
 
-    def __init__(self, what: str, at_control: AtControl = "old", kept: str | None = None) -> None:
+    def __init__(
+        self, what: str, at_control: AtControl = "old", kept: str | None = None, new: tuple[str, ...] = ()
+    ) -> None:
         # Much of it are words of the other end: what steers a terminal is shown, not obeyed.
         what = visible(what)
         super().__init__(what)
         self.what = what
         self.at_control: AtControl = at_control
         self.kept = kept
+        self.new = new
 
     def __str__(self) -> str:
         where = (
@@ -39,7 +45,13 @@ class TransferError(OSError):
             if self.kept and self.at_control != "old"
             else ""
         )
-        return f"{self.what}; {AT_CONTROL_TEXT[self.at_control]}{where}" if self.at_control else self.what
+        return f"{self.what}; {self._now()}{where}" if self.at_control else self.what
+
+    def _now(self) -> str:
+        """Return what the control contains now, in words."""
+        if self.at_control == "mixed" and self.new:
+            return f"the control contains the new {', '.join(map(visible, self.new))} and the old values of the rest"
+        return AT_CONTROL_TEXT[self.at_control]
 
 
 class NoConnectionError(TransferError):

@@ -136,7 +136,8 @@ class ControlActions:
     def _preview(self, workspace: Workspace, address: str) -> str | None:
         """Show what the download would change in the control; returns the digest of the image to replace, or None."""
         from amp_studio.transfer.client.parameters import sha256
-        from amp_studio.transfer.image import ImageError, decode_image
+        from amp_studio.transfer.content import decode_content
+        from amp_studio.transfer.image import ImageError
 
         from .compare_dialog import DownloadPreview
 
@@ -145,8 +146,8 @@ class ControlActions:
         if not image:
             return approved
         try:
-            present = decode_image(image)
-            if present.schema is not workspace.file.schema:
+            present = decode_content(image)
+            if present.schema.family.family != workspace.file.schema.family.family:
                 raise ImageError(f"The control contains parameters for {present.schema.family.name}")
         except ImageError as error:
             question = f"{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
@@ -167,13 +168,13 @@ class ControlActions:
         address = self.exchanges.ask_address("Verify")
         if address is None:
             return
-        from amp_studio.transfer.client.verification import verify_images
-        from amp_studio.transfer.image import decode_image, encode_image
+        from amp_studio.transfer.client.verification import verify_content
+        from amp_studio.transfer.content import decode_content
 
         image = self.exchanges.fetch(address, "Verify", workspace.file.schema.family.family)
-        found = verify_images(encode_image(workspace.file), image)
+        found = verify_content(workspace.file, image)
         if not found.unreadable:
-            present = decode_image(image)
+            present = decode_content(image)
             self.exchanges.remember(workspace, present)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
@@ -198,13 +199,14 @@ class ControlActions:
 
     def _uploaded(self, address: str) -> ParameterFile:
         """Return the parameters of the control as a file; raises ValueError when they cannot be read."""
-        from amp_studio.transfer.image import ImageError, decode_image
+        from amp_studio.transfer.content import decode_content
+        from amp_studio.transfer.image import ImageError
 
         image = self.exchanges.fetch(address, "Upload")
         if not image:
             raise ValueError("The control contains no parameters: there is nothing to upload.")
         try:
-            return decode_image(image)
+            return decode_content(image)
         except ImageError as error:
             raise ValueError(
                 f"{error}.\n\nTo save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'."

@@ -75,5 +75,5 @@ class ControlExchange:
 
     def remember(self, workspace: Workspace, present: ParameterFile) -> None:
         """Show the values of the control beside those of a file of the same family."""
-        if present.schema is workspace.file.schema:
+        if present.schema.family.family == workspace.file.schema.family.family:
             workspace.remember_control(present.values, f"{datetime.now(UTC).astimezone():%H:%M}")

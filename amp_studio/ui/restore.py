@@ -66,7 +66,8 @@ def _check(copy: Copy, path: Path) -> None:
 
 def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes) -> bool:
     """Show what would change, or why it cannot be shown; returns whether to restore the backup."""
-    from amp_studio.transfer.image import ImageError, decode_image
+    from amp_studio.transfer.content import decode_content
+    from amp_studio.transfer.image import ImageError
 
     from .compare_dialog import DownloadPreview
 
@@ -77,12 +78,12 @@ def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes)
     )
     now = None
     try:
-        now = decode_image(present) if present else None
+        now = decode_content(present) if present else None
     except ImageError as error:
         doubts.append(f"The parameters of the control cannot be shown: {error}.")
     if copy.file is None:
         doubts.append(f"{path.name} is restored byte for byte, but cannot be shown: {copy.fault}.")
-    elif now is not None and now.schema is not copy.file.schema:
+    elif now is not None and now.schema.family.family != copy.file.schema.family.family:
         doubts.append(f"The control contains parameters for {now.schema.family.name}.")
     elif now is not None and not doubts:
         secrets = control.window.workspace.secrets if control.window.workspace else False

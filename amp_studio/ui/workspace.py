@@ -216,5 +216,6 @@ class Workspace(QObject):
         self.changed.emit([])
 
     def differences_to(self, values: Mapping[Address, Value]) -> Comparison:
-        """Return the comparison of the edited file with other values."""
-        return compare(self.file.schema, self.file.values, values)
+        """Return the comparison of the edited file with other values, as far as its schema knows them."""
+        known = {a: v for a, v in values.items() if a[0] in self.file.schema.parameters}
+        return compare(self.file.schema, self.file.values, known)

@@ -31,14 +31,16 @@ from amp_studio.transfer.progress import Progress, quiet
 RESTART_WAIT = 60.0  # seconds a control may take to come back
 
 Keep = Callable[[bytes], str]
+Wanted = Callable[[bytes], bytes]
+"""What a control shall contain, of what it contains; raises ImageError."""
 
 
 @dataclass(frozen=True)
 class Outcome:
     """How a download ended.
 
-    ``at_control``  what the control contains now: the "old" image, the "new" one, or "unknown"
-    ``verified``    whether every byte of the new image was read back and is equal
+    ``at_control``  what the control contains now: the "old" content, the "new" one, "mixed", or "unknown"
+    ``verified``    whether all of the new content was read back and is equal
     ``written``     whether the control had to take anything
     ``kept``        where the image before it is kept, byte for byte; None when nothing was replaced or it was empty
     ``restart``     "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
@@ -84,7 +86,7 @@ def _only_looking() -> Iterator[None]:
 
 def download(
     driver: ControlDriver,
-    image: bytes,
+    wanted: bytes | Wanted,
     keep: Keep,
     *,
     signature: str,
@@ -95,34 +97,36 @@ def download(
     cancel: threading.Event | None = None,
     restart_wait: float = RESTART_WAIT,
 ) -> Outcome:
-    """Put an image into a control, and prove it.
+    """Put a content into a control, and prove it.
 
-    Fetches what the control contains and hands it to ``keep``, which returns where it has kept it, before
-    anything is replaced; when ``keep`` raises, nothing is written. Then sends, commits, waits up to
-    ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
-    schema's under which the image was made. ``expected`` is the SHA-256 of the image that may be replaced; None
+    Fetches what the control contains, of which ``wanted`` makes what it shall contain, and hands it to ``keep``, which
+    returns where it has kept it, before anything is replaced; when one of them raises, nothing is written. Then sends,
+    waits up to ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
+    schema's under which the content was made. ``expected`` is the SHA-256 of what may be replaced; None
     for whatever is there. ``is_return`` means that the control has contained this image before: one that remembers
     what it contained decides by itself whether it takes it. ``what`` is the first word of the result. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
     where its old image is.
     """
-    digest = hashlib.sha256(image)
+    make: Wanted = wanted if callable(wanted) else lambda _: wanted
     if not driver.abilities.can_send:
         raise TransferError("nothing can be downloaded over this protocol")
     control = driver.identify(progress, cancel)
-    if not (is_return and driver.abilities.remembers):
+    if not (driver.abilities.maps_numbers or (is_return and driver.abilities.remembers)):
         _check_signature(control, signature)
     _check_expected(expected, control.sha256)
-    _check_stop(control, digest.digest())
+    _check_stop(control, make)
     old = driver.fetch(progress, cancel, "keep")
     _check_expected(expected, hashlib.sha256(old).digest())
-    if old == image:
-        return _nothing_to_do(control, digest.hexdigest())
+    content = make(old)
+    if content == old:
+        return _nothing_to_do(control, hashlib.sha256(content).hexdigest())
     kept = _keep(keep, old) if old else None
     try:
         receipt = driver.send(
-            image,
+            content,
             signature=signature,
             expected=hashlib.sha256(old).digest(),
+            held=old,
             progress=progress,
             cancel=cancel,
         )
@@ -130,25 +134,16 @@ def download(
         error.kept = kept
         raise
     try:
-        return _prove(driver, image, receipt, kept, progress, cancel, restart_wait, what)
+        return _prove(driver, content, receipt, kept, progress, cancel, restart_wait, what)
     except TransferError as error:
-        error.at_control, error.kept = "new", kept
+        # Without a commit, what was taken last may not have reached the memory of a control that is gone.
+        is_new = driver.abilities.all_or_nothing or isinstance(error, CancelledError)
+        error.at_control, error.kept = "new" if is_new else "unknown", kept
         raise
     except KeyboardInterrupt:
         raise CancelledError("stopped", "new", kept) from None
     except Exception as error:  # no memory, no handle: the commit has happened anyway
         raise TransferError(f"it was not read back ({unforeseen(error)})", "new", kept) from error
-
-
-def first_difference(a: bytes, b: bytes) -> int | None:
-    """Return where two images first differ, None when they are equal.
-
-    Where one goes on and the other ends, that is the length of the shorter.
-    """
-    if a == b:
-        return None
-    pairs = enumerate(zip(a, b, strict=False))
-    return next((at for at, (x, y) in pairs if x != y), min(len(a), len(b)))
 
 
 def short(digest: bytes) -> str:
@@ -172,9 +167,9 @@ def _check_expected(expected: bytes | None, found: bytes | None) -> None:
         )
 
 
-def _check_stop(control: ControlIdentity, digest: bytes) -> None:
+def _check_stop(control: ControlIdentity, wanted: Wanted) -> None:
     """Ask for E-stop before anything is moved; an image that is there already needs none."""
-    if control.sha256 != digest and control.in_estop is False:
+    if control.in_estop is False and control.sha256 != hashlib.sha256(wanted(b"")).digest():
         raise NotInEmergencyStopError("please place the control in E-stop to download")
 
 
@@ -196,9 +191,16 @@ def _keep(keep: Keep, old: bytes) -> str:
         raise KeepFailedError(f"what the control contains could not be kept ({message})") from error
 
 
+_RESTART_TEXT = {
+    "done": "; the control has restarted with it.",
+    "needed": ". Restart the control to make it current.",
+    "not needed": ".",
+}
+
+
 def _prove(
     driver: ControlDriver,
-    image: bytes,
+    content: bytes,
     receipt: Receipt,
     kept: str | None,
     progress: Progress,
@@ -207,9 +209,10 @@ def _prove(
     what: str,
 ) -> Outcome:
     """Wait for the restart, read back, compare; ``what`` was done."""
-    digest = hashlib.sha256(image).hexdigest()
+    digest = hashlib.sha256(content).hexdigest()
     before = f" What it contained before is kept in {kept}." if kept else " It was empty before."
-    restart: Literal["done", "needed"] = "needed"
+    before = "".join(f" {note}" for note in receipt.notes) + before
+    restart: Literal["done", "needed", "not needed"] = "needed" if receipt.restart_needed else "not needed"
     if receipt.restarting:
         if not driver.wait_restarted(receipt, restart_wait, progress, cancel):
             text = f"{what} complete, but the control has not come back from its restart "
@@ -217,15 +220,11 @@ def _prove(
             return Outcome("new", False, True, kept, "missed", digest, text + before)
         restart = "done"
     fetched = driver.fetch(progress, cancel, "verify")
-    at = first_difference(image, fetched)
-    if at is not None:
-        text = f"The control took the image, but what it contains differs from byte {at} on; "
-        text += f"{AT_CONTROL_TEXT['unknown']}."
-        return Outcome("unknown", False, True, kept, restart, digest, text + before)
-    text = f"{what} complete and read back equal"
-    text += (
-        "; the control has restarted with it."
-        if restart == "done"
-        else ". Restart the control to make it current."
-    )
+    where = driver.difference(content, fetched)
+    if where:
+        at_control: AtControl = "unknown" if driver.abilities.all_or_nothing else "mixed"
+        text = f"The control took the image, but what it contains differs {where}; "
+        text += f"{AT_CONTROL_TEXT[at_control]}."
+        return Outcome(at_control, False, True, kept, restart, digest, text + before)
+    text = f"{what} complete and read back equal{_RESTART_TEXT[restart]}"
     return Outcome("new", True, True, kept, restart, digest, text + before)

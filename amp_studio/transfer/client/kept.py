@@ -17,7 +17,8 @@ from pathlib import Path
 from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
 from amp_studio.files.storage import ParameterFileError, read_content
 from amp_studio.schema.regular_file import read_file
-from amp_studio.transfer.image import MAGIC, ImageError, decode_image, encode_image
+from amp_studio.transfer.content import decode_content, kind_of
+from amp_studio.transfer.image import MAGIC, ImageError
 
 IMAGE = ".img"
 DIGEST = ".sha256"
@@ -97,10 +98,11 @@ def _need_free(path: Path) -> None:
 def _keep_readable(image: bytes, path: Path) -> None:
     """Write the parameter file of an image where it comes back as the same bytes; the image itself is kept already."""
     with contextlib.suppress(ImageError, ParameterFileError, OSError):
-        file = decode_image(image)
+        kind = kind_of(image)
+        file = kind.decode(image)
         file.header.name = path.stem
         content = content_of(file)
-        if encode_image(read_content(path, content)) == image:
+        if kind.encode(read_content(path, content), image) == image:
             write_atomic(path, content, expected=None)
 
 
@@ -113,9 +115,10 @@ def open_copy(path: Path) -> Copy:
     """Read a copy, checked against the digest beside it where there is one; raises CopyError, ParameterFileError, OSError."""
     if path.suffix == ENDING:
         file = open_file(path).file
-        image = encode_image(file)
         beside = path.with_suffix(IMAGE)
-        is_kept = beside.is_file() and _content(beside) == image
+        held = _content(beside) if beside.is_file() else b""
+        image = kind_of(held).encode(file, held)
+        is_kept = image == held
         return Copy(image, file.schema.signature, file, "", is_checked=True, is_kept=is_kept)
     if path.suffix != IMAGE:
         raise CopyError(f"{path} is no copy of what a control contained: those end in {IMAGE} or {ENDING}")
@@ -126,7 +129,8 @@ def open_copy(path: Path) -> Copy:
     signed = _SIGNED.match(image)
     signature = signed[1].decode() if signed else ""
     try:
-        return Copy(image, signature, decode_image(image), "", is_checked, is_kept=True)
+        file = decode_content(image)
+        return Copy(image, file.schema.signature, file, "", is_checked, is_kept=True)
     except ImageError as error:
         return Copy(image, signature, None, str(error), is_checked, is_kept=True)
 

@@ -6,11 +6,12 @@ import hashlib
 import re
 import threading
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema.quoting import quoted
-from amp_studio.transfer.image import decode_image, encode_image
+from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.progress import Progress, quiet
 
 from .drivers import open_driver
@@ -37,14 +38,13 @@ def download_file(
     """Put a file into the control at ``address``; what it contained is kept in ``folder`` before anything is replaced.
 
     ``expected`` is the digest of what may be replaced, None for whatever is there. Raises TransferError, whose
-    text names what the control contains, ImageError for a file no image can carry, and ValueError for an address or
+    text names what the control contains, ImageError for a file no image can carry or that sets what the control does not have, and ValueError for an address or
     a digest that is none.
     """
-    image, approved = encode_image(file), read_digest(expected)
-    decode_image(image)  # what cannot be read again is not sent
+    approved = read_digest(expected)
     with closing(open_driver(address, file.schema.family.family)) as driver:
-        return download(driver, image, _keep_in(folder, stem), signature=file.schema.signature, expected=approved,
-                        progress=progress, cancel=cancel)  # fmt: skip
+        return download(driver, partial(driver.encode, file), _keep_in(folder, stem), signature=file.schema.signature,
+                        expected=approved, progress=progress, cancel=cancel)  # fmt: skip
 
 
 def restore_copy(
@@ -58,7 +58,10 @@ def restore_copy(
     family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
     approved = read_digest(expected)
     with closing(open_driver(address, family)) as driver:
-        return download(driver, copy.image, _keep_in(folder, stem), signature=copy.signature, expected=approved,
+        wanted = partial(driver.refit, copy.image)
+        if copy.file is not None and not copy.is_kept:
+            wanted = partial(driver.encode, copy.file)
+        return download(driver, wanted, _keep_in(folder, stem), signature=copy.signature, expected=approved,
                         is_return=copy.is_kept, what="Restore", progress=progress, cancel=cancel)  # fmt: skip
 
 
@@ -94,4 +97,4 @@ def fetch_file(
     address: str, progress: Progress = quiet, cancel: threading.Event | None = None
 ) -> ParameterFile:
     """Return what the control at ``address`` contains as a parameter file; raises TransferError, ImageError."""
-    return decode_image(fetch_image(address, progress, cancel))
+    return decode_content(fetch_image(address, progress, cancel))

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from amp_studio.files import Comparison, Difference, ParameterFile, compare
 from amp_studio.schema import same_value
-from amp_studio.transfer.image import ImageError, decode_image, head_of
+from amp_studio.transfer.content import kind_of
+from amp_studio.transfer.image import ImageError, head_of
 
 
 @dataclass(frozen=True)
@@ -22,11 +23,12 @@ class HeadDifference:
 class ImageComparison:
     """A file's image compared with the one of a control.
 
-    ``is_same``     whether every byte is the same
+    ``is_same``     whether it contains all of the file, every byte where it contains an image
     ``values``      the values that differ; none are listed where the control's image cannot be read
     ``other_units`` values that are the same in another unit
     ``head``        lines of the head that differ
     ``unreadable``  why the control's image cannot be compared with the file, else ""
+    ``absent``      what the file sets and the control does not have, in a sentence, else ""
     """
 
     is_same: bool
@@ -34,6 +36,7 @@ class ImageComparison:
     other_units: tuple[Difference, ...] = ()
     head: tuple[HeadDifference, ...] = ()
     unreadable: str = ""
+    absent: str = ""
 
     def summary(self) -> str:
         """Return how it came out in one sentence."""
@@ -41,6 +44,8 @@ class ImageComparison:
             return f"Nothing differs: {self.values.same} values and every byte are the same."
         if self.unreadable:
             return f"The control contains something else: {self.unreadable}."
+        if self.absent:
+            return f"The control cannot contain this file: {self.absent}."
         if self.values.differences:
             return "The control contains other values."
         parts = []
@@ -51,20 +56,28 @@ class ImageComparison:
         return f"All values are the same; only {' and '.join(parts)} {'differ' if self.other_units else 'differs'}."
 
 
-def verify_images(image: bytes, fetched: bytes) -> ImageComparison:
-    """Compare the image of a file with what a control contains; raises ImageError where the file's own cannot be read."""
-    a = decode_image(image)
+def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
+    """Compare a file with what a control contains."""
+    kind = kind_of(fetched)
     try:
-        b = decode_image(fetched)
+        present = kind.decode(fetched)
     except ImageError as error:
-        return ImageComparison(
-            is_same=False, values=Comparison((), 0), unreadable=str(error) if fetched else "nothing"
-        )
-    if b.schema is not a.schema:
-        name = b.schema.family.name
-        return ImageComparison(is_same=False, values=Comparison((), 0), unreadable=f"a file for {name}")
-    found = compare(a.schema, a.values, b.values)
-    return ImageComparison(image == fetched, found, _other_units(a, b), _head_differences(a, b))
+        return _not_compared(str(error) if fetched else "nothing")
+    if present.schema.family.family != file.schema.family.family:
+        return _not_compared(f"a file for {present.schema.family.name}")
+    absent, is_same = "", False
+    try:
+        is_same = not kind.difference(kind.encode(file, fetched), fetched)
+    except ImageError as error:
+        absent = str(error)
+    head = _head_differences(file, present) if kind.has_header else ()
+    known = {a: v for a, v in present.values.items() if a[0] in file.schema.parameters}
+    found = compare(file.schema, file.values, known)
+    return ImageComparison(is_same, found, _other_units(file, present), head, absent=absent)
+
+
+def _not_compared(why: str) -> ImageComparison:
+    return ImageComparison(is_same=False, values=Comparison((), 0), unreadable=why)
 
 
 def _head_differences(a: ParameterFile, b: ParameterFile) -> tuple[HeadDifference, ...]:

@@ -1,40 +1,94 @@
-"""An emulated control of a family, as it is delivered."""
+"""An emulated control of a family, as it is delivered: on the line that the endpoint names, in the protocol it names."""
 
 from __future__ import annotations
 
 import contextlib
 import tempfile
 import threading
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from amp_studio.files import new_file
+from amp_studio.schema.quoting import quoted
+from amp_studio.schema.registration import load_part, registration_of
 from amp_studio.transfer.image import decode_image, encode_image, patch_image
 from amp_studio.transfer.interrupts import interrupts
+from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 
 from .control import Control
 from .emulator import serve
 from .faults import read_faults
 from .record import Identity
 
+GENERAL = {"house": "amp_studio.transfer.emulated.family_control:emulate_house"}
+"""Protocols in which an emulated control of every family can be spoken to."""
 
-def emulate(
-    family: str, listen: str, state: Path | None = None, *, machine: str | None = None, estop: bool = True,
-    autostart: bool = True,
-    faults: str = "{}",
-) -> int:  # fmt: skip
-    """Run an emulated control until it is asked to quit; returns the exit code.
 
-    It begins with the family's printed defaults; its memory lies in ``state``, or in a temporary folder. ``faults``
-    are what goes wrong, to practise with, as one JSON object.
+@dataclass(frozen=True)
+class EmulatedOptions:
+    """What an emulated control is like.
+
+    ``state``    the folder of its memory; None for a temporary one
+    ``machine``  the machine type, None for the family's first
+    ``estop``, ``autostart``  as it begins, where a protocol knows of them
+    ``faults``   what goes wrong, to practise with, as one JSON object
     """
+
+    family: str
+    state: Path | None = None
+    machine: str | None = None
+    estop: bool = True
+    autostart: bool = True
+    faults: str = "{}"
+
+
+Emulate = Callable[[Endpoint, EmulatedOptions], int]
+"""Be a control until asked to quit; prints ``listening on ADDRESS`` when it is ready and returns the exit code."""
+
+
+def emulate(listen: str, options: EmulatedOptions) -> int:
+    """Run an emulated control of a family until it is asked to quit; returns the exit code.
+
+    ``?protocol=NAME`` of the address chooses what it speaks; else it is the family's first protocol that has an emulated
+    control. Raises ValueError for an address that is none and for a protocol without one.
+    """
+    place = parse_endpoint(listen)
+    offered = emulators_of(options.family)
+    name = place.protocol or next(iter(offered))
+    if name not in offered:
+        raise ValueError(
+            f"There is no emulated control of {options.family} with the protocol {quoted(name)}. "
+            f"Known: {', '.join(offered)}"
+        )
+    run: Emulate = load_part(offered[name])
+    return run(place, options)
+
+
+def emulators_of(family: str) -> dict[str, str]:
+    """Return protocol -> emulated control, the usual one first."""
+    return {**registration_of(family).emulators, **GENERAL}
+
+
+def emulate_house(listen: Endpoint, options: EmulatedOptions) -> int:
+    """Run an emulated control in the house protocol; it begins with the family's printed defaults."""
     stop = threading.Event()
     with contextlib.ExitStack() as stack:
         stack.enter_context(interrupts(stop.set))
-        file = new_file(family, machine)
-        identity = Identity(family=family, signature=file.schema.signature, name="CNC_1", revision="emulated")
-        folder = state or Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-control-")))
-        folder.mkdir(parents=True, exist_ok=True)
-        control = Control(
-            folder, identity, encode_image(file), estop=estop, autostart=autostart, accept=decode_image
+        file = new_file(options.family, options.machine)
+        identity = Identity(
+            family=options.family, signature=file.schema.signature, name="CNC_1", revision="emulated"
         )
-        return serve(listen, control, patch=patch_image, faults=read_faults(faults), stop=stop)
+        folder = memory_folder(options, stack)
+        control = Control(folder, identity, encode_image(file), estop=options.estop, autostart=options.autostart,
+                          accept=decode_image)  # fmt: skip
+        return serve(listen, control, patch=patch_image, faults=read_faults(options.faults), stop=stop)
+
+
+def memory_folder(options: EmulatedOptions, stack: contextlib.ExitStack) -> Path:
+    """Return the folder of its memory, which is there; a temporary one goes with the stack."""
+    folder = options.state or Path(
+        stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-control-"))
+    )
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder

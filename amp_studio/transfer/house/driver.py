@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 
+from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.progress import Progress, quiet
@@ -12,7 +13,7 @@ from .message import Flags
 from .session import Session
 
 
-class HouseDriver:
+class HouseDriver(HouseContent):
     """Speaks to a control in the sessions of the house protocol (docs/protocols/exchange.md)."""
 
     abilities = Abilities(can_send=True, remembers=True)
@@ -48,16 +49,17 @@ class HouseDriver:
 
     def send(
         self,
-        image: bytes,
+        content: bytes,
         *,
         signature: str,
         expected: bytes,
+        held: bytes,  # noqa: ARG002 -- it is replaced as a whole
         progress: Progress = quiet,
         cancel: threading.Event | None = None,
     ) -> Receipt:
-        """Stage and commit an image."""
+        """Stage and commit an image, all or nothing."""
         answer = self.session.send(
-            image, signature=signature, expected=expected, progress=progress, cancel=cancel
+            content, signature=signature, expected=expected, progress=progress, cancel=cancel
         ).committed
         return Receipt(answer.restarting, answer.incarnation)
 

@@ -53,8 +53,9 @@ def parse_endpoint(text: str) -> Endpoint:
         return Endpoint("serial", device=text.upper())
     if text.startswith("/dev/"):
         return _serial(text, text)
-    if text == "pty:":
-        return Endpoint("pty")
+    if text.partition("?")[0] == "pty:":
+        options = _options(text, text.partition("?")[2], "a pseudo terminal", ("protocol",))
+        return Endpoint("pty", protocol=options.get("protocol", ""))
     raise ValueError(f"{quoted(text)} is no address of a control: write {FORMS}")
 
 

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from .endpoint import Endpoint
 from .link import Link, LinkError, Listener, keep_waiting
+
+if TYPE_CHECKING:
+    from .pseudo_terminal import PtyListener
+    from .serial_line import PortListener
+    from .tcp import TcpListener
 
 
 def connect(endpoint: Endpoint, timeout: float = 3.0, look: Callable[[], None] = keep_waiting) -> Link:
@@ -27,7 +34,16 @@ def connect(endpoint: Endpoint, timeout: float = 3.0, look: Callable[[], None] =
 
 
 def listen(endpoint: Endpoint) -> Listener:
-    """Open the control's side of a line; raises LinkError when the place is taken or does not exist."""
+    """Open the control's side of a line; raises LinkError when the place is taken or does not exist.
+
+    What it listens on names the protocol that ``endpoint`` names, so that a person can hand it to a client as it is.
+    """
+    listener = _listener(endpoint)
+    listener.endpoint = replace(listener.endpoint, protocol=endpoint.protocol)
+    return listener
+
+
+def _listener(endpoint: Endpoint) -> TcpListener | PortListener | PtyListener:
     if endpoint.kind == "tcp":
         from .tcp import TcpListener
 

@@ -14,6 +14,7 @@ from amp_studio.schema.registration import Registration
 from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Ramp
 from amp_studio.sim.arrays import Vector
 from amp_studio.sim.signals import COMMAND, OUTPUT, POSITION
+from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import NoConnectionError, WrongFamilyError
 from amp_studio.transfer.links.endpoint import Endpoint
@@ -64,7 +65,7 @@ FORMAT = TextFormat("stp", "stepper list", ".stp", lambda text: text.startswith(
 # -- a protocol of its own -------------------------------------------------------------------------
 
 
-class Driver:
+class Driver(HouseContent):
     """Speaks to a stepper control; those of the tests are ``BENCH``, by the host that an endpoint names."""
 
     abilities = Abilities(can_send=True)
@@ -90,14 +91,15 @@ class Driver:
 
     def send(
         self,
-        image: bytes,
+        content: bytes,
         *,
         signature: str,
         expected: bytes,
+        held: bytes,
         progress: Progress = quiet,
         cancel: threading.Event | None = None,
     ) -> Receipt:
-        self.BENCH[self._host] = image
+        self.BENCH[self._host] = content
         return Receipt()
 
     def wait_restarted(

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download, first_difference, upload
+from amp_studio.transfer.client.exchange import download, upload
+from amp_studio.transfer.content import first_difference
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import (
     CancelledError,

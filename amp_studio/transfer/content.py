@@ -1,0 +1,101 @@
+"""What the bytes mean that a control contains: each kind is recognised by its first line.
+
+A copy that was kept years ago is so read, shown and put back without asking over which protocol it came. Nothing here
+talks to a control.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar, Protocol
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema.registration import load_part, registered_families, registration_of
+
+from .image import MAGIC, decode_image, encode_image
+
+GENERAL = {MAGIC: "amp_studio.transfer.content:HouseContent"}
+"""First line -> how it is read, for the kinds of every family."""
+
+
+class ContentKind(Protocol):
+    """One kind of content: between a parameter file and the bytes that a control contains."""
+
+    @property
+    def has_header(self) -> bool:
+        """Whether the application and the revision of a file are part of it."""
+
+    def decode(self, content: bytes) -> ParameterFile:
+        """Return what these bytes mean; raises ImageError."""
+
+    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+        """Return what a control that contains ``held`` contains after a download of ``file``.
+
+        What the file does not set stays as ``held`` has it, where single values are sent. Raises ImageError, which names
+        what the control does not have.
+        """
+
+    def refit(self, content: bytes, held: bytes) -> bytes:
+        """Return what a control that contains ``held`` contains once ``content`` is put back; raises ImageError."""
+
+    def difference(self, content: bytes, found: bytes) -> str:
+        """Return where a control that contains ``found`` is not proved to contain ``content``: "from byte 7 on"; "" if it is."""
+
+
+class WholeContent:
+    """What a kind is that a control takes as it is and gives back byte for byte."""
+
+    has_header: ClassVar[bool] = False
+
+    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002 -- other kinds need it
+        """Return the content itself."""
+        return content
+
+    def difference(self, content: bytes, found: bytes) -> str:
+        """Return the first byte that differs, in words."""
+        at = first_difference(content, found)
+        return "" if at is None else f"from byte {at} on"
+
+
+class HouseContent(WholeContent):
+    """The control image (docs/protocols/image.md), which replaces another as a whole."""
+
+    has_header = True
+
+    def decode(self, content: bytes) -> ParameterFile:
+        """Return the file of an image; raises ImageError."""
+        return decode_image(content)
+
+    def encode(self, file: ParameterFile, held: bytes) -> bytes:  # noqa: ARG002 -- it is replaced as a whole
+        """Return the image of a file; raises ImageError."""
+        image = encode_image(file)
+        decode_image(image)  # what cannot be read again is not sent
+        return image
+
+
+def kind_of(content: bytes) -> ContentKind:
+    """Return how a content is read; as an image of the house where its first line names no kind that is known."""
+    first = content[:80].split(b"\n")[0].decode("latin-1")
+    for family in registered_families():
+        place = registration_of(family).contents.get(first)
+        if place is not None:
+            break
+    else:
+        place = GENERAL[MAGIC]
+    kind: ContentKind = load_part(place)()
+    return kind
+
+
+def decode_content(content: bytes) -> ParameterFile:
+    """Return what a control contains as a file, whatever the kind; raises ImageError."""
+    return kind_of(content).decode(content)
+
+
+def first_difference(a: bytes, b: bytes) -> int | None:
+    """Return where two contents first differ, None when they are equal.
+
+    Where one goes on and the other ends, that is the length of the shorter.
+    """
+    if a == b:
+        return None
+    pairs = enumerate(zip(a, b, strict=False))
+    return next((at for at, (x, y) in pairs if x != y), min(len(a), len(b)))
