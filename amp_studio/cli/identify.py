@@ -21,13 +21,12 @@ def ports_verb(options: argparse.Namespace) -> int:
     """List the serial ports."""
     found = serial_ports()
     if options.json:
-        print_json({"ports": [asdict(port) for port in found]})
+        print_json({"ports": [asdict(port) | {"description": port.description} for port in found]})
         return 0
     for port in found:
-        description = ", ".join(
-            part for part in (port.name, port.manufacturer, port.usb_id, port.serial_number) if part
-        )
-        print(f"{port.device:20} {description}".rstrip())
+        print(f"{port.device:20} {port.description}".rstrip())
+        if port.lasting:
+            print(f"{'':20} also {port.lasting}")
     if not found:
         print("There are no serial ports.")
     return 0

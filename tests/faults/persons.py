@@ -29,6 +29,8 @@ from .texts import NUMBERS, TOKENS, mutants, violations
 ENDPOINTS = (
     "tcp://192.168.0.5:7090", "tcp://[fe80::1%eth0]:7090", "tcp://host:65535?protocol=house", "serial:/dev/ttyUSB0?baud=9600",
     "serial:COM3?baud=115200&protocol=house", "/dev/ttyUSB0?baud=9600", "COM12", "pty:", "tcp://h:1/?protocol=steps",
+    "serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even&stop=2&flow=xonxoff&protocol=house", "rfc2217://h:2217?flow=rtscts&parity=mark",
+    "tls://h:1?fingerprint=sha256:" + "ab:" * 31 + "AB&protocol=house", "tls://h:1?ca=/etc/a%20b%26.pem", "pty:?protocol=house",
 )  # fmt: skip
 
 

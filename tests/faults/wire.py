@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from amp_studio.transfer.house.frame import MAX_ENCODED, MAX_PAYLOAD, Frame, FrameDecoder, encode_frame
 from amp_studio.transfer.house.message import LAYOUTS, MESSAGES, Message, RefusalError, pack, unpack
+from amp_studio.transfer.links.telnet import LONGEST_OPTION, Data, TelnetReader
 
 from .texts import violations
 
@@ -104,3 +105,34 @@ def _unpack(frame: Frame) -> None:
 def fuzz_messages(seed: int, count: int) -> list[str]:
     """Unpack whole frames whose content is damaged; what is taken is packed as the same frame."""
     return violations(_frames(seed, count), _unpack, (RefusalError,))
+
+
+_TELNET = (
+    b"\xff\xfb\x2c", b"\xff\xfd\x00", b"\xff\xfa\x2c\x65\x00\x00\x25\x80\xff\xf0", b"data", b"\xff\xff", b"\xff\xf1", b"\xff\xf0",
+    b"\xff\xfa" + b"x" * 2000, b"\xff\xfa\x2c\xff\xff\xff\xf0", b"\xff", b"\x13\x11",
+)  # fmt: skip
+
+
+def fuzz_telnet(seed: int, count: int) -> list[str]:
+    """Read damaged telnet lines, however they are cut: the same comes out, bounded, and what follows is read."""
+    chance = random.Random(seed)
+
+    def read(stream: bytes, size: int) -> tuple[bytes, list[object]]:
+        reader, data, others = TelnetReader(), b"", list[object]()
+        for at in range(0, len(stream), size):
+            for each in reader.feed(stream[at : at + size]):
+                if isinstance(each, Data):
+                    data += each.content
+                else:
+                    others.append(each)
+            assert len(reader._option or b"") <= 2 * LONGEST_OPTION + 1
+        return data, others
+
+    def look(stream: bytes) -> None:
+        whole = stream + b"\xff\xf0\x00\xff\xf0\xff\xf0" + b"the last one"
+        data, others = read(whole, len(whole))
+        assert data.endswith(b"the last one")
+        assert read(whole, chance.choice((1, 2, 7))) == (data, others)
+
+    streams = (damaged(b"".join(chance.choices(_TELNET, k=6)), chance) for _ in range(count))
+    return violations(streams, look, ())

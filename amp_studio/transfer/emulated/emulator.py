@@ -291,7 +291,9 @@ def serve(
     with contextlib.ExitStack() as stack:
         stack.callback(control.close)
         stack.enter_context(interrupts(stop.set))
-        listener = listen(parse_endpoint(address) if isinstance(address, str) else address)
+        place = parse_endpoint(address) if isinstance(address, str) else address
+        place.need_all_bytes("the house protocol")
+        listener = listen(place)
         stack.callback(listener.close)
         emulator = Emulator(
             control,

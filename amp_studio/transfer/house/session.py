@@ -74,6 +74,7 @@ class Session:
     def at(cls, address: Endpoint | str, *, family: str = "", patience: float = 20.0) -> Session:
         """Return a session with the control at an address; raises ValueError when it is none."""
         place = parse_endpoint(address) if isinstance(address, str) else address
+        place.need_all_bytes("the house protocol")
         return cls(lambda look: connect(place, look=look), family=family, patience=patience)
 
     def __enter__(self) -> Session:

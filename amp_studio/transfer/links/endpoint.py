@@ -1,106 +1,194 @@
-"""Where a control is reached: ``tcp://host:port``, ``serial:/dev/ttyUSB0?baud=115200``, ``pty:``."""
+"""Where a control is reached: ``tcp://host:port``, ``serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even``, ``pty:``."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import Literal
-from urllib.parse import parse_qsl
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+from urllib.parse import parse_qsl, quote
 
 from amp_studio.schema.quoting import quoted
 
-DEFAULT_BAUD = 115_200
-FORMS = "tcp://host:port, serial:PORT?baud=115200 or pty:"
+from .serial_settings import DATA_BITS, FLOWS, PARITIES, STOP_BITS, Flow, Parity, SerialSettings
 
-LinkKind = Literal["tcp", "serial", "pty"]
+FORMS = (
+    "tcp://host:port, tls://host:port, rfc2217://host:port, serial:/dev/ttyUSB0?baud=9600, COM3 "
+    "or pty: (emulate only)"
+)
+
+LinkKind = Literal["tcp", "tls", "rfc2217", "serial", "pty"]
+
+LINE = ("baud", "bits", "parity", "stop", "flow")
+NETWORK = ("tcp", "tls", "rfc2217")
 
 
 @dataclass(frozen=True)
 class Endpoint:
-    """One end of a line. ``host`` and ``port`` belong to tcp, ``device`` and ``baud`` (bit/s) to serial.
+    """One end of a line.
 
-    ``protocol`` is how it is spoken to; "" for the usual way of the control's family.
+    ``host`` and ``port``       of tcp, tls and rfc2217
+    ``device``                  of serial
+    ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to whoever speaks on the line
+    ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in hexadecimal
+    ``protocol``                how it is spoken to; "" for the usual way of the control's family
     """
 
     kind: LinkKind
     host: str = ""
     port: int = 0
     device: str = ""
-    baud: int = DEFAULT_BAUD
+    baud: int | None = None
+    bits: int | None = None
+    parity: Parity | None = None
+    stop: int | None = None
+    flow: Flow | None = None
+    ca: str = ""
+    fingerprint: str = ""
     protocol: str = ""
 
     def __str__(self) -> str:
-        options = [f"baud={self.baud}"] if self.baud != DEFAULT_BAUD else []
-        options += [f"protocol={self.protocol}"] if self.protocol else []
+        given = [(key, getattr(self, key)) for key in LINE]
+        if self.fingerprint:
+            given.append(("fingerprint", f"sha256:{self.fingerprint}"))
+        given += [("ca", self.ca or None), ("protocol", self.protocol or None)]
+        options = [f"{key}={quote(str(value), safe='/:')}" for key, value in given if value is not None]
         return f"{self._place}?{'&'.join(options)}" if options else self._place
 
     @property
     def _place(self) -> str:
-        if self.kind == "tcp":
+        if self.kind in NETWORK:
             host = f"[{self.host}]" if ":" in self.host else self.host
-            return f"tcp://{host}:{self.port}"
+            return f"{self.kind}://{host}:{self.port}"
         return f"serial:{self.device}" if self.kind == "serial" else "pty:"
+
+    def serial_settings(self) -> SerialSettings:
+        """Return how the line is set; what was not given is usual."""
+        return SerialSettings(**{key: value for key in LINE if (value := getattr(self, key)) is not None})
+
+    def with_usual(self, usual: SerialSettings) -> Endpoint:
+        """Return it with the settings of a way of speaking wherever none was given."""
+        return replace(self, **{key: getattr(usual, key) for key in LINE if getattr(self, key) is None})
+
+    def need_all_bytes(self, protocol: str) -> None:
+        """Raise ValueError where the line does not pass every byte as it is, which ``protocol`` needs."""
+        if self.bits == 7 or self.flow == "xonxoff":
+            raise ValueError(f"{quoted(str(self))}: {protocol} needs 8 data bits and no XON/XOFF")
 
 
 def parse_endpoint(text: str) -> Endpoint:
     """Return the address a person wrote; raises ValueError with one sentence about what is wrong."""
     text = text.strip()
-    if text.startswith("tcp://"):
-        return _tcp(text)
+    for kind in NETWORK:
+        if text.startswith(f"{kind}://"):
+            return _network(text, kind)
     if text.startswith("serial:"):
         return _serial(text, text.removeprefix("serial:"))
-    if re.fullmatch(r"com\d+", text, re.IGNORECASE):
-        return Endpoint("serial", device=text.upper())
-    if text.startswith("/dev/"):
+    if text.startswith("/dev/") or re.match(r"com\d+(\?|$)", text, re.IGNORECASE):
         return _serial(text, text)
     if text.partition("?")[0] == "pty:":
-        options = _options(text, text.partition("?")[2], "a pseudo terminal", ("protocol",))
-        return Endpoint("pty", protocol=options.get("protocol", ""))
+        return Endpoint("pty", **_options(text, "a pseudo terminal", ("protocol",)))
     raise ValueError(f"{quoted(text)} is no address of a control: write {FORMS}")
 
 
 def is_endpoint(text: str) -> bool:
     """Whether a person means a control and not a file."""
-    return "://" in text or re.match(r"serial:|pty:|/dev/|com\d+$", text, re.IGNORECASE) is not None
+    return "://" in text or re.match(r"serial:|pty:|/dev/|com\d+(\?|$)", text, re.IGNORECASE) is not None
 
 
-def _tcp(text: str) -> Endpoint:
-    place, _, query = text.partition("?")
-    found = re.fullmatch(r"tcp://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?", place, re.ASCII)
+def _network(text: str, kind: str) -> Endpoint:
+    found = re.fullmatch(
+        kind + r"://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?",
+        text.partition("?")[0],
+        re.ASCII,
+    )
     if found is None:
+        name = {"tcp": "TCP", "tls": "TLS", "rfc2217": "RFC 2217"}[kind]
         raise ValueError(
-            f"{quoted(text)} is no TCP address: write tcp://host:port, for example tcp://192.168.0.5:7090"
+            f"{quoted(text)} is no {name} address: write {kind}://host:port, for example {kind}://192.168.0.5:7090"
         )
     port = int(found[3])
     if port > 65_535:
         raise ValueError(f"{quoted(text)} names port {port}, and ports end at 65535")
-    options = _options(text, query, "a TCP connection", ("protocol",))
-    return Endpoint("tcp", host=found[1] or found[2], port=port, protocol=options.get("protocol", ""))
+    host = found[1] or found[2]
+    if kind == "tcp":
+        return Endpoint("tcp", host=host, port=port, **_options(text, "a TCP connection", ("protocol",)))
+    if kind == "tls":
+        options = _options(text, "a TLS connection", ("ca", "fingerprint", "protocol"))
+        return Endpoint("tls", host=host, port=port, **options)
+    return Endpoint(
+        "rfc2217", host=host, port=port, **_options(text, "an RFC 2217 line", (*LINE, "protocol"))
+    )
 
 
 def _serial(text: str, rest: str) -> Endpoint:
-    device, _, query = rest.partition("?")
-    if not device.strip() or device != device.strip() or not device.isprintable():
+    device = rest.partition("?")[0]
+    if not device.strip() or device != device.strip() or not device.isprintable() or "://" in device:
         raise ValueError(f"{quoted(text)} names no port: write serial:/dev/ttyUSB0 or serial:COM3")
-    options = _options(text, query, "a serial line", ("baud", "protocol"))
-    rate = options.get("baud", str(DEFAULT_BAUD))
-    if not re.fullmatch(r"[1-9]\d{1,6}", rate, re.ASCII):
-        raise ValueError(
-            f"{quoted(text)} has the rate {quoted(rate)}: write a number of bits a second, such as baud=9600"
-        )
-    return Endpoint("serial", device=device, baud=int(rate), protocol=options.get("protocol", ""))
+    if re.fullmatch(r"com\d+", device, re.IGNORECASE):
+        device = device.upper()
+    return Endpoint("serial", device=device, **_options(text, "a serial line", (*LINE, "protocol")))
 
 
-def _options(text: str, query: str, what: str, known: tuple[str, ...]) -> dict[str, str]:
-    options: dict[str, str] = {}
-    for key, value in parse_qsl(query, keep_blank_values=True):
+def _options(text: str, what: str, known: tuple[str, ...]) -> dict[str, Any]:
+    """Read the options behind the question mark; raises ValueError."""
+    options: dict[str, Any] = {}
+    for key, value in parse_qsl(text.partition("?")[2], keep_blank_values=True):
         if key not in known:
-            raise ValueError(
-                f"{quoted(text)} sets {quoted(key)}, and {what} has only {' and '.join(map(repr, known))}"
-            )
+            *most, last = map(repr, known)
+            names = f"{', '.join(most)} and {last}" if most else last
+            raise ValueError(f"{quoted(text)} sets {quoted(key)}, and {what} has only {names}")
         if key in options:
             raise ValueError(f"{quoted(text)} sets {quoted(key)} twice")
-        options[key] = value
-    if "protocol" in options and not re.fullmatch(r"[a-z][a-z0-9-]{0,30}", options["protocol"], re.ASCII):
-        raise ValueError(f"{quoted(text)} names no protocol: write ?protocol=house, for example")
+        try:
+            options[key] = _READERS[key](value)
+        except ValueError as error:
+            raise ValueError(f"{quoted(text)} {error}") from None
     return options
+
+
+def _rate(value: str) -> int:
+    if not re.fullmatch(r"[1-9]\d{1,6}", value, re.ASCII):
+        raise ValueError(f"has the rate {quoted(value)}: write a number of bits a second, such as baud=9600")
+    return int(value)
+
+
+def _one_of(key: str, known: tuple[Any, ...]) -> Callable[[str], Any]:
+    def read(value: str) -> Any:
+        for each in known:
+            if value.lower() == str(each):
+                return each
+        raise ValueError(f"sets {key}={quoted(value)}: write {key}={f' or {key}='.join(map(str, known))}")
+
+    return read
+
+
+def _protocol(value: str) -> str:
+    if not re.fullmatch(r"[a-z][a-z0-9-]{0,30}", value, re.ASCII):
+        raise ValueError("names no protocol: write ?protocol=house, for example")
+    return value
+
+
+def _ca(value: str) -> str:
+    if not value or not value.isprintable():
+        raise ValueError("names no file of certificates: write ca=FILE.pem")
+    return value
+
+
+def _fingerprint(value: str) -> str:
+    digest = value.removeprefix("sha256:").replace(":", "").lower()
+    if not value.startswith("sha256:") or not re.fullmatch(r"[0-9a-f]{64}", digest, re.ASCII):
+        raise ValueError("has no fingerprint: write fingerprint=sha256: and 64 hexadecimal digits")
+    return digest
+
+
+_READERS: dict[str, Callable[[str], Any]] = {
+    "baud": _rate,
+    "bits": _one_of("bits", DATA_BITS),
+    "parity": _one_of("parity", PARITIES),
+    "stop": _one_of("stop", STOP_BITS),
+    "flow": _one_of("flow", FLOWS),
+    "ca": _ca,
+    "fingerprint": _fingerprint,
+    "protocol": _protocol,
+}

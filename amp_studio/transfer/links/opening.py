@@ -15,10 +15,18 @@ if TYPE_CHECKING:
     from .tcp import TcpListener
 
 
-def connect(endpoint: Endpoint, timeout: float = 3.0, look: Callable[[], None] = keep_waiting) -> Link:
+def connect(
+    endpoint: Endpoint,
+    timeout: float = 3.0,
+    look: Callable[[], None] = keep_waiting,
+    *,
+    own_flow: bool = False,
+) -> Link:
     """Open the line to a control, within ``timeout`` seconds; raises LinkError.
 
-    ``look`` is called at least every 0.1 s while opening and writing wait, and may raise to break off.
+    ``look`` is called at least every 0.1 s while opening and writing wait, and may raise to break off. ``own_flow``
+    leaves Xon and Xoff to whoever speaks on the line: they are read as bytes, whatever the endpoint's ``flow`` is.
+    A way of speaking with other usual settings than 115200 8N1 gives ``endpoint.with_usual(…)``.
     """
     if endpoint.kind == "tcp":
         from .tcp import connect_tcp
@@ -27,7 +35,13 @@ def connect(endpoint: Endpoint, timeout: float = 3.0, look: Callable[[], None] =
     if endpoint.kind == "serial":
         from .serial_line import open_port
 
-        return open_port(endpoint, look)
+        return open_port(endpoint, look, own_flow=own_flow)
+    if endpoint.kind == "rfc2217":
+        from .rfc2217 import connect_rfc2217
+
+        return connect_rfc2217(endpoint, timeout, look, own_flow=own_flow)
+    if endpoint.kind == "tls":
+        raise LinkError(endpoint, "TLS is not there yet")
     raise LinkError(
         endpoint, "a pseudo terminal can only be listened on; connect to the serial: name it was given"
     )
@@ -52,6 +66,8 @@ def _listener(endpoint: Endpoint) -> TcpListener | PortListener | PtyListener:
         from .serial_line import PortListener
 
         return PortListener(endpoint)
+    if endpoint.kind != "pty":
+        raise LinkError(endpoint, "this can only be connected to; listen on tcp://, a serial port or pty:")
     from .pseudo_terminal import PtyListener
 
     return PtyListener()

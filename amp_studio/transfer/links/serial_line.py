@@ -1,10 +1,11 @@
-"""Links over a serial port: 8 data bits, no parity, 1 stop bit, no flow control."""
+"""Links over a serial port of this computer, for one program alone."""
 
 from __future__ import annotations
 
 import contextlib
 import errno
 import os
+import select
 import stat
 import time
 from collections.abc import Callable
@@ -13,22 +14,35 @@ from typing import Any
 
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
+from .serial_settings import Flow, Parity
 
 SLICE = (
     0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
 )
 WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
+HELD_LIMIT = 60.0  # seconds the other end may hold the line by flow control
+LOOK = 0.1  # seconds between two looks while the line takes nothing
+PIECE = 256  # bytes for which a port that says it has room has some
+PSEUDO_TERMINALS = range(136, 144)  # their device numbers on Linux
 NO_PORT = "this is no serial port"
+GONE = "the port is gone: its adapter was unplugged or switched off"
+TAKEN = "another program has this port open"
+
+PARITY_LETTER: dict[Parity, str] = {"none": "N", "even": "E", "odd": "O", "mark": "M", "space": "S"}
+"""As pyserial names them."""
 
 
 class SerialLink:
-    """One open serial port."""
+    """One open port of pyserial."""
 
     def __init__(self, endpoint: Endpoint, port: Any, look: Callable[[], None] = keep_waiting) -> None:
+        settings = endpoint.serial_settings()
         self._endpoint = endpoint
         self._port = port
         self._look = look
-        self.bytes_per_second: float | None = endpoint.baud / 10.0  # start, eight data bits, stop
+        self._held_limit = WRITE_LIMIT if settings.flow == "none" else HELD_LIMIT
+        self._piece = max(1, min(settings.baud // 100, PIECE))
+        self.bytes_per_second: float | None = settings.bytes_per_second
         self.is_open = True
 
     def read(self, timeout: float) -> bytes:
@@ -44,16 +58,15 @@ class SerialLink:
                 if first:
                     return first + bytes(self._port.read(self._port.in_waiting))
         except (OSError, TypeError, AttributeError) as error:
-            # pyserial meets a port that was closed or pulled out with any of these three.
-            raise LinkError(self._endpoint, _message(error)) from None
+            raise self._lost(error) from None
 
     def write(self, data: bytes) -> None:
-        piece = max(1, self._endpoint.baud // 100)
-        for start in range(0, len(data), piece):
+        for start in range(0, len(data), self._piece):
+            self._await_room()
             try:
-                self._port.write(data[start : start + piece])
+                self._port.write(data[start : start + self._piece])
             except (OSError, TypeError, AttributeError) as error:
-                raise LinkError(self._endpoint, _message(error)) from None
+                raise self._lost(error) from None
             self._look()
 
     def close(self) -> None:
@@ -61,20 +74,67 @@ class SerialLink:
         with contextlib.suppress(OSError, TypeError, AttributeError):
             self._port.close()
 
+    def _await_room(self) -> None:
+        """Wait until the port takes a piece; pyserial's own waiting cannot be broken off."""
+        end = time.monotonic() + self._held_limit
+        while not self._has_room():
+            self._look()
+            if time.monotonic() >= end:
+                raise LinkError(self._endpoint, f"the other end has taken nothing for {self._held_limit:g} s")
 
-def open_port(endpoint: Endpoint, look: Callable[[], None] = keep_waiting) -> SerialLink:
-    """Open a serial port for this program alone; raises LinkError when it is missing or taken."""
+    def _has_room(self) -> bool:
+        """Wait for room a moment, where the system can be asked for it."""
+        if os.name != "posix":
+            return True
+        try:
+            return bool(select.select([], [self._port.fileno()], [], LOOK)[1])
+        except (OSError, TypeError, AttributeError, ValueError) as error:
+            raise self._lost(error) from None
+
+    def _lost(self, error: Exception) -> LinkError:
+        # pyserial meets a port that was closed with any of these, and one that was pulled out with an OSError.
+        if not self.is_open or isinstance(error, TypeError | AttributeError | ValueError):
+            return LinkError(self._endpoint, "the port is closed")
+        if "rite timeout" in str(error):
+            return LinkError(self._endpoint, "the other end takes nothing more")
+        if "closed the connection" in str(error):
+            return LinkError(self._endpoint, "the server has closed the connection")
+        return LinkError(self._endpoint, GONE)
+
+
+def port_settings(endpoint: Endpoint, own_flow: bool) -> dict[str, Any]:
+    """Return the settings of a line as pyserial takes them; ``own_flow`` leaves Xon and Xoff to whoever reads."""
+    settings = endpoint.serial_settings()
+    flow: Flow = "none" if own_flow and settings.flow == "xonxoff" else settings.flow
+    return {
+        "baudrate": settings.baud,
+        "bytesize": settings.bits,
+        "parity": PARITY_LETTER[settings.parity],
+        "stopbits": settings.stop,
+        "xonxoff": flow == "xonxoff",
+        "rtscts": flow == "rtscts",
+    }
+
+
+def open_port(
+    endpoint: Endpoint, look: Callable[[], None] = keep_waiting, *, own_flow: bool = False
+) -> SerialLink:
+    """Open a serial port for this program alone; raises LinkError when it is missing or taken.
+
+    ``own_flow``: the bytes Xon and Xoff are read like any other, and are not obeyed here.
+    """
     import serial
 
     _need_port(endpoint)
     try:
         port = serial.Serial(
             endpoint.device,
-            baudrate=endpoint.baud,
             timeout=SLICE,
             write_timeout=WRITE_LIMIT,
             exclusive=True,
+            **port_settings(endpoint, own_flow),
         )
+        _claim(port)
         port.reset_input_buffer()
     except (OSError, ValueError) as error:
         raise LinkError(endpoint, _message(error)) from None
@@ -91,6 +151,20 @@ def _need_port(endpoint: Endpoint) -> None:
         return  # what is not there is reported when it is opened
     if not stat.S_ISCHR(kind.st_mode):
         raise LinkError(endpoint, NO_PORT)
+
+
+def _claim(port: Any) -> None:
+    """Keep programs out that do not ask for the lock pyserial takes.
+
+    Not from a pseudo terminal: its other end holds it open, and would keep the mark of a program that was killed.
+    """
+    if os.name != "posix" or os.major(os.fstat(port.fileno()).st_rdev) in PSEUDO_TERMINALS:
+        return
+    import fcntl
+    import termios
+
+    with contextlib.suppress(OSError):
+        fcntl.ioctl(port.fileno(), termios.TIOCEXCL)
 
 
 class PortListener:
@@ -126,13 +200,13 @@ def _message(error: Exception) -> str:
     if number == errno.ENOTTY or f"({errno.ENOTTY}," in text:
         return NO_PORT
     if "Could not configure port" in text:
-        return f"{NO_PORT}, or one that cannot be set to this rate"
-    if number == 2 or "FileNotFoundError" in text:
+        return f"{NO_PORT}, or one that cannot be set like this"
+    if number == errno.ENOENT or "FileNotFoundError" in text:
         return "there is no such port"
-    if number == 13 or "PermissionError" in text:
+    if number == errno.EACCES or "PermissionError" in text:
         return "this port may not be opened (no permission, or another program has it)"
-    if number == 11 or "exclusively lock" in text:
-        return "another program has this port open"
-    if isinstance(error, TypeError | AttributeError):
-        return "the port is closed"
-    return os.strerror(number) if number else text or "the port is gone"
+    if number in {errno.EAGAIN, errno.EBUSY} or "exclusively lock" in text:
+        return TAKEN
+    if number in {errno.EIO, errno.ENXIO, errno.ENODEV}:
+        return "nothing is connected to this port"
+    return os.strerror(number) if number else text or "the port cannot be opened"

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import queue
 import select
 import socket
-import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 
+from .attempt import SLICE, in_time
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
 
 WRITE_LIMIT = 3.0  # seconds the other end may take to make room before the line counts as gone
-SLICE = 0.1  # seconds between two looks while waiting
 READ_SIZE = 65_536
 LAST_READS = 16  # how much of what nobody will read is taken off a line that is closed
 
@@ -104,7 +104,7 @@ class TcpListener:
         except OSError as error:
             self._socket.close()
             raise LinkError(endpoint, _message(error)) from None
-        self.endpoint = Endpoint("tcp", host=endpoint.host, port=self._socket.getsockname()[1])
+        self.endpoint = replace(endpoint, port=self._socket.getsockname()[1])
 
     def accept(self, timeout: float) -> TcpLink | None:
         try:
@@ -124,50 +124,19 @@ class TcpListener:
 
 def connect_tcp(endpoint: Endpoint, timeout: float, look: Callable[[], None] = keep_waiting) -> TcpLink:
     """Connect to a listening control within ``timeout`` seconds; raises LinkError, and what ``look`` raises."""
-    # In a thread, because nothing ends the search for a host's address before its time.
-    attempt = _Attempt(endpoint, timeout)
-    threading.Thread(target=attempt.run, name="connect", daemon=True).start()
-    end = time.monotonic() + timeout
-    try:
-        while True:
-            look()
-            left = end - time.monotonic()
-            if left <= 0:
-                raise LinkError(endpoint, "no answer in time")
-            with contextlib.suppress(queue.Empty):
-                made = attempt.result.get(timeout=min(left, SLICE))
-                break
-    except BaseException:
-        attempt.abandon()
-        raise
-    if isinstance(made, Exception):
-        raise LinkError(endpoint, _message(made)) from None
+    # Nothing ends the search for a host's address before its time.
+    made = in_time(
+        partial(_connected, endpoint, timeout),
+        socket.socket.close,
+        timeout,
+        look,
+        lambda error: LinkError(endpoint, _message(error)),
+    )
     return TcpLink(endpoint, made, look)
 
 
-class _Attempt:
-    """One connection in the making; a socket that nobody waits for any more is closed."""
-
-    def __init__(self, endpoint: Endpoint, timeout: float) -> None:
-        self.result: queue.SimpleQueue[socket.socket | Exception] = queue.SimpleQueue()
-        self._where = (endpoint.host, endpoint.port)
-        self._timeout = timeout
-        self._is_abandoned = threading.Event()
-
-    def run(self) -> None:
-        try:
-            self.result.put(socket.create_connection(self._where, timeout=self._timeout))
-        except (OSError, ValueError) as error:  # a ValueError: the name cannot be that of a host
-            self.result.put(error)
-        if self._is_abandoned.is_set():
-            self.abandon()
-
-    def abandon(self) -> None:
-        self._is_abandoned.set()
-        with contextlib.suppress(queue.Empty):
-            made = self.result.get_nowait()
-            if isinstance(made, socket.socket):
-                made.close()
+def _connected(endpoint: Endpoint, timeout: float) -> socket.socket:
+    return socket.create_connection((endpoint.host, endpoint.port), timeout=timeout)
 
 
 def _reuse(listening: socket.socket) -> None:

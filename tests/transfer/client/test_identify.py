@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -43,21 +44,30 @@ def test_identify_refuses_another_family_than_was_asked_for(
 
 
 def test_ports_are_listed_with_their_usb_names(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     port = SimpleNamespace(device="/dev/ttyUSB0", product="FT232R", description="FT232R - USB", manufacturer="FTDI",
-                           vid=0x0403, pid=0x6001, serial_number="A50285BI")  # fmt: skip
+                           vid=0x0403, pid=0x6001, serial_number="A50285BI", location="1-2")  # fmt: skip
     bare = SimpleNamespace(device="/dev/ttyS0", product=None, description="n/a", manufacturer=None, vid=None, pid=None,
-                           serial_number=None)  # fmt: skip
+                           serial_number=None, location=None)  # fmt: skip
+    links = tmp_path / "by-id"
+    links.mkdir()
+    (links / "usb-FTDI_FT232R-if00").symlink_to("/dev/ttyUSB0")
+    monkeypatch.setattr("amp_studio.transfer.links.serial_ports.BY_ID", links)
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [port, bare])
     assert run(["ports", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ports"] == [
-        {"device": "/dev/ttyS0", "name": "", "manufacturer": "", "usb_id": "", "serial_number": ""},
+        {"device": "/dev/ttyS0", "name": "", "manufacturer": "", "usb_id": "", "serial_number": "",
+         "location": "", "lasting": "", "description": ""},
         {"device": "/dev/ttyUSB0", "name": "FT232R", "manufacturer": "FTDI", "usb_id": "0403:6001",
-         "serial_number": "A50285BI"},
+         "serial_number": "A50285BI", "location": "1-2", "lasting": str(links / "usb-FTDI_FT232R-if00"),
+         "description": "FT232R by FTDI, number A50285BI, USB 0403:6001, in USB socket 1-2"},
     ]  # fmt: skip
     assert run(["ports"]) == 0
-    assert "/dev/ttyUSB0         FT232R, FTDI, 0403:6001, A50285BI\n" in capsys.readouterr().out
+    assert (
+        "/dev/ttyUSB0         FT232R by FTDI, number A50285BI, USB 0403:6001, in USB socket 1-2\n"
+        in capsys.readouterr().out
+    )
     monkeypatch.setattr("serial.tools.list_ports.comports", list)
     assert run(["ports"]) == 0
     assert capsys.readouterr().out == "There are no serial ports.\n"
