@@ -36,7 +36,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
         check_replaced(options.output, options.path)
     file = open_file(options.path).file
     if options.list:
-        return _list(file, as_json=options.json)
+        return _list(file, options.units, as_json=options.json)
     if options.scenario is None:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     settings, own = _settings(options.assignments)
@@ -49,12 +49,13 @@ def simulate_verb(options: argparse.Namespace) -> int:
         if options.axis
         else None
     )
-    trace = simulate(file, options.scenario, axis, settings)
+    system = options.units or file.header.units
+    trace = simulate(file, options.scenario, axis, settings, system)
     for said in told:
         note(said)
     if options.output:
         is_picture = options.output.suffix.lower() in PICTURES
-        earlier = _earlier(before, options.scenario, axis, settings) if own and is_picture else None
+        earlier = _earlier(before, options.scenario, axis, settings, system) if own and is_picture else None
         write_trace(trace, options.output, note, before=earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
@@ -64,11 +65,11 @@ def simulate_verb(options: argparse.Namespace) -> int:
 
 
 def _earlier(
-    file: ParameterFile, scenario: str, axis: str | None, settings: dict[str, float | str]
+    file: ParameterFile, scenario: str, axis: str | None, settings: dict[str, float | str], system: str
 ) -> Trace | None:
     """Return the trace of the values in the file, to draw under that of the changed ones; None where it has none."""
     try:
-        return simulate(file, scenario, axis, settings)
+        return simulate(file, scenario, axis, settings, system)
     except SimulationError:
         return None
 
@@ -85,9 +86,9 @@ def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
     return settings, own
 
 
-def _list(file: ParameterFile, *, as_json: bool) -> int:
+def _list(file: ParameterFile, system: str | None, *, as_json: bool) -> int:
     """Print what can be simulated with a file."""
-    found = listing(file)
+    found = listing(file, system)
     if as_json:
         print_json(asdict(found))
         return 0

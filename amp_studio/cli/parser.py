@@ -285,6 +285,9 @@ def parser() -> argparse.ArgumentParser:
                      help="list the scenarios of this family, its axes, and what can be set")  # fmt: skip
     sub.add_argument("--axis")
     sub.add_argument("--set", action="append", default=[], metavar="PARAM=VALUE", dest="assignments")
+    sub.add_argument(
+        "--units", metavar="SYSTEM", help="unit system of settings and result; default: that of the file"
+    )
     sub.add_argument("-o", "--output", type=_path)
     json_option(sub)
     sub = verb(

@@ -40,10 +40,11 @@ import numpy.typing as npt
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 
-from .axis_parameters import AxisParameters, ParameterValue
+from .axis_parameters import AxisParameters
 from .compiled import Sample
 from .errors import SimulationError
 from .machine import Machine
+from .scenario import Scenario
 from .trace import Recommendation, Trace
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
@@ -178,7 +179,7 @@ class Law:
     ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what they are
     ``scenarios``  those that the manual of the family carries
     ``advise``     the family's own recommendations after a scenario
-    ``own``        scenarios of the family alone: name -> run(axis, settings in canonical units)
+    ``own``        scenarios of the family alone, by name
     """
 
     bind: Callable[[AxisParameters], AxisLaw]
@@ -187,7 +188,7 @@ class Law:
     settings: Mapping[str, str] = field(default_factory=dict)
     scenarios: Sequence[str] = ("step", "velocity", "frequency", "circle")
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice
-    own: Mapping[str, Callable[[AxisLaw, Mapping[str, ParameterValue]], Trace]] = field(default_factory=dict)
+    own: Mapping[str, Scenario] = field(default_factory=dict)
 
 
 def simulated_families() -> tuple[str, ...]:

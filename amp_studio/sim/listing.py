@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
@@ -9,6 +10,7 @@ from amp_studio.files import ParameterFile
 from .law import Law, law_of
 from .model import model_settings
 from .scenarios import SCENARIOS
+from .unit_system import described, length_unit
 
 
 @dataclass(frozen=True)
@@ -33,18 +35,17 @@ class Listing:
 
 def known_settings(law: Law, scenario: str) -> dict[str, str]:
     """Return every setting of a scenario and of the machine -> what it is."""
-    own = dict(SCENARIOS[scenario].settings) if scenario in SCENARIOS else {}
-    return {**model_settings(), **law.settings, **own}
+    return {**model_settings(), **law.settings, **{**SCENARIOS, **law.own}[scenario].settings}
 
 
-def listing(file: ParameterFile) -> Listing:
-    """Return what can be simulated with a file; raises SimulationError for a family without a law."""
-    law = law_of(file.schema.family.family)
-    general = [SCENARIOS[name] for name in law.scenarios if name in SCENARIOS]
-    entries = [Entry(each.name, each.title, dict(each.settings)) for each in general]
-    for name, run in law.own.items():
-        title = (run.__doc__ or "").strip().partition("\n")[0].rstrip(".")
-        own = {key: text for key, text in law.settings.items() if key.startswith(f"{name}.")}
-        entries.append(Entry(name, title, own))
-    model = {key: text for key, text in law.settings.items() if key.startswith("model.")}
-    return Listing(tuple(law.axes(file)), tuple(entries), {**model_settings(), **model})
+def listing(file: ParameterFile, system: str | None = None) -> Listing:
+    """Return what can be simulated with a file, settings in a unit system (None: that of the file); raises SimulationError for a family without a law."""
+    law, length = law_of(file.schema.family.family), length_unit(file, system)
+    scenarios = [*(SCENARIOS[name] for name in law.scenarios), *law.own.values()]
+    entries = [Entry(each.name, each.title, _described(each.settings, length)) for each in scenarios]
+    model = _described({**model_settings(), **law.settings}, length)
+    return Listing(tuple(law.axes(file)), tuple(entries), model)
+
+
+def _described(settings: Mapping[str, str], length: str) -> dict[str, str]:
+    return {name: described(text, length) for name, text in settings.items()}

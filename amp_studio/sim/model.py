@@ -12,48 +12,76 @@ from .rounding import shown
 AT_SPEED = 60.0 / 1000.0
 """1 unit of torque at 1000 u/min as torque for 1 u/s."""
 
-_FIGURES: dict[str, tuple[str, float, str]] = {
+_FIGURES: dict[str, tuple[str, float, str, str]] = {
     "model.acceleration_per_output": (
         "acceleration_per_output",
         1.0,
-        "acceleration for one unit of torque (mm/s2 or deg/s2 per {torque})",
+        "{u}/s2 for 1 {torque}",
+        "acceleration for one unit of torque (mm/s2 or deg/s2 per torque)",
     ),
-    "model.inertia_ratio": ("inertia_ratio", 1.0, "inertia of the load / inertia of the motor"),
-    "model.viscous_friction": ("viscous_friction", AT_SPEED, "friction at 1000 mm/min or deg/min ({torque})"),
-    "model.coulomb_friction": ("coulomb_friction", 1.0, "dry friction in motion ({torque})"),
-    "model.static_friction": ("static_friction", 1.0, "dry friction at rest ({torque})"),
-    "model.motor_friction": ("motor_friction", 1.0, "share of the friction on the motor's side, 0 to 1"),
-    "model.backlash": ("backlash", 1.0, "backlash (mm or deg)"),
-    "model.resonance": ("resonance", 1.0, "resonance of motor and load (Hz); 0 for a rigid axis"),
-    "model.damping": ("damping", 1.0, "damping ratio of the resonance"),
-    "model.gravity": ("gravity", 1.0, "torque that balances the weight ({torque}); above 0 it falls to -"),
-    "model.brake": ("brake", 1.0, "torque of a brake that closes at an alarm ({torque})"),
-    "model.spring": ("spring", 1.0, "torque for 1 mm or deg away from the start ({torque})"),
-    "model.current_bandwidth": ("bandwidth", 1.0, "bandwidth of the current loop (Hz); 0 for an ideal one"),
+    "model.inertia_ratio": ("inertia_ratio", 1.0, "", "inertia of the load / inertia of the motor"),
+    "model.viscous_friction": (
+        "viscous_friction",
+        AT_SPEED,
+        "{torque} at 1000 {u}/min",
+        "friction at 1000 mm/min or deg/min (torque)",
+    ),
+    "model.coulomb_friction": ("coulomb_friction", 1.0, "{torque}", "dry friction in motion (torque)"),
+    "model.static_friction": ("static_friction", 1.0, "{torque}", "dry friction at rest (torque)"),
+    "model.motor_friction": (
+        "motor_friction",
+        1.0,
+        "",
+        "share of the friction on the motor's side, 0 to 1",
+    ),
+    "model.backlash": ("backlash", 1.0, "{u}", "backlash (mm or deg)"),
+    "model.resonance": ("resonance", 1.0, "Hz", "resonance of motor and load (Hz); 0 for a rigid axis"),
+    "model.damping": ("damping", 1.0, "", "damping ratio of the resonance"),
+    "model.gravity": (
+        "gravity",
+        1.0,
+        "{torque}",
+        "torque that balances the weight (torque); above 0 it falls to -",
+    ),
+    "model.brake": ("brake", 1.0, "{torque}", "torque of a brake that closes at an alarm (torque)"),
+    "model.spring": (
+        "spring",
+        1.0,
+        "{torque} for 1 {u}",
+        "torque for 1 mm or 1 deg away from the start (torque)",
+    ),
+    "model.current_bandwidth": (
+        "bandwidth",
+        1.0,
+        "Hz",
+        "bandwidth of the current loop (Hz); 0 for an ideal one",
+    ),
     "model.velocity_bandwidth": (
         "velocity_bandwidth",
         1.0,
+        "Hz",
         "bandwidth of the velocity loop in the drive (Hz)",
     ),
     "model.velocity_integral": (
         "velocity_integral",
         1.0,
+        "1/s",
         "reciprocal of the integral time of the velocity loop in the drive (1/s); 0 for none",
     ),
-    "model.delay": ("delay", 1e-3, "time from a sample to its effect on the drive (ms)"),
+    "model.delay": ("delay", 1e-3, "ms", "time from a sample to its effect on the drive (ms)"),
 }
-"""Setting -> figure of the machine, factor to it, what it is; {torque} is the unit of the torque."""
+"""Setting -> figure of the machine, factor to it, its unit ({u} the axis' own, {torque} that of its torque), what it is."""
 
 
 def model_settings() -> dict[str, str]:
     """Return setting -> what it is."""
-    return {name: text.format(torque="torque") for name, (_, _, text) in _FIGURES.items()}
+    return {name: text for name, (_, _, _, text) in _FIGURES.items()}
 
 
 def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
     """Return the axis with the machine as the settings have it; what is set is no longer assumed."""
     changes: dict[str, float] = {}
-    for name, (figure, factor, _) in _FIGURES.items():
+    for name, (figure, factor, _, _) in _FIGURES.items():
         value = read.optional(name)
         if value is not None:
             changes[figure] = value * factor
@@ -72,8 +100,10 @@ def assumptions(axis: AxisLaw) -> tuple[str, ...]:
 
 
 def _assumption(axis: AxisLaw, figure: str, why: str) -> str:
-    for name, (own, factor, _) in _FIGURES.items():
+    torque = "%" if axis.machine.velocity_per_output > 0.0 else axis.output_unit
+    for name, (own, factor, unit, _) in _FIGURES.items():
         if own == figure:
-            value = shown(getattr(axis.machine, figure) / factor, digits=6)
+            given = unit.format(u=axis.unit, torque=torque)
+            value = shown(getattr(axis.machine, figure) / factor, given, 6)
             return f"ASSUMED: {name} = {value}. {why}"
     return f"ASSUMED: {why}"

@@ -23,9 +23,14 @@ def rounded_down(value: float, digits: int = 3) -> float:
     return _rounded(value, digits, ROUND_FLOOR)
 
 
+def rounded(value: float, digits: int) -> float:
+    """Return the value with this number of digits."""
+    return _rounded(value, digits, ROUND_HALF_EVEN)
+
+
 def shown(value: float, unit: str = "", digits: int = 4) -> str:
     """Return a value with this number of digits and its unit, without trailing zeros and without an exponent."""
-    near = _rounded(value, digits, ROUND_HALF_EVEN)
+    near = rounded(value, digits)
     text = format(Decimal(repr(near)), "f") if math.isfinite(near) else repr(near)
     if "." in text:
         text = text.rstrip("0").rstrip(".")

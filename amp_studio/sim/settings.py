@@ -14,6 +14,7 @@ from amp_studio.schema.values import read_number
 
 from .axis_parameters import ParameterValue
 from .errors import SimulationError
+from .unit_system import own_unit
 
 _BRACKETS = re.compile(r"\(([^()]*)\)")
 _ANGULAR = {"mm": "deg", "mm/min": "deg/min", "mm/s2": "deg/s2"}
@@ -26,28 +27,34 @@ def units_of(description: str) -> tuple[str, ...]:
 
 
 def read_settings(
-    given: Mapping[str, ParameterValue], known: Mapping[str, str]
+    given: Mapping[str, ParameterValue], known: Mapping[str, str], unit: str = "mm"
 ) -> tuple[dict[str, ParameterValue], dict[str, str]]:
     """Return the settings as numbers in their units, other texts as they are; and the unit that each was written in.
 
-    ``known`` are the descriptions. Raises SimulationError for a unit that does not fit.
+    ``known`` are the descriptions; a length without a unit is in the ``unit`` of the axis. Raises SimulationError for a unit that does not fit.
     """
     values: dict[str, ParameterValue] = {}
     written: dict[str, str] = {}
     for name, value in given.items():
-        values[name] = value
+        values[name], units = value, units_of(known.get(name, ""))
+        rest = ""
         if isinstance(value, str):
             try:
-                number, unit = read_number(value)
+                values[name], rest = read_number(value)
             except InvalidValueError:
                 continue  # a word, as of a ramp
-            values[name] = number
-            if unit.strip():
-                values[name], written[name] = _converted(name, number, unit, units_of(known.get(name, "")))
+        number = values[name]
+        if not isinstance(number, float):
+            continue
+        if rest.strip():
+            values[name], written[name] = _converted(name, number, rest, units, unit)
+        elif unit == "in" and units and units[0] in _ANGULAR:
+            values[name] = canonical(number, own_unit(units[0], unit))
     return values, written
 
 
-def _converted(name: str, number: float, unit: str, units: tuple[str, ...]) -> tuple[float, str]:
+def _converted(name: str, number: float, unit: str, units: tuple[str, ...], length: str) -> tuple[float, str]:
+    """Return a number in the one of ``units`` that fits, and that unit."""
     try:
         own = unit_named(unit)
     except ValueError as error:
@@ -55,7 +62,11 @@ def _converted(name: str, number: float, unit: str, units: tuple[str, ...]) -> t
     for wanted in units:
         if dimension(wanted) == dimension(own):
             return canonical(number, own) / canonical(1.0, wanted), wanted
-    takes = f"in {' or '.join(units)}" if units else "as a number without a unit"
+    takes = (
+        f"in {' or '.join(own_unit(each, length) for each in units)}"
+        if units
+        else "as a number without a unit"
+    )
     raise SimulationError(f"{name} is given in {own}; give it {takes}", name)
 
 

@@ -22,6 +22,7 @@ from .scenarios.circle import SECOND
 from .settings import read_settings, refuse_other_unit
 from .trace import Trace
 from .trial import Trial
+from .unit_system import axis_unit, in_unit, length_unit
 
 
 def simulate(
@@ -29,11 +30,12 @@ def simulate(
     scenario: str,
     axis: str | None = None,
     settings: Mapping[str, float | str] | None = None,
+    system: str | None = None,
 ) -> Trace:
     """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
     ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` names,
-    or texts with a unit.
+    or texts with a unit. ``system`` is the unit system of settings and trace, None for that of the file.
     Raises SimulationError with the parameter that is missing or impossible.
     """
     law = law_of(file.schema.family.family)
@@ -43,7 +45,9 @@ def simulate(
         raise SimulationError(
             f"{file.schema.family.name} has no scenario '{scenario}': {', '.join(law.scenarios)}"
         )
-    given, written = read_settings(settings or {}, known_settings(law, scenario))
+    length = length_unit(file, system)
+    unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)
+    given, written = read_settings(settings or {}, known_settings(law, scenario), unit)
     own = {name: value for name, value in given.items() if not name.startswith("model.")}
     model = {name: value for name, value in given.items() if name not in own}
     read: list[Address] = []
@@ -51,15 +55,16 @@ def simulate(
     refuse_other_unit(written, bound.axis, bound.unit)
     doubtful = doubts(file, read, model)
     if scenario in law.own:
-        trace = law.own[scenario](bound, own)
+        trace = law.own[scenario].run(bound, own)
         advice = (*trace.recommendations, *law.advise(bound, trace))
-        return replace(trace, recommendations=advice, doubts=doubtful)
+        return in_unit(replace(trace, recommendations=advice, doubts=doubtful), length)
     chosen = SCENARIOS[scenario]
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
     found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
-    return replace(trace, recommendations=found, assumptions=(*trace.assumptions, *notes), doubts=doubtful)
+    notes = (*trace.assumptions, *notes)
+    return in_unit(replace(trace, recommendations=found, assumptions=notes, doubts=doubtful), length)
 
 
 def _second(

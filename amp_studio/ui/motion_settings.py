@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QScrollArea, QWidget
 
-from amp_studio.schema import canonical, dimension, shown, unit_named
+from amp_studio.schema import dimension, shown, unit_named
 from amp_studio.schema.values import read_number
 
 MODE = "move.mode"
@@ -90,7 +90,7 @@ class SettingsForm(QWidget):
                 field.setPlaceholderText(f"{unit}empty: {text}")
 
     def values(self) -> dict[str, float | str]:
-        """Return what is given, in canonical units; raises ValueError with one sentence for a wrong unit or no number."""
+        """Return what is given; raises ValueError with one sentence for a wrong unit or no number."""
         found: dict[str, float | str] = {}
         for name, field in self.fields.items():
             if isinstance(field, QComboBox):
@@ -104,15 +104,15 @@ class SettingsForm(QWidget):
         return found
 
 
-def _read(name: str, text: str, unit: str) -> float:
-    """Return a length or feedrate in its canonical unit; a bare number is in the unit of the file."""
+def _read(name: str, text: str, unit: str) -> str:
+    """Return a length or feedrate with its unit; a bare number is in the unit of the file."""
     number, rest = read_number(text)
     named = unit_named(rest) if rest else unit
     if dimension(named) != dimension(unit):
         raise ValueError(
             f"Give the {_title(name).lower()} of this axis in {shown(unit)}, not in {shown(named)}."
         )
-    return canonical(number, named)
+    return f"{number!r} {named}"
 
 
 def _title(name: str) -> str:

@@ -49,7 +49,7 @@ from .workspace import Workspace
 
 MOST_HEIGHT = 148
 """Pixels of the settings of a scenario; more of them are scrolled."""
-_ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (-?[\d.]+?)\.? ")
+_ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
 _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
 
@@ -268,7 +268,8 @@ class MotionView(QWidget):
 
     def _show_result(self, trace: Trace) -> None:
         self.trace = trace
-        self.before = self.before or trace
+        if self.before is None or self.before.units != trace.units:  # the file is in other units now
+            self.before = trace
         counts = trace.units.get("position") == "counts"
         if counts != self._counts:
             self._counts = counts

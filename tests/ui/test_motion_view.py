@@ -116,8 +116,9 @@ def test_distance_and_feedrate_take_units_and_a_decimal_comma(
     field(view, "feedrate").clear()
     view.run()
     settled(view, qtbot)
-    assert view.trace.result["distance"][0] == pytest.approx(50.8)
+    assert view.trace.result["distance"] == (2.0, "in")
     assert field(view, "distance").placeholderText().startswith("in,")
+    assert {panel.unit for panel in view.plot.picture.panels} == {"in", "in/min", "%"}
 
 
 def test_a_wrong_unit_is_told_in_place(view: MotionView, qtbot: QtBot) -> None:

@@ -26,7 +26,7 @@ from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
 from .law_figures import Loop, predictions
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
-from .law_tune import tune
+from .law_tune import SCENARIO as TUNE
 from .law_units import OWN_INERTIA, OWN_TORQUE
 
 TITLE = "9/PC axis"
@@ -235,4 +235,4 @@ def _bounded(source: Source, unit: str) -> Source:
     return Source(source.parameter, source.scale, source.unit, source.whole, largest, source.page)
 
 
-LAW = Law(bind, settings=SETTINGS, advise=advise, own={"tune": tune})
+LAW = Law(bind, settings=SETTINGS, advise=advise, own={TUNE.name: TUNE})

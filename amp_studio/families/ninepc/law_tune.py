@@ -20,8 +20,8 @@ from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.ramps import end_of, move
 from amp_studio.sim.rounding import rounded_down, shown
+from amp_studio.sim.scenario import Scenario, above_zero, refuse_unknown
 from amp_studio.sim.scenarios.columns import column_units, per_minute
-from amp_studio.sim.scenarios.scenario import above_zero, refuse_unknown
 from amp_studio.sim.trace import Figure, Recommendation, Trace
 
 from . import law_samples as samples
@@ -223,3 +223,8 @@ def _recommended(axis: AxisLaw, proportional: float, integral: float) -> tuple[R
         for name, end, now in values
         if end > 0.0 and math.floor(RESERVE * end) != round(now / p[samples.TORQUE_UNIT])
     )
+
+
+SCENARIO = Scenario(
+    "tune", "The tuning procedure of appendix A, step by step, and gains with a reserve", SETTINGS, tune
+)

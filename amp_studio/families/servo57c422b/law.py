@@ -30,7 +30,6 @@ from . import law_plant as plant
 from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_commands import COMMANDS
-from .law_commands import SETTINGS as COMMAND_SETTINGS
 from .law_tune import Scales
 
 AXES = ("X", "Y")
@@ -68,7 +67,6 @@ _SCALES = {
 }
 SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
     PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)",
-    **COMMAND_SETTINGS,
 }
 
 _WORD = (-32768.0, 32767.0)

@@ -12,8 +12,8 @@ from amp_studio.sim import AxisLaw, ParameterValue, Recommendation, SimulationEr
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.ramps import end_of, move, profile_of
+from amp_studio.sim.scenario import Scenario, above_zero, number, refuse_unknown
 from amp_studio.sim.scenarios.columns import alarms_of, column_units, per_minute
-from amp_studio.sim.scenarios.scenario import above_zero, number, refuse_unknown
 from amp_studio.sim.scenarios.step import SCENARIO as STEP
 from amp_studio.sim.trace import Figure
 
@@ -40,7 +40,6 @@ CAM = {
     "cam.negative": "motion direction of a time cam, yes or no; its bit is lost",
 }
 BACKLASH = {"move.distance": "commanded distance (counts), with its sign; default: Command Position"}
-SETTINGS = {**TUNE, **GEAR, **CAM}
 
 _SEARCH = {
     "gains": (
@@ -346,4 +345,12 @@ def _unit(parameter: str) -> str:
     }.get(parameter, "")
 
 
-COMMANDS = {"tune": run_tune, "gear": run_gear, "cam": run_cam, "backlash": run_backlash}
+COMMANDS = {
+    each.name: each
+    for each in (
+        Scenario("tune", "The three tune commands, and a move with what they leave", TUNE, run_tune),
+        Scenario("gear", "The axis at rest is geared to a moving reference", GEAR, run_gear),
+        Scenario("cam", "A time cam or a position cam", CAM, run_cam),
+        Scenario("backlash", "A move with backlash compensation", BACKLASH, run_backlash),
+    )
+}

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from amp_studio.scenarios import SCENARIOS as PLACES
 from amp_studio.schema.registration import load_part
-
-from .scenario import Scenario
+from amp_studio.sim.scenario import Scenario
 
 SCENARIOS: dict[str, Scenario] = {name: load_part(place) for name, place in PLACES.items()}
 

@@ -18,16 +18,16 @@ from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.profiles import SINE
 from amp_studio.sim.rounding import shown
+from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of
-from .scenario import Scenario, Settings, above_zero, refuse_unknown
 from .sweep import DIES
 
 SECOND = "move.second_axis"
 SETTINGS = {
-    "move.radius": "radius (mm or deg); default: 20, or 20000 counts",
-    "move.feedrate": "feedrate on the circle (mm/min or deg/min); default: 3000, at most half the rapid feedrate",
+    "move.radius": "radius (mm or deg); default: 20 mm or deg, or 20000 counts",
+    "move.feedrate": "feedrate on the circle (mm/min or deg/min); default: 3000 mm/min or deg/min, at most half the rapid feedrate",
     SECOND: "the other axis of the plane; default: the next one",
 }
 RADIUS, FEEDRATE = 20.0, 50.0

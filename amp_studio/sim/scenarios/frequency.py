@@ -17,10 +17,10 @@ from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.linear import LinearModel, Margins, axis_model
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import shown
+from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of
-from .scenario import Scenario, Settings, above_zero, refuse_unknown
 from .sweep import sweep, tones_of
 
 SETTINGS = {

@@ -15,11 +15,11 @@ from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden
 from amp_studio.sim.rounding import rounded_up
+from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
 from .figures import STEADY_LAGS, settled, stability, steady_at_feedrate
-from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
 
 SETTINGS = {
     "move.distance": "distance of the move, with its sign (mm or deg)",

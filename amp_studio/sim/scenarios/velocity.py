@@ -15,12 +15,12 @@ from amp_studio.sim.linear import LinearModel, axis_model
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.ramps import move
+from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.signals import VELOCITY_LOOP
 from amp_studio.sim.trace import Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
 from .figures import steady
-from .scenario import Scenario, Settings, above_zero, refuse_unknown
 from .step import RUN_OUT, feedrate_of, ramp_of
 
 SETTINGS = {

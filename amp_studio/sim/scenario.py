@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from amp_studio.schema.nearest import unknown_name
-from amp_studio.sim.axis_parameters import ParameterValue
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.trace import Trace
+
+from .axis_parameters import ParameterValue
+from .errors import SimulationError
+from .trace import Trace
 
 Settings = Mapping[str, ParameterValue]
 

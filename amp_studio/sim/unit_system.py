@@ -1,0 +1,107 @@
+"""The unit of length that a simulation is shown in and its settings are given in: that of the file, or one that is asked for.
+
+Inside everything is in mm or deg; a family whose file is in inches sees inches in figures, columns, limits, recommendations and sentences.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import canonical
+from amp_studio.schema.units import UNITS
+
+from .errors import SimulationError
+from .rounding import rounded, shown
+from .trace import Figure, Recommendation, Trace
+
+MM_PER_INCH = 25.4
+LENGTHS = ("mm", "in")
+_IN_TEXT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?) (mm(?:/[a-z0-9]+)*)(?![\w/])")
+"""A number and its metric unit in a sentence."""
+DIGITS = 6
+"""Digits of a converted number in a sentence or a recommendation."""
+
+
+def length_unit(file: ParameterFile, system: str | None = None) -> str:
+    """Return "mm" or "in": of a unit system of the family, None for that of the file.
+
+    Raises SimulationError for a system that the family has not.
+    """
+    systems = file.schema.family.units
+    if system is not None and system not in systems:
+        raise SimulationError(f"Unknown unit system '{system}'. Known: {', '.join(systems)}")
+    found = systems.get(system or file.header.units, {}).get("length", "mm")
+    return found if found in LENGTHS else "mm"
+
+
+def axis_unit(file: ParameterFile, axis: str, length: str) -> str:
+    """Return the unit that an axis moves in: ``length``, or deg where it turns."""
+    family = file.schema.family
+    known = family.axes is not None and axis in file.machine_schema.instances(
+        file.schema.parameters[family.axes.type]
+    )
+    turns = known and family.axes is not None and file.evaluation.turns((family.axes.type, axis))
+    return "deg" if turns else length
+
+
+def own_unit(metric: str, length: str) -> str:
+    """Return a unit with the unit of length in the place of mm; others as they are."""
+    head, slash, rest = metric.partition("/")
+    return f"{length}{slash}{rest}" if head == "mm" else metric
+
+
+def in_text(text: str, length: str) -> str:
+    """Return a sentence with its lengths in another unit."""
+    if length == "mm":
+        return text
+    return _IN_TEXT.sub(
+        lambda found: shown(float(found[1]) / MM_PER_INCH, own_unit(found[2], length), DIGITS), text
+    )
+
+
+def described(text: str, length: str) -> str:
+    """Return what a setting is, with its unit in brackets and its lengths in another unit."""
+    brackets = re.sub(r"\((mm\S*)(?= or |\))", lambda found: f"({own_unit(found[1], length)}", text)
+    return in_text(brackets, length)
+
+
+def in_unit(trace: Trace, length: str) -> Trace:
+    """Return a trace whose lengths are in another unit."""
+    if length == "mm":
+        return trace
+    factors = {name: _factor(unit, length) for name, unit in trace.units.items()}
+    return replace(
+        trace,
+        columns={name: column / factors.get(name, 1.0) for name, column in trace.columns.items()},
+        units={name: own_unit(unit, length) for name, unit in trace.units.items()},
+        result={name: _figure(figure, length) for name, figure in trace.result.items()},
+        limits={name: _figure(figure, length) for name, figure in trace.limits.items()},
+        alarms=tuple(replace(alarm, message=in_text(alarm.message, length)) for alarm in trace.alarms),
+        recommendations=tuple(_recommendation(each, length) for each in trace.recommendations),
+        assumptions=tuple(in_text(text, length) for text in trace.assumptions),
+        model=in_text(trace.model, length),
+    )
+
+
+def _factor(unit: str, length: str) -> float:
+    """Return how much of a unit the same unit with another length is."""
+    return MM_PER_INCH if own_unit(unit, length) != unit else 1.0
+
+
+def _figure(figure: Figure, length: str) -> Figure:
+    value, unit = figure
+    return None if value is None else value / _factor(unit, length), own_unit(unit, length)
+
+
+def _recommendation(each: Recommendation, length: str) -> Recommendation:
+    unit = own_unit(each.unit, length)
+    value = each.value
+    if unit != each.unit:
+        # In a unit of the program, so that ``set`` takes it.
+        unit = unit if unit in UNITS else each.unit
+        value = rounded(canonical(value, each.unit) / canonical(1.0, unit), DIGITS)
+    return replace(
+        each, value=value, unit=unit, why=in_text(each.why, length), price=in_text(each.price, length)
+    )
