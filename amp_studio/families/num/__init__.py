@@ -8,5 +8,9 @@ REGISTRATION = Registration(
     family="num",
     formulas="amp_studio.families.num.formulas:FORMULAS",
     formats=("amp_studio.families.num.formats.table:FORMAT",),
+    emulators={
+        "house": "amp_studio.transfer.emulated.family_control:emulate_house",
+        "peripheral": "amp_studio.families.num.emulated.control:emulate_peripheral",
+    },
     law="amp_studio.families.num.law:LAW",
 )

@@ -1,0 +1,280 @@
+"""An emulated NUM control in utility 5: a person at its keys loads, unloads and checks the parameter table.
+
+Written from sections 13.2.1 to 13.2.6 of the NUM parameter manual (pages 13-3 to 13-14). What these pages leave open is
+marked "assumed" here and in docs/protocols/num-table.md.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Literal
+
+from amp_studio.transfer.emulated.family_control import EmulatedOptions
+from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
+from amp_studio.transfer.links.endpoint import Endpoint
+
+from .delivered import delivered_table
+from .parameter_memory import Header, ParameterMemory, TableError, content_of
+
+XON, XOFF = 0x11, 0x13
+MENU = "MACHINE SETUP DATA"
+READY = "READY?"
+FILE_ERROR = "FILE ERROR (INCORRECT TAPE?)"
+LONGEST = 256  # bytes of a line of a table; its length has two hexadecimal digits
+LINES_A_STOP = 40  # lines after which the control stops the peripheral to work on them (assumed)
+BUFFER = 4_096  # bytes it still takes after it has stopped the peripheral; more are lost (assumed)
+PIECE = 128  # bytes it sends in one turn
+
+Parity = Literal["none", "even", "odd"]
+Doing = Literal["menu", "ready", "asking", "reading", "held", "sending"]
+Job = Literal["load", "unload", "verify"]
+COMMANDS = "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, patch P9N0=FF, reset, status, quit"
+
+
+class NumControl:
+    """The CNC's side of the line, with the keys that a person presses as commands."""
+
+    def __init__(self, setup: DeviceSetup) -> None:
+        self._say = setup.say
+        self._parameters = ParameterMemory(setup.memory, delivered_table(setup.family))
+        self._doing: Doing = "menu"
+        self._job: Job = "load"
+        self._parity: Parity = "none"
+        self._start = ""
+        """The first line of an unload, as the operator left it."""
+        self._out = bytearray()
+        self._later = bytearray()
+        """Bytes that came while the peripheral was stopped."""
+        self._line = bytearray()
+        self._has_begun = False
+        self._lines = 0
+        self._header: Header | None = None
+        self._is_stopped = False
+        """Whether the control has stopped the peripheral with Xoff."""
+        self._is_paused = False
+        """Whether the peripheral has stopped the control."""
+
+    # -- the line ---------------------------------------------------------------------------------
+
+    def connected(self) -> None:
+        """Nobody connects to a serial line: what is under way goes on."""
+
+    def answer(self) -> bytes:
+        """Return the next piece of an unload, Xon and Xoff."""
+        if self._is_stopped and self._doing == "reading":
+            self._go_on()
+        if self._is_paused and self._doing == "sending":
+            return b""
+        piece = bytes(self._out[:PIECE])
+        del self._out[:PIECE]
+        if self._doing == "sending" and not self._out:
+            self._to_menu()
+        return bytes(self._with_parity(byte) for byte in piece)
+
+    def receive(self, data: bytes) -> None:
+        """Take bytes of the peripheral; outside a load or a check nobody reads them."""
+        if self._doing == "sending":
+            for byte in data:
+                self._is_paused = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_paused)
+            return
+        if not self._is_reading():
+            return
+        if self._is_stopped:
+            self._later += data[: BUFFER - len(self._later)]
+            return
+        for n, byte in enumerate(data):
+            self._read(byte)
+            if self._is_stopped:
+                self._later += data[n + 1 : n + 1 + BUFFER]
+                return
+            if not self._is_reading():
+                return
+
+    def _is_reading(self) -> bool:
+        return self._doing in ("reading", "held")
+
+    def _read(self, byte: int) -> None:
+        if self._parity != "none" and self._with_parity(byte & 0x7F) != byte:
+            self._fail("a character with a parity error")
+            return
+        sign = byte & 0x7F if self._parity != "none" else byte
+        if not self._has_begun:
+            self._has_begun = sign == ord("%")  # what comes before the table is its leader (assumed)
+            if not self._has_begun:
+                return
+        if sign == XOFF:
+            self._end()
+        elif sign == ord("\n"):
+            self._whole_line()
+        elif sign != ord("\r") or self._line.endswith(b"\r"):
+            self._line.append(sign)
+            if len(self._line) > LONGEST + 3:
+                self._fail("a line without an end")
+
+    def _end(self) -> None:
+        """Xoff: the end of the table."""
+        if self._line or self._header is not None:
+            self._fail("the table ends within a line")
+            return
+        if self._job == "load":
+            self._parameters.settle()
+        self._to_menu()
+
+    def _whole_line(self) -> None:
+        line, self._line = bytes(self._line), bytearray()
+        self._lines += 1
+        try:
+            text = content_of(line)
+            if self._lines == 1:
+                self._first(text)
+            elif text.startswith("#"):
+                self._data(text[1:])
+            elif self._header is not None:
+                raise TableError(f"{self._header.spelled} without its data line")
+            else:
+                self._header = self._parameters.header(text)
+        except TableError as error:
+            self._fail(str(error))
+            return
+        if self._doing == "reading" and self._lines % LINES_A_STOP == 0:
+            self._stop_peripheral()
+
+    def _first(self, text: str) -> None:
+        if not re.fullmatch("%[0-9]{8}(?![0-9]).*", text):
+            raise TableError("the table does not begin with % and eight digits")
+        if self._job == "load" and text[1:9] != self._parameters.job_reference:
+            # Page 13-10: transmission is stopped, the identification number is on the dialogue line.
+            self._doing = "held"
+            self._stop_peripheral()
+            self._say(f"dialogue line: {text[:9]}")
+
+    def _data(self, text: str) -> None:
+        header, self._header = self._header, None
+        if header is None:
+            raise TableError("a data line without a header")
+        words = self._parameters.split(header, text)
+        if self._job == "load":
+            self._parameters.load(header, words)
+            return
+        # Page 13-13: the parameters are listed by increasing order.
+        if header.first == 0:
+            self._say(f"(VERI) P{header.parameter}")
+        fault = self._parameters.fault_of(header, words)
+        different = None if fault else self._parameters.differs(header, words)
+        if fault or different is not None:
+            raise TableError(fault or f"P{header.parameter}N{different} differs")
+
+    def _fail(self, what: str) -> None:
+        """Stop on a fault, as a check does (page 13-13); that a load does the same is assumed."""
+        self._stop_peripheral()
+        at = f"P{self._header.parameter}" if self._header else f"line {self._lines + bool(self._line)}"
+        self._to_menu(silent=True)
+        self._say(f"dialogue line: {FILE_ERROR}  [{at}: {what}]")
+
+    def _stop_peripheral(self) -> None:
+        self._is_stopped = True
+        self._out.append(XOFF)
+
+    def _go_on(self) -> None:
+        """Have the peripheral go on, and read what has come meanwhile."""
+        self._is_stopped = False
+        self._out.append(XON)
+        later, self._later = bytes(self._later), bytearray()
+        self.receive(later)
+
+    def _with_parity(self, byte: int) -> int:
+        if self._parity == "none":
+            return byte
+        odd = (byte & 0x7F).bit_count() % 2 == 1
+        return (byte & 0x7F) | (0x80 if odd == (self._parity == "even") else 0)
+
+    # -- the keys ---------------------------------------------------------------------------------
+
+    def command(self, line: str) -> str:
+        """Press a key of the control, or set what its maker's menus set; returns what its screen shows."""
+        verb, _, rest = line.partition(" ")
+        match verb:
+            case "load" | "unload" | "verify" if not rest:
+                return self._select(verb)
+            case "enter" if not rest:
+                return self._enter()
+            case "start" if not rest and self._doing == "asking":
+                return self._unload()
+            case "reference" if re.fullmatch("[0-9]{8}", rest):
+                return self._reference(rest)
+            case "comment" if rest.isascii() and rest.isprintable() and self._doing == "asking":
+                self._start = f"{self._start[:9]} {rest}"[: LONGEST - 1]
+                return f"dialogue line: {self._start}"
+            case "exit" | "reset" if not rest:
+                self._to_menu(silent=True)
+                return MENU
+            case "parity" if rest in ("none", "even", "odd"):
+                self._parity = "even" if rest == "even" else "odd" if rest == "odd" else "none"
+                return line
+            case "patch" if found := re.fullmatch(r"P([0-9]{1,4})N([0-9]{1,4})=(.*)", rest):
+                return self._patch(int(found[1]), int(found[2]), found[3])
+            case "status" if not rest:
+                return f"{self._doing} {self._job} job reference {self._parameters.job_reference} parity {self._parity}"
+        raise ValueError(f"not possible now, or no command: {COMMANDS}")
+
+    def _select(self, job: Job) -> str:
+        if self._doing != "menu":
+            raise ValueError(f"the control is not in the {MENU} menu (exit)")
+        self._job, self._doing = job, "ready"
+        return f"dialogue line: {READY}"
+
+    def _enter(self) -> str:
+        if self._doing != "ready":
+            raise ValueError("there is nothing to enter")
+        if self._job == "unload":
+            self._doing, self._start = "asking", f"%{self._parameters.job_reference}"
+            return f"dialogue line: {self._start}"
+        self._doing, self._has_begun, self._lines = "reading", False, 0
+        self._line.clear()
+        self._out.append(XON)  # assumed: the peripheral is told that it may send
+        return "(reading)"
+
+    def _unload(self) -> str:
+        self._out += b"".join(self._parameters.lines(self._start)) + bytes((XOFF,))
+        self._doing, self._is_paused = "sending", False
+        return "(sending)"
+
+    def _reference(self, number: str) -> str:
+        """Edit the job reference: of the table while a load is held by it, of the table to be unloaded."""
+        if self._doing == "asking":
+            self._start = f"%{number}{self._start[9:]}"
+            return f"dialogue line: {self._start}"
+        if self._doing != "held":
+            raise ValueError("nothing asks for a job reference")
+        if number != self._parameters.job_reference:
+            return f"dialogue line: %{number}"
+        self._doing = "reading"  # page 13-10: transmission is resumed
+        return "(reading)"
+
+    def _patch(self, parameter: int, word: int, text: str) -> str:
+        if self._doing != "menu":
+            raise ValueError(f"the control is not in the {MENU} menu (exit)")
+        words = self._parameters.words.get(parameter, [])
+        if word >= len(words):
+            raise ValueError(f"there is no P{parameter}N{word}")
+        header = self._parameters.header(
+            f"P{parameter}N{word}:t{self._parameters.types[parameter]}n{len(words)}"
+        )
+        self._parameters.take(header, [text])
+        self._parameters.settle()
+        return f"P{parameter}N{word} {self._parameters.words[parameter][word]}"
+
+    def _to_menu(self, *, silent: bool = False) -> None:
+        """Return to the menu; what was half read is forgotten."""
+        self._doing, self._header, self._is_stopped = "menu", None, False
+        self._line.clear()
+        self._later.clear()
+        if self._job == "unload":
+            self._out.clear()
+        if not silent:
+            self._say(MENU)
+
+
+def emulate_peripheral(place: Endpoint, options: EmulatedOptions) -> int:
+    """Run an emulated control that speaks to a peripheral until asked to quit."""
+    return serve_device(place, options, NumControl)

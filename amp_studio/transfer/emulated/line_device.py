@@ -1,0 +1,197 @@
+"""An emulated control that speaks in its family's own way: one device behind one line.
+
+What it says and obeys is its family's code (``Registration.emulators``); the line, the operator and the faults are here.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import queue
+import threading
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Protocol
+
+from amp_studio.schema.visible import visible
+from amp_studio.transfer.interrupts import interrupts
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links.link import Link, LinkError, Listener
+from amp_studio.transfer.links.opening import listen
+
+from .emulator import LONGEST_COMMAND, LONGEST_LINE, print_line, standard_input
+from .family_control import EmulatedOptions, memory_folder
+from .faults import Faults, FaultyLine, die, read_faults
+from .memory import Memory
+
+SLICE = 0.02  # seconds a turn waits for bytes
+PIECE = 256  # bytes that are worked on before the operator has a turn
+COMMANDS_WAITING = 256
+
+
+class LineDevice(Protocol):
+    """What is behind the line of an emulated control. It opens nothing and waits for nothing."""
+
+    def connected(self) -> None:
+        """Learn that a client has taken the line; whatever the last one left half done is still there."""
+
+    def receive(self, data: bytes) -> None:
+        """Take what has come on the line."""
+
+    def answer(self) -> bytes:
+        """Return the next bytes to be sent, some hundred at most; b"" for nothing."""
+
+    def command(self, line: str) -> str:
+        """Do what the operator asks for and return what he reads; raises ValueError with what he is to read."""
+
+
+@dataclass(frozen=True)
+class DeviceSetup:
+    """What an emulated control is made of.
+
+    ``memory``  what it remembers without power
+    ``say``     shows a line to the operator: what the control's own screen shows
+    """
+
+    family: str
+    memory: Memory
+    say: Callable[[str], None]
+    machine: str | None = None
+
+
+DeviceFactory = Callable[[DeviceSetup], LineDevice]
+
+
+class DeviceService:
+    """Serves one client at a time until ``quit`` or ``stop``; a new connection takes the line over from the old one."""
+
+    def __init__(
+        self,
+        device: LineDevice,
+        listener: Listener,
+        *,
+        faults: Faults | None = None,
+        say: Callable[[str], None] = print,
+        stop: threading.Event | None = None,
+    ) -> None:
+        self._device = device
+        self._listener = listener
+        self._line = FaultyLine(faults or Faults())
+        self._show = say
+        self._stop = stop or threading.Event()
+        self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
+        self._link: Link | None = None
+        self._has_quit = False
+
+    def command(self, line: str) -> None:
+        """Give an operator's command; may be called from any other thread, and waits there while too many are waiting."""
+        self._commands.put(line)
+
+    def run(self) -> None:
+        """Serve until ``quit`` or ``stop``; raises LinkError when nothing can be listened on any more."""
+        try:
+            while not (self._has_quit or self._stop.is_set()):
+                self.turn()
+        finally:
+            self._drop()
+
+    def turn(self) -> None:
+        """Do what the operator asks for, then send and take some bytes; waits 0.02 s at most."""
+        self._obey()
+        caller = self._listener.accept(0 if self._link else SLICE)
+        if caller is not None:
+            self._drop()
+            self._link = self._line.wrap(caller)
+            self._device.connected()
+        if self._link is None:
+            return
+        try:
+            answer = self._device.answer()
+            if answer:
+                self._link.write(answer)
+            data = self._link.read(0 if answer else SLICE)
+            for start in range(0, len(data), PIECE):
+                self._device.receive(data[start : start + PIECE])
+                self._link.write(self._device.answer())
+        except LinkError:
+            self._drop()
+        except Exception as error:  # a fault of the device itself: another client may do better
+            self._drop()
+            self._show(f"the line was cut: {type(error).__name__}: {one_line(str(error))}")
+
+    def _drop(self) -> None:
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+
+    def _obey(self) -> None:
+        while not self._commands.empty() and not self._has_quit:
+            line = self._commands.get().strip()
+            if line == "quit":
+                self._has_quit = True
+                self._show("bye")
+            elif line:
+                try:
+                    if len(line) > LONGEST_COMMAND:
+                        raise ValueError(f"a command has {LONGEST_COMMAND} bytes at most")
+                    self._show(self._device.command(line))
+                except (ValueError, OSError) as error:
+                    self._show(f"refused: {one_line(str(error))}")
+
+
+def serve_device(
+    place: Endpoint,
+    options: EmulatedOptions,
+    factory: DeviceFactory,
+    *,
+    commands: Iterable[str] | None = None,
+    say: Callable[[str], None] | None = None,
+    stop: threading.Event | None = None,
+) -> int:
+    """Run a device until ``quit``, an interrupt or ``stop``; returns the exit code 0.
+
+    Prints ``listening on ADDRESS`` when it is ready; ``commands`` are the operator's lines, by default those of
+    standard input. Raises LinkError for a place that cannot be listened on, ValueError for a folder of something else.
+    """
+    show = say or print_line
+    stop = stop or threading.Event()
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(interrupts(stop.set))
+        faults = read_faults(options.faults)
+        memory = Memory(memory_folder(options, stack))
+        device = factory(DeviceSetup(options.family, memory, show, options.machine))
+        _arm(memory, faults)
+        listener = listen(place)
+        stack.callback(listener.close)
+        service = DeviceService(device, listener, faults=faults, say=show, stop=stop)
+
+        def forward() -> None:
+            for line in standard_input() if commands is None else commands:
+                service.command(line)
+
+        threading.Thread(target=forward, name="operator", daemon=True).start()
+        show(f"listening on {listener.endpoint}")
+        service.run()
+        if stop.is_set():
+            show("bye")
+    return 0
+
+
+def _arm(memory: Memory, faults: Faults) -> None:
+    """Prepare a memory for the faults that it can have; a step of a save is any step on the disk."""
+    memory.full_at = faults.disk_full_at
+    left = faults.die_at_commit_step
+
+    def step(_: str) -> None:
+        nonlocal left
+        if left is not None:
+            left -= 1
+            if left == 0:
+                die()
+
+    memory.on_step = step
+
+
+def one_line(text: str) -> str:
+    """Return a text, some of which may be a stranger's, as one short line that steers no terminal."""
+    shown = visible(text[: LONGEST_LINE + 1])
+    return shown if len(shown) <= LONGEST_LINE else shown[:LONGEST_LINE] + " …"
