@@ -77,21 +77,19 @@ class NumControl:
             for byte in data:
                 self._is_paused = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_paused)
             return
-        if not self._is_reading():
-            return
-        if self._is_stopped:
-            self._later += data[: BUFFER - len(self._later)]
-            return
         for n, byte in enumerate(data):
+            if not self._takes():
+                self._keep_for_later(data[n:])
+                return
             self._read(byte)
-            if self._is_stopped:
-                self._later += data[n + 1 : n + 1 + BUFFER]
-                return
-            if not self._is_reading():
-                return
 
-    def _is_reading(self) -> bool:
-        return self._doing in ("reading", "held")
+    def _takes(self) -> bool:
+        return self._doing == "reading" and not self._is_stopped
+
+    def _keep_for_later(self, data: bytes) -> None:
+        """Keep what came while the peripheral was stopped, as far as there is room; outside a load nobody reads it."""
+        if self._doing in ("reading", "held"):
+            self._later += data[: BUFFER - len(self._later)]
 
     def _read(self, byte: int) -> None:
         if self._parity != "none" and self._with_parity(byte & 0x7F) != byte:
