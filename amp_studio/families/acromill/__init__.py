@@ -11,5 +11,9 @@ REGISTRATION = Registration(
         "amp_studio.families.acromill.formats.acr_script:FORMAT",
         "amp_studio.families.acromill.formats.ballscrew:FORMAT",
     ),
+    emulators={
+        "house": "amp_studio.transfer.emulated.family_control:emulate_house",
+        "terminal": "amp_studio.families.acromill.emulated.card:emulate_terminal",
+    },
     law="amp_studio.families.acromill.law:LAW",
 )

@@ -1,0 +1,1 @@
+"""An emulated ACR card that is spoken to through its terminal."""

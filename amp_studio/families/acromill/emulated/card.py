@@ -1,0 +1,116 @@
+"""An emulated ACR card behind its terminal: a prompt, an echo of every sign, a line obeyed at its end (page 91).
+
+What the guide does not show is marked "assumed" here and in docs/protocols/acr-terminal.md.
+"""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio.schema.visible import visible
+from amp_studio.transfer.emulated.family_control import EmulatedOptions
+from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
+from amp_studio.transfer.links.endpoint import Endpoint
+
+from .settings import CardSettings, CommandError
+
+BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
+LONGEST = 128  # signs of a line; more are neither taken nor echoed (assumed)
+PIECE = 256
+BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
+COMMANDS = "power, patch COMMAND, echo on|off, status, quit"
+
+
+class AcrCard:
+    """The card's side of the line. Half a line that a client has left is still there for the next one."""
+
+    def __init__(self, setup: DeviceSetup) -> None:
+        self.settings = CardSettings(setup.memory)
+        self._out = bytearray()
+        self._line = bytearray()
+        self._program = 0
+        self._echoes = True
+
+    def connected(self) -> None:
+        """Nobody connects to a terminal line: the card says nothing, and keeps what it has of a line."""
+        self._out.clear()
+
+    def answer(self) -> bytes:
+        """Return the next signs to be sent."""
+        piece = bytes(self._out[:PIECE])
+        del self._out[:PIECE]
+        return piece
+
+    def receive(self, data: bytes) -> None:
+        """Take signs as they are typed."""
+        for byte in data:
+            if byte == RETURN:
+                self._obey()
+            elif byte in (BACKSPACE, DELETE):  # assumed
+                if self._line:
+                    self._line.pop()
+                    self._echo(b"\b \b")
+            elif 0x20 <= byte < 0x7F and len(self._line) < LONGEST:
+                self._line.append(byte)
+                self._echo(bytes((byte,)))
+
+    def _echo(self, signs: bytes) -> None:
+        if self._echoes:
+            self._out += signs
+
+    def _obey(self) -> None:
+        line, self._line = self._line.decode("ascii"), bytearray()
+        self._echo(b"\r\n")
+        try:
+            rows = self._done(line)
+        except CommandError as error:
+            rows = [str(error)]
+        except OSError as error:
+            rows = [f"EEPROM failure ({error.strerror})"]
+        for row in rows:
+            self._out += row.encode("ascii", "replace") + b"\r\n"
+        self._out += f"P{self._program:02d}>".encode()
+
+    def _done(self, line: str) -> list[str]:
+        """Obey a line; ESAVE, ELOAD, ERASE, VER and HELP are words of the list of page 91, and what they do is assumed."""
+        match line.strip().upper():
+            case "ESAVE":
+                self.settings.save()
+            case "ELOAD":
+                self.settings.load()
+            case "ERASE":
+                self.settings.erase()
+            case "VER":
+                return list(BANNER)
+            case "ECHO":
+                return ["ON" if self._echoes else "OFF"]
+            case word if found := re.fullmatch("PROG([0-9])", word):
+                self._program = int(found[1])
+            case _:
+                return self.settings.obey(line)
+        return []
+
+    def command(self, line: str) -> str:
+        """Do what the operator asks for: ``power`` goes off and on, ``patch`` is a command from another terminal."""
+        verb, _, rest = line.partition(" ")
+        match verb, rest:
+            case "power", "":
+                self.settings.load()
+                self.settings.variables.clear()
+                self._line.clear()
+                self._out.clear()
+                self._program = 0
+            case "echo", "on" | "off":
+                self._echoes = rest == "on"
+            case "patch", _ if rest:
+                return visible("; ".join(self.settings.obey(rest)) or line)
+            case "status", "":
+                return f"P{self._program:02d} {len(self._line)} signs of a line"
+            case _:
+                raise ValueError(f"no command: {COMMANDS}")
+        return visible(line)
+
+
+def emulate_terminal(place: Endpoint, options: EmulatedOptions) -> int:
+    """Run an emulated card until asked to quit."""
+    return serve_device(place, options, AcrCard)
