@@ -15,6 +15,7 @@ from amp_studio.sim import (
     named_parameter,
     simulate,
     simulated_axes,
+    titled,
     trace_summary,
     trace_text,
     write_trace,
@@ -92,7 +93,7 @@ def _list(file: ParameterFile, system: str | None, *, as_json: bool) -> int:
     if as_json:
         print_json(asdict(found))
         return 0
-    print(f"axes: {', '.join(found.axes) or 'none'}")
+    print(f"axes: {', '.join(map(titled, found.axes, found.letters)) or 'none'}")
     for scenario in found.scenarios:
         print(f"{scenario.name}: {scenario.title}")
         for name, text in scenario.settings.items():

@@ -5,7 +5,7 @@ it; every other room asks here and knows no parameter by heart.
 """
 
 from .address import Address, UnknownParameterError, part_of, read_address, written
-from .addressing import Meant, addresses_meant, all_meant, axis_meant, meant, unknown
+from .addressing import Meant, addresses_meant, all_meant, axis_meant, axis_name, meant, unknown
 from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
 from .conditions import ACTIVE, Reference, StateInfo
@@ -77,6 +77,7 @@ __all__ = [
     "all_meant",
     "angular",
     "axis_meant",
+    "axis_name",
     "bounding",
     "canonical",
     "canonical_unit",

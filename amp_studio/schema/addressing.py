@@ -179,6 +179,11 @@ def axis_meant(evaluation: FileState, instances: tuple[str, ...], text: str) -> 
     raise UnknownParameterError(f"there is no axis {quoted(text)}")
 
 
+def axis_name(evaluation: FileState, axis: str) -> str:
+    """Return the letter that a file gives an axis; "" where it gives none."""
+    return next((name for each, name in _axis_names(evaluation) if each == axis), "")
+
+
 def _axes_named(evaluation: FileState, letter: str) -> list[str]:
     """Return the axes that the file gives a letter, fitted ones where there are any."""
     found = [axis for axis, name in _axis_names(evaluation) if name.casefold() == letter.casefold()]

@@ -17,7 +17,7 @@ from .model import model_settings
 from .scenarios import SCENARIOS, Scenario
 from .simulate import bind_axis, simulate, simulated_axes
 from .svg import plot_svg
-from .trace import Alarm, Figure, Recommendation, Trace
+from .trace import Alarm, Figure, Recommendation, Trace, titled
 from .trial import address_of, named_parameter
 from .write import plot_png, trace_csv, trace_summary, trace_text, write_trace
 
@@ -51,6 +51,7 @@ __all__ = [
     "simulate",
     "simulated_axes",
     "simulated_families",
+    "titled",
     "trace_csv",
     "trace_summary",
     "trace_text",

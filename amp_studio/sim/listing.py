@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
+from amp_studio.schema import axis_name
 
 from .law import Law, law_of
 from .model import model_settings
@@ -28,6 +29,8 @@ class Listing:
     """Scenarios and settings for one file."""
 
     axes: tuple[str, ...]
+    letters: tuple[str, ...]
+    """Of each axis; the axis itself where the file gives it none."""
     scenarios: tuple[Entry, ...]
     model: dict[str, str]
     """Settings of the machine -> what they are."""
@@ -44,7 +47,9 @@ def listing(file: ParameterFile, system: str | None = None) -> Listing:
     scenarios = [*(SCENARIOS[name] for name in law.scenarios), *law.own.values()]
     entries = [Entry(each.name, each.title, _described(each.settings, length)) for each in scenarios]
     model = _described({**model_settings(), **law.settings}, length)
-    return Listing(tuple(law.axes(file)), tuple(entries), model)
+    axes = tuple(law.axes(file))
+    letters = tuple(axis_name(file.evaluation, axis) or axis for axis in axes)
+    return Listing(axes, letters, tuple(entries), model)
 
 
 def _described(settings: Mapping[str, str], length: str) -> dict[str, str]:

@@ -144,7 +144,7 @@ def banded(x: Series, y: Series, columns: int) -> tuple[Series, Series, Series, 
 
 
 def _title(trace: Trace) -> str:
-    axis = f", axis {trace.axis}" if trace.axis else ""
+    axis = f", axis {trace.axis_title}" if trace.axis else ""
     names = {"step": ("distance", "feedrate"), "circle": ("radius", "feedrate")}.get(trace.scenario, ())
     figures = [_shown(trace, name) for name in names if _has(trace, name)]
     return f"{trace.scenario.capitalize()}{axis}" + (f": {' at '.join(figures)}" if figures else "")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import Address
+from amp_studio.schema import Address, axis_name
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.registration import load_part, registration_of
 
@@ -53,18 +53,19 @@ def simulate(
     read: list[Address] = []
     bound = bind_axis(file, law, axis, model, read.append)
     refuse_other_unit(written, bound.axis, bound.unit)
-    doubtful = doubts(file, read, model)
+    doubtful, letter = doubts(file, read, model), axis_name(file.evaluation, bound.axis)
     if scenario in law.own:
         trace = law.own[scenario].run(bound, own)
         advice = (*trace.recommendations, *law.advise(bound, trace))
-        return in_unit(replace(trace, recommendations=advice, doubts=doubtful), length)
+        return in_unit(replace(trace, recommendations=advice, doubts=doubtful, letter=letter), length)
     chosen = SCENARIOS[scenario]
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
     found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
     notes = (*trace.assumptions, *notes)
-    return in_unit(replace(trace, recommendations=found, assumptions=notes, doubts=doubtful), length)
+    done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful, letter=letter)
+    return in_unit(done, length)
 
 
 def _second(
@@ -72,7 +73,10 @@ def _second(
 ) -> AxisLaw | None:
     """Return the second axis: the one of that name, else the next one that can be simulated and moves in the same unit."""
     if name is not None:
-        return bind_axis(file, law, f"{name:g}" if isinstance(name, float) else str(name), model)
+        second = bind_axis(file, law, f"{name:g}" if isinstance(name, float) else str(name), model)
+        if second.axis == first.axis:
+            raise SimulationError(f"Axis {first.axis} makes no circle with itself: give another axis", SECOND)
+        return second
     axes = tuple(law.axes(file))
     place = axes.index(first.axis)
     for other in (*axes[place + 1 :], *axes[:place]):
@@ -99,7 +103,7 @@ def bind_axis(
     overrides: Mapping[str, ParameterValue] | None = None,
     note: Callable[[Address], None] = lambda _address: None,
 ) -> AxisLaw:
-    """Return one axis of a file with its machine; ``overrides`` are values by parameter id or ``model.*``, ``note`` is called
+    """Return one axis of a file, named by itself or its letter, with its machine; ``overrides`` are values by parameter id or ``model.*``, ``note`` is called
     with each address that is read.
 
     Raises SimulationError for an axis that is not fitted, a value that is missing, an override that is not used.
@@ -108,6 +112,8 @@ def bind_axis(
     if not fitted:
         raise SimulationError(law.without_axes)
     chosen = axis or fitted[0]
+    if chosen not in fitted:
+        chosen = next((each for each in fitted if axis_name(file.evaluation, each) == chosen.upper()), chosen)
     if chosen not in fitted:
         raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
     read = AxisParameters(

@@ -12,6 +12,11 @@ Figure = tuple[float | None, str]
 """A value and its unit; None if the motion did not reach it."""
 
 
+def titled(axis: str, letter: str) -> str:
+    """Return an axis with its letter: ``1 (X)``."""
+    return f"{axis} ({letter})" if letter and letter != axis else axis
+
+
 @dataclass(frozen=True)
 class Alarm:
     """An alarm of the control and its time."""
@@ -52,8 +57,15 @@ class Trace:
     assumptions: tuple[str, ...]
     limits: Mapping[str, Figure]
     """Named limits of the following error, to draw beside the curves."""
+    letter: str = ""
+    """The letter that the file gives the axis, where it is another than ``axis``."""
     doubts: tuple[str, ...] = ()
     """What is wrong or doubtful about the values that the axis was made of, each a sentence."""
+
+    @property
+    def axis_title(self) -> str:
+        """The axis as a person knows it: ``1 (X)``."""
+        return titled(self.axis, self.letter)
 
     @property
     def rows(self) -> int:

@@ -58,7 +58,7 @@ def plot_png(trace: Trace, before: Trace | None = None) -> bytes:
 
 def trace_text(trace: Trace) -> str:
     """Return the result as text for the terminal: alarms, figures, recommendations, assumptions."""
-    lines = [f"{trace.scenario}{', axis ' + trace.axis if trace.axis else ''}: {trace.model}"]
+    lines = [f"{trace.scenario}{', axis ' + trace.axis_title if trace.axis else ''}: {trace.model}"]
     lines += [f"DOUBTFUL: {doubt}" for doubt in trace.doubts]
     lines += [f"ALARM at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
     width = max(len(name) for name in trace.result)
@@ -106,6 +106,7 @@ def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, 
     return {
         "scenario": trace.scenario,
         "axis": trace.axis,
+        "letter": trace.letter or trace.axis,
         "model": trace.model,
         "result": {name: {"value": value, "unit": unit} for name, (value, unit) in trace.result.items()},
         "alarms": [{"code": a.code, "time_s": a.time_s, "message": a.message} for a in trace.alarms],

@@ -34,6 +34,7 @@ from amp_studio.sim import (
     law_of,
     listing,
     simulate,
+    titled,
     write_trace,
 )
 from amp_studio.sim.listing import Listing
@@ -172,15 +173,19 @@ class MotionView(QWidget):
         """Fill the scenarios and axes of the file; keep the axis ``wanted`` where it is there."""
         file = self._workspace.file
         found, self._impossible = _possible(file)
-        titled = [(axis, axis_title(file, axis) if file.schema.family.axes else axis) for axis in found.axes]
+        kinds = file.schema.family.axes is not None
+        titles = [
+            (axis, axis_title(file, axis) if kinds else titled(axis, letter))
+            for axis, letter in zip(found.axes, found.letters, strict=True)
+        ]
         refill(
             self.scenario,
             [(each.name, each.name.capitalize()) for each in found.scenarios],
             str(self.scenario.currentData() or "step"),
         )
-        refill(self.axis, titled, wanted)
+        refill(self.axis, titles, wanted)
         chosen = next((each for each in found.scenarios if each.name == self.scenario.currentData()), None)
-        others = [each for each in titled if each[0] != self.axis.currentData()]
+        others = [each for each in titles if each[0] != self.axis.currentData()]
         self.scenario.setToolTip(chosen.title if chosen else "")
         self.settings.offer(chosen.settings if chosen else {}, self._units(), others)
         self.machine.offer(found.model, ("", ""))
@@ -376,5 +381,5 @@ def _possible(file: ParameterFile) -> tuple[Listing, SimulationError | None]:
     try:
         found = listing(file)
     except SimulationError as error:
-        return Listing((), (), {}), error
+        return Listing((), (), (), {}), error
     return found, None if found.axes else SimulationError(law_of(file.schema.family.family).without_axes)
