@@ -18,7 +18,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "set": (
         f"amp-studio set {MILL} 1300=1.5",
         f'amp-studio set {MILL} home.calibration@X="0.05 in" 1350=300',
-        f"amp-studio set {MILL} 1300=",
+        f"amp-studio set {MILL} 1300=not-set",
     ),
     "get": (
         f"amp-studio get {MILL} 1300 home.calibration@Y",

@@ -46,6 +46,9 @@ from .output import check_new, note_all, write_new
 STATES = {"ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
 """What a person reads for the state of an inactive parameter."""
 
+NOT_SET = "not-set"
+"""The value of an assignment that clears a parameter."""
+
 
 def new_verb(options: argparse.Namespace) -> int:
     """Make a parameter file with the family's defaults."""
@@ -90,7 +93,8 @@ def wanted(
 ) -> dict[Address, Value | None]:
     """Read assignments in order, each in the light of those before it; the file itself is not changed.
 
-    Raises UsageError that names everything that cannot be set. ``notify`` is called with which parameter a number means that is printed for several.
+    Raises UsageError that names everything that cannot be set. ``notify`` is called with which parameter a number means
+    that is printed for several. A value is cleared by ``NOT_SET`` only: an empty text may be a variable without a value.
     """
     trial = file.copy()
     found: dict[Address, Value | None] = {}
@@ -99,10 +103,14 @@ def wanted(
         try:
             found_here = meant(trial.evaluation, param)
             address, bit = found_here.address, found_here.bit
+            if not text:
+                raise ValueError(
+                    f"no value is given ({param}={NOT_SET} clears it)" if bit is None else "no value is given"
+                )
             if bit is not None:
                 value: Value | None = _with_bit(trial, address, bit, text)
             else:
-                value = trial.read(address, text) if text else None
+                value = None if text == NOT_SET else trial.read(address, text)
                 if address in found and found[address] != value:
                     raise ValueError("it is given two values")
             found[address] = value

@@ -34,7 +34,7 @@ _VALUES = (
     "yes, no              yes/no, or the label or letter of a choice (a)",
     "raw:-1               what the control stores",
     "0x05                 a mask; bit by bit: P3N0.5=yes",
-    "nothing              not set: 1300=",
+    "not-set              clears the value: 1300=not-set (an empty value is refused)",
     "Units: mm, in, deg, mm/min, ipm, deg/min, rpm, ms, s, %, V, Hz",
 )
 _ADDRESSES = (

@@ -228,7 +228,7 @@ def test_files_that_are_the_same_do_not_differ(amp, mill: Path, twin: Path) -> N
 
 
 def test_a_difference_has_the_promised_shape_and_ends_with_1(amp, mill: Path, twin: Path) -> None:
-    amp("set", twin, "1300=1.5", "1020=yes", "2300=0 in", "20=1", "1013=")
+    amp("set", twin, "1300=1.5", "1020=yes", "2300=0 in", "20=1", "1013=not-set")
     said = amp("diff", mill, twin, "--json")
     assert said.code == 1
     shown = [{key: d[key] for key in ("param", "a", "b")} for d in said.json["differences"]]
@@ -243,7 +243,7 @@ def test_a_difference_has_the_promised_shape_and_ends_with_1(amp, mill: Path, tw
 
 
 def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path, twin: Path) -> None:
-    amp("set", twin, "1300=1.5", "20=1", "1013=")
+    amp("set", twin, "1300=1.5", "20=1", "1013=not-set")
     *lines, total = amp("diff", mill, twin).out.splitlines()
     assert len(lines) == 3
     assert lines[0].startswith("1300 Home Calibration ")

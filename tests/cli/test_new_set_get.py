@@ -11,8 +11,9 @@ from textwrap import dedent
 
 import pytest
 
+from amp_studio.cli.files import NOT_SET
 from amp_studio.files import backup_path, open_file
-from amp_studio.schema import Value, load_schema
+from amp_studio.schema import Value, family_ids, load_schema
 
 # -- new -----------------------------------------------------------------------------------------------------
 
@@ -164,7 +165,7 @@ def test_a_value_is_set_and_the_previous_file_becomes_the_backup(amp, mill: Path
         ("servo.velocity_port@1=j2", ("servo.velocity_port", "1"), Value("j2")),
         ("1013=0x10", ("servo.velocity_gear_teeth", "1"), Value(16)),
         ("4013=7", ("servo.spindle_motor_teeth", "4"), Value(7)),
-        ("1300=", ("home.calibration", "1"), None),
+        ("1300=not-set", ("home.calibration", "1"), None),
     ],
 )
 def test_a_value_may_be_given_in_every_clear_form(
@@ -172,6 +173,27 @@ def test_a_value_may_be_given_in_every_clear_form(
 ) -> None:
     assert amp("set", mill, assignment).code == 0
     assert expected == open_file(mill).file.get(address)
+
+
+@pytest.mark.parametrize("assignment", ["1300=", "1300= ", "home.calibration@X=", "361=", "1020="])
+def test_an_empty_value_as_of_a_variable_that_is_not_set_clears_nothing(
+    amp, mill: Path, assignment: str
+) -> None:
+    before = mill.read_bytes()
+    for verb in (("set", mill, "1350=300"), ("simulate", mill, "step", "--axis", "1", "--set")):
+        refused = amp(*verb, assignment)
+        name = assignment.partition("=")[0]
+        assert (refused.code, refused.out) == (2, "")
+        assert f"{name}: no value is given ({name}=not-set clears it)" in refused.err
+    assert before == mill.read_bytes()
+
+
+def test_no_choice_of_any_family_is_spelled_like_the_word_that_clears_a_value() -> None:
+    for family in family_ids():
+        for parameter in load_schema(family).parameters.values():
+            words = {w for c in parameter.choices or () for w in (c.key, c.label, c.code or "")}
+            words |= {b.label for b in parameter.bits or ()}
+            assert NOT_SET not in {word.casefold() for word in words}, parameter.id
 
 
 def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:
@@ -186,7 +208,9 @@ def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:
     assert Value(5.0, "deg") == file.get(("home.calibration", "1"))
 
 
-@pytest.mark.parametrize("second", ["1300=6", "home.calibration@1=6", "1300=", "home.calibration@X=5.1"])
+@pytest.mark.parametrize(
+    "second", ["1300=6", "home.calibration@1=6", "1300=not-set", "home.calibration@X=5.1"]
+)
 def test_a_parameter_that_is_given_two_values_gets_neither(amp, mill: Path, second: str) -> None:
     before = mill.read_bytes()
     said = amp("set", mill, "1300=5", second)

@@ -82,7 +82,7 @@ def test_a_bit_of_a_word_is_set_by_itself(amp, words: Path) -> None:
         ("P3N0.16=1", "Displayed Axes has the bits 0 to 15, not 16"),
         ("P3N0.5=2", "'2' does not fit Axis 5, which takes 0 to 1"),
         ("P3N0.8=1", "1 is no code of Kind in Displayed Axes; nothing was changed"),
-        ("P3N0.5=", "'' does not fit Axis 5"),
+        ("P3N0.5=", "no value is given"),
         ("P3N0=0x10000", "Displayed Axes 65536 does not fit its 16 bits; nothing was changed"),
         ("P3N9.5=1", "Unknown parameter 'P3N9.5'"),
     ],

@@ -67,7 +67,7 @@ def test_the_nine_pc_has_a_password_and_its_signature_is_what_it_was() -> None:
     ("diff", "FILE", "OTHER"), ("diff", "OTHER", "FILE", "--json"), ("diff", "FILE", "UNSET"),
     ("diff", "UNSET", "FILE", "--json"), ("diff", "FILE", "UNREADABLE"), ("get", "UNREADABLE"),
     ("set", "UNREADABLE", "NUMBER=66"), ("merge", "UNSET", "FILE", "OTHER", "-o", "NEW"),
-    ("set", "FILE", "NUMBER=66"), ("set", "FILE", "NUMBER="), ("set", "FILE", "NUMBER=1"),
+    ("set", "FILE", "NUMBER=66"), ("set", "FILE", "NUMBER=not-set"), ("set", "FILE", "NUMBER=1"),
     ("set", "FILE", "NUMBER=7654321x"), ("set", "OTHER", "NUMBER=7654321", "--force"),
 ], ids=" ".join)  # fmt: skip
 def test_no_verb_says_a_secret(machine: Path, amp, tmp_path: Path, arguments: tuple[str, ...]) -> None:
@@ -153,7 +153,7 @@ def test_what_is_masked_is_told_apart_from_what_is_not_set(machine: Path, amp, t
     assert MASK in amp("get", machine, first).out
     (row,) = amp("get", machine, first, "--json", "--secrets").json["values"]
     assert row["value"] == int(SECRET)
-    assert amp("set", machine, f"{first}=").code == 0
+    assert amp("set", machine, f"{first}=not-set").code == 0
     (row,) = amp("get", machine, first, "--json").json["values"]
     assert (row["value"], row["secret"], row["set"]) == (None, True, False)
 
