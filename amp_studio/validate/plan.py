@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache
 from itertools import count
 from typing import NamedTuple
 
@@ -44,7 +44,7 @@ class Listed:
     addresses: tuple[Address, ...]
 
 
-@cache
+@lru_cache(maxsize=10_000)
 def _listed(addresses: tuple[Address, ...]) -> Listed:
     return Listed(addresses)
 
