@@ -39,6 +39,7 @@ from .values import (
     read_number,
     read_value,
     show_value,
+    write_figure,
     write_number,
     write_value,
 )
@@ -112,6 +113,7 @@ __all__ = [
     "unit_named",
     "unknown",
     "with_field",
+    "write_figure",
     "write_number",
     "write_value",
     "written",

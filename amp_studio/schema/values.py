@@ -307,6 +307,18 @@ def write_number(number: float) -> str:
     return repr(number)
 
 
+_FIGURE_DIGITS = 6
+"""Digits that matter of a calculated number, for a person."""
+
+
+def write_figure(number: float) -> str:
+    """Write a calculated number for a person: six digits that matter, and every digit of its whole part."""
+    if isinstance(number, int) or not math.isfinite(number):
+        return write_number(number)
+    whole_digits = len(str(int(abs(number))))
+    return write_number(float(f"{number:.{max(_FIGURE_DIGITS, whole_digits)}g}"))
+
+
 def write_value(parameter: Parameter, value: Value | None) -> str:
     """Write a value so that ``read_value`` gives it back; a value that is not set is empty."""
     if value is None:

@@ -17,7 +17,7 @@ from amp_studio.schema import (
     convert,
     show_value,
     shown,
-    write_number,
+    write_figure,
 )
 from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.conditions import ACTIVE
@@ -279,7 +279,7 @@ class RuleChecks:
             inch = unit.replace("mm", "in", 1)
             if inch != unit and (self._file.header.units == "inch" or inch in entered):
                 found, unit = convert(float(found), unit, inch), inch
-        number, sign = write_number(float(f"{found:.7g}")), shown(unit)
+        number, sign = write_figure(found), shown(unit)
         return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
 
     def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:

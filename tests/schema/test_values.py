@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,6 +14,7 @@ from amp_studio.schema import (
     label_of,
     read_value,
     show_value,
+    write_figure,
     write_value,
 )
 
@@ -102,6 +105,16 @@ def test_a_value_in_a_wrong_unit_is_refused_with_the_right_one(ninepc, text: str
     with pytest.raises(InvalidValueError) as refused:
         read_value(ninepc.parameter("home.calibration"), text, "mm")
     assert said == str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [(4.002087499998666, "4.00209"), (0.4724409449, "0.472441"), (16777216.0, "16777216"), (1234567.89, "1234568"),
+     (-62472.123, "-62472.1"), (9999.9000004, "9999.9"), (3.05184e-05, "3.05184e-05"), (13.2, "13.2"), (7, "7"),
+     (0.0, "0"), (1e300, "1e+300"), (math.inf, "inf")],
+)  # fmt: skip
+def test_a_calculated_figure_has_six_digits_that_matter_and_its_whole_part(number: float, text: str) -> None:
+    assert write_figure(number) == text
 
 
 @pytest.mark.parametrize(

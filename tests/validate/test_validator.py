@@ -107,14 +107,14 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     mill.header.units = "inch"
     mill.set(EXCESS, Value(0.4, "in"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
-    assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in finding.message
+    assert "trails its command by 0.472441 in, more than Excess Error 0.4 in allows" in finding.message
     assert finding.fix == (Setting(EXCESS, Value(0.51969, "in")),), "five decimals, as the parameter has them"
 
 
 def test_a_figure_is_told_in_the_inches_of_the_values_it_comes_from(mill) -> None:
     mill.set(EXCESS, Value(0.4, "in"))
     message = the(mill, "9pc.servo.excess-below-following-error").message
-    assert "trails its command by 0.4724409 in, more than Excess Error 0.4 in allows" in message
+    assert "trails its command by 0.472441 in, more than Excess Error 0.4 in allows" in message
 
 
 def test_an_axis_that_turns_is_told_in_degrees(mill) -> None:
@@ -131,7 +131,7 @@ def test_another_unit_system_is_noticed(mill) -> None:
     mill.header.units = "inch"
     findings = validator.update([])
     assert findings == Validator(mill).run()
-    assert any("trails its command by 0.4724409 in" in finding.message for finding in findings)
+    assert any("trails its command by 0.472441 in" in finding.message for finding in findings)
 
 
 def test_a_fix_that_cannot_change_motion_is_safe(mill) -> None:
