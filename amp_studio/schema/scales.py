@@ -48,11 +48,12 @@ def size_of(evaluation: Evaluation, address: Address, unit: str) -> Size | None:
     value = evaluation.value(source)
     if value is None or evaluation.state(source).state == "hidden":
         return None
-    return _size(entry, value, source)
+    found = unit_size(entry, value)
+    return Size(*found, source) if found else None
 
 
-def _size(entry: UnitSize, value: Value, source: Address) -> Size | None:
-    """Return the size that a value of the parameter sets: one of the list, or the value itself."""
+def unit_size(entry: UnitSize, value: Value) -> tuple[Fraction, str] | None:
+    """Return the size, with its unit, that a value of the parameter sets: one of the list, or the value itself."""
     if entry.sizes:
         number = value.value
         key = choice_key(value) if isinstance(number, (str, bool)) else write_number(number)
@@ -60,10 +61,10 @@ def _size(entry: UnitSize, value: Value, source: Address) -> Size | None:
         if text is None:
             return None
         size, unit = read_exact(text)
-        return Size(size, unit_named(unit), source)
+        return size, unit_named(unit)
     if isinstance(value.value, (str, bool)) or not math.isfinite(value.value) or value.value <= 0:
         return None
-    return Size(exact(value.value), value.unit, source)
+    return exact(value.value), value.unit
 
 
 def real_value(evaluation: Evaluation, address: Address, value: Value | None) -> Value | None:

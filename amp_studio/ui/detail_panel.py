@@ -17,6 +17,7 @@ from amp_studio.schema import (
     Value,
     limits,
     read_address,
+    real_value,
     same_value,
     show_value,
     shown,
@@ -135,8 +136,12 @@ class DetailPanel(QWidget):
                 if not same_value(v, value)]  # fmt: skip
 
     def _shown(self, address: Address, value: Value | None) -> str:
-        parameter = self._workspace.file.schema.parameters[address[0]]
-        return html.escape(show_value(parameter, value, secrets=self._workspace.secrets))
+        """Return a value; one in units whose size another parameter sets with its length or angle: 1000 BLU = 1 mm."""
+        file = self._workspace.file
+        parameter = file.schema.parameters[address[0]]
+        shown = show_value(parameter, value, secrets=self._workspace.secrets)
+        real = None if parameter.secret else real_value(file.evaluation, address, value)
+        return html.escape(f"{shown} = {show_value(parameter, real)}" if real else shown)
 
     def _allowed(self, address: Address) -> str:
         file = self._workspace.file

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import Document, Header, ParameterFile
+from amp_studio.files import Document, Header, ParameterFile, new_file
 from amp_studio.schema import Schema, Value
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion_view import MotionView
@@ -84,3 +84,24 @@ def test_a_control_of_another_family_is_refused(
     person.types(control.address)
     action(wide, "Verify With Control").trigger()
     assert person.reads() == "the control is of the family 9pc, not wide"
+
+
+@pytest.mark.parametrize(
+    ("family", "axes", "changes", "address", "texts"),
+    [
+        ("syntec", "X,Y", {}, ("limit.first_positive", "1"), ("1000 BLU", "1000 BLU = 1 mm")),
+        ("num", "", {("axes.internal_unit", ""): 4}, ("travel.limit_max", "1"), ("1000 iu", "1000 iu = 0.1 mm")),
+        ("num", "", {("axes.internal_unit", ""): None}, ("travel.limit_max", "1"), ("1000 iu", "1000 iu Axis")),
+    ],
+)  # fmt: skip
+def test_a_count_of_internal_units_is_shown_with_its_length(
+    open_window: Callable[..., MainWindow], tmp_path: Path, family: str, axes: str, changes, address, texts
+) -> None:
+    file = new_file(family, None, axes.split(",") if axes else [])
+    for changed, number in changes.items():
+        file.set(changed, None if number is None else Value(number))
+    window = open_window()
+    window.show_workspace(Workspace(Document.create(file, tmp_path / "counts.amp")))
+    window.edits.commit(address, texts[0])
+    window.detail.show_address(address)
+    assert texts[1] in " ".join(window.detail.pages["Help"].toPlainText().split())

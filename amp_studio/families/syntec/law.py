@@ -28,10 +28,9 @@ from .formulas import (
     pulse_length,
     pulses_per_turn,
 )
+from .formulas.resolution import STANDARD_BLU
 from .law_advice import advise
 
-STANDARD_BLU = 0.001
-"""mm or deg (1.2.6)."""
 SHORTEST, LONGEST = 1e-4, 0.1
 """s: interpolation times that are simulated."""
 BANDWIDTH, INTEGRAL, TORQUE_LIMIT = 50.0, 60.0, 200.0

@@ -12,7 +12,9 @@ from collections.abc import Callable, Sequence
 import pytest
 
 from amp_studio.families.syntec import formulas as syntec
-from amp_studio.schema import load_schema
+from amp_studio.families.syntec.formulas.resolution import STANDARD_BLU
+from amp_studio.schema import Value, load_schema
+from amp_studio.schema.scales import unit_size
 from amp_studio.validate import calculate
 
 # -------------------------------------------------------------------------------------- resolution
@@ -77,6 +79,14 @@ def test_a_pulse_of_the_setting_example_is_a_micrometre_without_its_gear() -> No
 def test_lengths_are_counts_of_a_thousandth(length: float, expected: float) -> None:
     assert syntec.blu_count(length) == expected
     assert math.isclose(syntec.blu_length(expected), length)
+
+
+def test_the_blu_of_the_formulas_is_that_of_the_facts() -> None:
+    scale = load_schema("syntec").family.scales["BLU"]
+    for entry, unit in ((scale.length, "mm"), (scale.angle, "deg")):
+        size = unit_size(entry, Value("standard"))
+        assert size is not None
+        assert (float(size[0]), size[1]) == (STANDARD_BLU, unit)
 
 
 def test_the_linear_and_the_angular_blu_have_the_same_figure_and_the_inch_another() -> None:

@@ -1,15 +1,26 @@
 """The internal measurement unit, in which the CNC stores its dimensions: page 4-18.
 
 Word P4N2 sets it for linear axes and word P4N4 for rotary axes. A change of either gives another meaning to every
-dimension among the machine parameters.
+dimension among the machine parameters. The sizes are facts: ``scales`` of ``parameter_db/num/family.yaml``.
 """
 
 from __future__ import annotations
 
-_LINEAR = {1.0: (0.1, 1e7), 2.0: (0.01, 1e6), 3.0: (0.001, 1e5), 4.0: (0.0001, 1e4), 5.0: (0.00001, 1e3)}
-"""P4N2 -> the unit and the largest travel, both in mm (page 4-18)."""
-_ROTARY = {0.0: 0.0001, 1.0: 0.1, 2.0: 0.01, 3.0: 0.001, 4.0: 0.0001}
-"""P4N4 -> the unit in degrees (page 4-18)."""
+from functools import lru_cache
+
+from amp_studio.schema import Value, load_schema
+from amp_studio.schema.scales import unit_size
+
+_LARGEST_COUNT = 1e8
+"""Internal units in the longest travel: 10 km at 0.1 mm, 1 m at 0.00001 mm (page 4-18)."""
+
+
+@lru_cache(maxsize=100)
+def _size(number: float, *, turns: bool) -> float | None:
+    """Return the size of an internal unit, in mm or degrees, with a number in P4N2 or P4N4; None for no such number."""
+    scale = load_schema("num").family.scales["iu"]
+    found = unit_size((scale.angle or scale.length) if turns else scale.length, Value(number))
+    return float(found[0]) if found else None
 
 
 def internal_unit_mm(decimals: float) -> float:
@@ -17,20 +28,22 @@ def internal_unit_mm(decimals: float) -> float:
 
     1 gives 0.1 mm, 3 gives 0.001 mm, 5 gives 0.00001 mm. The control takes any other number for 3.
     """
-    return _LINEAR.get(decimals, _LINEAR[3.0])[0]
+    size = _size(decimals, turns=False)
+    assert size is not None
+    return size
 
 
 def largest_travel_mm(decimals: float) -> float:
     """Longest travel of a machine in mm by the number of decimals in P4N2 (page 4-18): 100 m with micrometres."""
-    return _LINEAR.get(decimals, _LINEAR[3.0])[1]
+    return round(_LARGEST_COUNT * internal_unit_mm(decimals), 6)
 
 
 def rotary_unit_deg(divider: float) -> float:
     """Internal unit of rotary axes in degrees by P4N4 (page 4-18): 0 and 4 give 0.0001 degrees, 1 gives 0.1."""
-    try:
-        return _ROTARY[divider]
-    except KeyError:
-        raise ValueError(f"P4N4 is 0 to 4, not {divider:g}.") from None
+    size = _size(divider, turns=True)
+    if size is None:
+        raise ValueError(f"P4N4 is 0 to 4, not {divider:g}.")
+    return size
 
 
 def to_internal(length: float, unit: float) -> float:
