@@ -204,6 +204,26 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
     sub.add_argument("--changed-only", action="store_true")
     secrets_option(sub)
+    sub = verb(
+        "sheet",
+        "sheet",
+        "the values to key in at a control by hand: in its own numbers, in a safe order, to tick and to read back",
+        writes="output",
+    )
+    sub.add_argument("path", type=_path)
+    sub.add_argument("--against", required=True, type=_file_or_address, metavar="OTHER",
+                     help="what the control contains: a file, a kept copy, or the control's address")  # fmt: skip
+    sub.add_argument(
+        "-o", "--output", type=_path, help="the sheet as .pdf, .html, .csv or .txt (default: as text here)"
+    )
+    sub.add_argument(
+        "--tick", action="append", metavar="PARAM", help="remember that this value is keyed in; beside the file"
+    )
+    sub.add_argument("--untick", action="append", metavar="PARAM", help="forget that again")
+    sub.add_argument("--check", type=_path, metavar="LIST",
+                     help="lines of number and what the screen shows, or the sheet's .csv filled in: compare exactly")  # fmt: skip
+    json_option(sub)
+    secrets_option(sub)
     sub = verb("import", "formats", "a new parameter file from a control's own text format", writes="output")
     sub.add_argument("text", type=_path, metavar="FILE")
     sub.add_argument("-o", "--output", type=_path, required=True)

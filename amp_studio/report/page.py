@@ -10,6 +10,11 @@ from .wording import counted
 
 def render_html(report: Report) -> bytes:
     """Return the page in UTF-8; every text is escaped by the template engine."""
+    return filled_page("report.html.j2", report=report, marks=MARKS, counted=counted)
+
+
+def filled_page(name: str, **values: object) -> bytes:
+    """Return a template of a page with its values in UTF-8, escaped."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
@@ -21,8 +26,7 @@ def render_html(report: Report) -> bytes:
         lstrip_blocks=True,
     )
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
-    template = environment.get_template("report.html.j2")
-    return template.render(report=report, marks=MARKS, counted=counted).encode("utf-8")
+    return environment.get_template(name).render(values).encode("utf-8")
 
 
 def _cleaned(value: object) -> object:

@@ -49,6 +49,11 @@ def _breakable(text: str) -> str:
 
 def typst_source(report: Report) -> str:
     """Return the report as Typst."""
+    return filled_template("report.typ.j2", report=report, marks=MARKS, counted=counted)
+
+
+def filled_template(name: str, **values: object) -> str:
+    """Return a template of Typst source with its values, each as a literal."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
@@ -63,14 +68,18 @@ def typst_source(report: Report) -> str:
     environment.filters["brief"] = lambda text: text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
     environment.filters["tied"] = lambda text: text.replace(" ", "\u00a0").replace(",\u00a0", ", ")
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
-    return environment.get_template("report.typ.j2").render(report=report, marks=MARKS, counted=counted)
+    return environment.get_template(name).render(values)
 
 
 def render_pdf(report: Report) -> bytes:
     """Return the PDF; equal reports have equal bytes."""
+    return typeset(typst_source(report))
+
+
+def typeset(source: str) -> bytes:
+    """Return the PDF of Typst source."""
     import typst
 
-    source = typst_source(report)
     own_fonts = _FOREIGN.search(source) is None
     # The root is given because Typst takes the working folder otherwise, which may be gone;
     # the library's stubs require the type of the source, the library itself does not.

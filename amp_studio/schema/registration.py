@@ -29,6 +29,7 @@ class Registration:
     ``contents``  first line of what a control contains -> the ``ContentKind`` class that reads it
     ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
     ``law``       the servo law (``Law``) of its axes, for the simulator
+    ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
 
@@ -39,6 +40,7 @@ class Registration:
     contents: Mapping[str, str] = field(default_factory=dict)
     emulators: Mapping[str, str] = field(default_factory=dict)
     law: str = ""
+    sheet: str = ""
     facts: Path | None = None
 
 

@@ -8,5 +8,6 @@ REGISTRATION = Registration(
     family="9pc",
     formulas="amp_studio.families.ninepc.formulas:FORMULAS",
     formats=("amp_studio.families.ninepc.formats.patch_sheet:FORMAT",),
+    sheet="amp_studio.families.ninepc.sheet:KEYING",
     law="amp_studio.families.ninepc.law:LAW",
 )

@@ -12,5 +12,6 @@ REGISTRATION = Registration(
         "house": "amp_studio.transfer.emulated.family_control:emulate_house",
         "peripheral": "amp_studio.families.num.emulated.control:emulate_peripheral",
     },
+    sheet="amp_studio.families.num.sheet:KEYING",
     law="amp_studio.families.num.law:LAW",
 )

@@ -7,5 +7,6 @@ from amp_studio.schema.registration import Registration
 REGISTRATION = Registration(
     family="syntec",
     formulas="amp_studio.families.syntec.formulas:FORMULAS",
+    sheet="amp_studio.families.syntec.sheet:KEYING",
     law="amp_studio.families.syntec.law:LAW",
 )

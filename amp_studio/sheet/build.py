@@ -1,0 +1,202 @@
+"""Makes the sheet of a file against what a control contains."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import dataclass, field
+
+from amp_studio.files import Difference, ParameterFile, compare
+from amp_studio.schema import Address, show_value
+from amp_studio.validate import NO_RULES, BuilderRules
+from amp_studio.validate.finding import Finding
+from amp_studio.validate.interim import Interim, NewValue
+
+from .keying import NOT_OFFERED, Keyed, Keying, keying_of
+from .model import Entry, LeftOut, Sheet
+from .order import bad, safe_order
+
+
+class SheetError(ValueError):
+    """Two files of which no sheet can be made; one clear sentence."""
+
+
+@dataclass
+class _Line:
+    """One value on its way to an entry."""
+
+    step: NewValue
+    old: Keyed | None
+    new: Keyed
+    stage: int
+    order: str = ""
+    until: list[str] = field(default_factory=list)
+
+
+def make_sheet(
+    wanted: ParameterFile, present: ParameterFile, *, of: str = "", against: str = "",
+    own: BuilderRules = NO_RULES, secrets: bool = False,
+) -> Sheet:  # fmt: skip
+    """Return what has to be keyed in at a control that contains ``present`` so that it contains ``wanted``.
+
+    Values that ``wanted`` does not set stay as they are. ``of`` and ``against`` name the two sides; ``own`` are a builder's
+    rules. Secrets are on the sheet only with ``secrets``. Raises SheetError where the two are of different families or machine types.
+    """
+    _check_sides(wanted, present)
+    keying = keying_of(wanted.schema.family.family)
+    found = compare(wanted.schema, wanted.values, present.values)
+    lines, left_out, same = [], [], found.same
+    for difference in found.differences:
+        made = _line(keying, wanted, present, difference, secrets)
+        if isinstance(made, _Line):
+            lines.append(made)
+        elif made is not None:
+            left_out.append(made)
+        else:
+            same += 1
+    lines = _in_order(lines, wanted, present, own)
+    warnings = _warnings(lines, present, own)
+    entries = tuple(_entry(line, wanted, secrets) for line in lines)
+    name = wanted.header.name or present.header.name
+    return Sheet(keying.title, wanted.schema.family.name, name, against, of, entries, tuple(left_out), keying.stages,
+                 keying.before, keying.after, warnings, same)  # fmt: skip
+
+
+def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
+    if wanted.schema is not present.schema:
+        names = [side.schema.family.name for side in (wanted, present)]
+        raise SheetError(
+            f"one side is for {names[0]}, the other for {names[1]}: no sheet can be made of them"
+        )
+    if wanted.machine != present.machine:
+        raise SheetError(
+            f"the file is for the machine type {wanted.machine}, and the control contains one for {present.machine}: "
+            "numbers may mean something else there, so it has to be downloaded as a whole"
+        )
+
+
+def _line(
+    keying: Keying, wanted: ParameterFile, present: ParameterFile, difference: Difference, secrets: bool
+) -> _Line | LeftOut | None:
+    """Return the line of a difference, or why there is none; None where the control shows the same for both."""
+    address, value = difference.address, difference.a
+    parameter = wanted.schema.parameters.get(address[0])
+    if parameter is None:
+        return None
+    number, name = _number_and_name(wanted, address)
+    if value is None:
+        return LeftOut(number, name, "the file does not set it: the control keeps its own value")
+    state = wanted.evaluation.state(address)
+    if state.state == "hidden":
+        return LeftOut(number, name, "it does not exist on this machine as the file configures it")
+    if parameter.access == "read":
+        return LeftOut(number, name, "the control writes it itself")
+    if obstacle := keying.obstacle(wanted, address):
+        return LeftOut(number, name, obstacle)
+    if parameter.secret and not secrets:
+        return LeftOut(number, name, "it is a secret, which is on the sheet only where somebody asks for it")
+    new = keying.text(wanted, address, value)
+    if new is None:
+        return LeftOut(number, name, f"no code is printed for {show_value(parameter, value)}: {NOT_OFFERED}")
+    old = None if difference.b is None else keying.text(present, address, difference.b)
+    if old == new:  # a finer difference than the control shows
+        return None
+    stage = keying.stage(present, wanted, address)
+    return _Line(NewValue(address, value), old, new, stage)
+
+
+def _in_order(
+    lines: Sequence[_Line], wanted: ParameterFile, present: ParameterFile, own: BuilderRules
+) -> list[_Line]:
+    """Return the lines in a safe order, each with why it comes so late and what it breaks for how long."""
+    lines = sorted(lines, key=lambda line: line.stage)
+    if not lines:
+        return lines
+    line_of = {line.step: line for line in lines}
+    interim = Interim(present, own)
+    allowed = _broken_after(lines, present, own)
+    order = [line_of[step] for step in safe_order(interim, [line.step for line in lines], allowed)]
+    _explain(order, lines, wanted, present, own, allowed)
+    return order
+
+
+def _broken_after(
+    lines: Iterable[_Line], present: ParameterFile, own: BuilderRules
+) -> dict[Hashable, Finding]:
+    """Return what is broken when everything has been keyed in."""
+    final = present.copy()
+    final.take({line.step.address: line.step.value for line in lines if line.step.value is not None})
+    return Interim(final, own).broken
+
+
+def _explain(
+    order: Sequence[_Line], wished: Sequence[_Line], wanted: ParameterFile, present: ParameterFile, own: BuilderRules,
+    allowed: dict[Hashable, Finding],
+) -> None:  # fmt: skip
+    """Walk the order once more: this is the proof, and it shows why a line waits and what is broken on the way."""
+    interim = Interim(present, own)
+    wish = {line.step: n for n, line in enumerate(wished)}
+    read_by = {line.step: interim.checks_of(line.step.address) for line in order}
+    open_from: dict[Hashable, tuple[_Line, Finding]] = {}
+    for n, line in enumerate(order):
+        for late in order[n + 1 :]:
+            if wish[late.step] < wish[line.step] and not read_by[late.step].isdisjoint(read_by[line.step]):
+                _ask_why(late, line, interim, wanted, allowed)
+        new = bad(interim.set(line.step), allowed, ("error", "warning"))
+        broken = interim.broken
+        for key in [key for key in open_from if key not in broken]:
+            first, finding = open_from.pop(key)
+            first.until.append(f"Until step {n + 1}: {_short(finding)}")
+        open_from |= {finding.key: (line, finding) for finding in new}
+    for first, finding in open_from.values():
+        first.until.append(f"From here on: {_short(finding)}")
+
+
+def _ask_why(
+    late: _Line, first: _Line, interim: Interim, wanted: ParameterFile, allowed: dict[Hashable, Finding]
+) -> None:
+    """Note why a line comes after another, which is about to be keyed in: what it would break before."""
+    old = NewValue(late.step.address, interim.file.get(late.step.address))
+    stopped = bad(interim.set(late.step), allowed, ("error", "warning"))
+    interim.set(old)
+    if stopped:
+        after = _number_and_name(wanted, first.step.address)[0]
+        late.order = f"After {after}, or else: {_short(stopped[0])}"
+
+
+def _short(finding: Finding) -> str:
+    return finding.message + (f" ({finding.cited})" if finding.cited else "")
+
+
+def _warnings(lines: Sequence[_Line], present: ParameterFile, own: BuilderRules) -> tuple[str, ...]:
+    """Return the errors that the control has when all is keyed in; those of the file itself are among them."""
+    after = _broken_after(lines, present, own)
+    before = Interim(present, own).broken
+    errors = [(key, finding) for key, finding in after.items() if finding.severity == "error"]
+    return tuple(
+        f"Error {'as before' if key in before else 'when all is keyed in'}: {_short(finding)}"
+        for key, finding in errors
+    )
+
+
+def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> Entry:
+    address, value = line.step.address, line.step.value
+    assert value is not None
+    parameter = wanted.schema.parameters[address[0]]
+    number, name = _number_and_name(wanted, address)
+    meaning = show_value(parameter, value, secrets=secrets)
+    if meaning == f"{line.new.text} {line.new.unit}".rstrip():
+        meaning = ""
+    elif line.new.is_rounded:
+        meaning += ", rounded"
+    page = parameter.pages.get(address[1]) or parameter.page
+    return Entry(
+        address, number, name, line.old, line.new, meaning, page, line.stage, line.order, tuple(line.until)
+    )
+
+
+def _number_and_name(file: ParameterFile, address: Address) -> tuple[str, str]:
+    schema, parameter = file.machine_schema, file.schema.parameters[address[0]]
+    number = schema.number(address)
+    label = schema.instance_label(address)
+    shown = number if number and not schema.is_disputed(address[0]) else schema.short(address)
+    return shown, f"{parameter.name} {label}".rstrip()

@@ -1,0 +1,122 @@
+"""An order in which values can be set one after the other so that no state in between breaks more rules than before.
+
+Values that no check reads together do not matter to each other, so each group that hangs together is searched alone:
+first for an order without a new error or warning, then for one without a new error, at last the least bad step after
+the other. The validator judges each state; what is broken in the end anyway is no reason against a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Hashable, Sequence
+
+from amp_studio.validate.finding import Finding
+from amp_studio.validate.interim import Interim, NewValue
+
+_TRIES_A_VALUE = 40
+_TRIES = 4_000
+"""States that a search may look at: about half a second for a group."""
+
+
+def safe_order(start: Interim, steps: Sequence[NewValue], allowed: Collection[Hashable]) -> list[NewValue]:
+    """Return the steps in a safe order, as near as may be to the one in which they are given.
+
+    ``start`` is as it was afterwards. ``allowed`` are the keys of what is broken when all are made.
+    """
+    place = {step: n for n, step in enumerate(steps)}
+    queues = [_ordered(start, group, allowed) for group in _groups(start, steps)]
+    found: list[NewValue] = []
+    while queues:
+        first = min(queues, key=lambda queue: place[queue[0]])
+        found.append(first.pop(0))
+        queues = [queue for queue in queues if queue]
+    return found
+
+
+def bad(
+    found: dict[Hashable, Finding], allowed: Collection[Hashable], severities: Collection[str]
+) -> list[Finding]:
+    """Return those of the new findings that count against a step."""
+    return [f for key, f in found.items() if key not in allowed and f.severity in severities]
+
+
+def _groups(start: Interim, steps: Sequence[NewValue]) -> list[list[NewValue]]:
+    """Return the steps in groups that no check connects, each in the order given."""
+    first_of: dict[Hashable, int] = {}
+    leader = list(range(len(steps)))
+
+    def led(n: int) -> int:
+        while leader[n] != n:
+            leader[n] = n = leader[leader[n]]
+        return n
+
+    for n, step in enumerate(steps):
+        for check in start.checks_of(step.address):
+            leader[led(n)] = led(first_of.setdefault(check, n))
+    groups: dict[int, list[NewValue]] = {}
+    for n, step in enumerate(steps):
+        groups.setdefault(led(n), []).append(step)
+    return list(groups.values())
+
+
+def _ordered(start: Interim, steps: list[NewValue], allowed: Collection[Hashable]) -> list[NewValue]:
+    if len(steps) == 1:
+        return steps
+    for severities in (("error", "warning"), ("error",)):
+        if (found := _without_new(start, steps, allowed, severities)) is not None:
+            return found
+    return _least_bad(start, steps, allowed)
+
+
+def _without_new(
+    start: Interim, steps: list[NewValue], allowed: Collection[Hashable], severities: Collection[str]
+) -> list[NewValue] | None:
+    """Search, depth first, an order in which no step brings anything new; None where there is none or it takes too long."""
+    before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
+    everything = (1 << len(steps)) - 1
+    done, path, nexts, hopeless = 0, list[int](), [0], set[int]()
+    tries = _TRIES + _TRIES_A_VALUE * len(steps)
+    while done != everything and nexts and tries:
+        at = nexts[-1]
+        if at == len(steps):  # nothing goes on from here
+            hopeless.add(done)
+            nexts.pop()
+            if path:
+                last = path.pop()
+                start.set(before[steps[last]])
+                done &= ~(1 << last)
+            continue
+        nexts[-1] = at + 1
+        if done >> at & 1 or done | 1 << at in hopeless:
+            continue
+        tries -= 1
+        if bad(start.set(steps[at]), allowed, severities):
+            start.set(before[steps[at]])
+            continue
+        done |= 1 << at
+        path.append(at)
+        nexts.append(0)
+    for at in reversed(path):
+        start.set(before[steps[at]])
+    return [steps[at] for at in path] if done == everything else None
+
+
+def _least_bad(start: Interim, steps: list[NewValue], allowed: Collection[Hashable]) -> list[NewValue]:
+    """Return an order in which each step brings as few new errors, then warnings, as any at that moment."""
+    before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
+    left, path = list(steps), list[NewValue]()
+    while left:
+        best, least = left[0], (len(steps) ** 3, 0)
+        for step in left:
+            new = start.set(step)
+            cost = len(bad(new, allowed, ("error",))), len(bad(new, allowed, ("warning",)))
+            start.set(before[step])
+            if cost < least:
+                best, least = step, cost
+            if cost == (0, 0):
+                break
+        start.set(best)
+        left.remove(best)
+        path.append(best)
+    for step in reversed(path):
+        start.set(before[step])
+    return path

@@ -1,0 +1,132 @@
+"""What the control's screen shows after the values have been keyed in, typed in by a person and compared exactly."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, UnknownParameterError
+from amp_studio.schema.quoting import quoted
+
+from .model import Entry, Sheet
+
+State = Literal["same", "old", "other", "not read"]
+"""``old``: the screen still shows what the control contained before."""
+
+STATES: dict[State, str] = {
+    "same": "as keyed in",
+    "old": "still the old value",
+    "other": "another value",
+    "not read": "not read back",
+}
+
+_NUMBER_HEAD, _SHOWN_HEAD = "number", "read back"
+_MOST = 1 << 20  # characters
+_LINE = re.compile(r"([^\s=;]+)(?:\s*[=;]\s*|\s+)(.*)")
+
+
+class ReadBackError(ValueError):
+    """A text that is no list of numbers and values; ``line`` counts from 1."""
+
+    def __init__(self, what: str, line: int) -> None:
+        super().__init__(f"line {line}: {what}")
+        self.line = line
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What somebody has read on the screen for a number, and the line he wrote it on."""
+
+    number: str
+    text: str
+    line: int
+
+
+@dataclass(frozen=True)
+class ReadBack:
+    """One entry and what the screen shows for it: ``shown`` is None where nobody has read it."""
+
+    entry: Entry
+    shown: str | None
+    state: State
+
+
+def read_shown(text: str) -> list[Shown]:
+    """Return what somebody has read on the screen, of lines ``1750 203.20000``; raises ReadBackError.
+
+    Number and value are parted by blanks, a tab, ``=`` or ``;``; what begins with ``#`` is for the reader. The sheet's own
+    CSV is taken too, with its column ``read back`` filled in.
+    """
+    if len(text) > _MOST:
+        raise ReadBackError(f"the text has more than {_MOST} characters", 1)
+    lines = text.removeprefix("\ufeff").splitlines()
+    first = next((line for line in lines if line.strip() and not line.startswith("#")), "")
+    if (
+        _SHOWN_HEAD in (cells := next(csv.reader([first], delimiter=_delimiter(first)), []))
+        and _NUMBER_HEAD in cells
+    ):
+        return _of_table(lines, _delimiter(first))
+    found: list[Shown] = []
+    for n, line in enumerate(lines, 1):
+        if line.strip() and not line.lstrip().startswith("#"):
+            parts = _LINE.fullmatch(line.strip())
+            if parts is None or not parts[2].strip():
+                raise ReadBackError(
+                    f"{quoted(line.strip())} is not a number and the value that the screen shows", n
+                )
+            found.append(Shown(parts[1], parts[2].strip(), n))
+    return found
+
+
+def _delimiter(line: str) -> str:
+    return ";" if line.count(";") > line.count(",") else ","
+
+
+def _of_table(lines: list[str], delimiter: str) -> list[Shown]:
+    found: list[Shown] = []
+    reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=delimiter)
+    head: list[str] | None = None
+    for row in reader:
+        if head is None:
+            head = row
+            continue
+        cells = dict(zip(head, row, strict=False))
+        if shown := cells.get(_SHOWN_HEAD, "").strip().removeprefix("'"):
+            number = cells.get(_NUMBER_HEAD, "").strip().removeprefix("'")
+            found.append(Shown(number, shown, reader.line_num))
+    return found
+
+
+def compare_shown(sheet: Sheet, file: ParameterFile, shown: Iterable[Shown]) -> list[ReadBack]:
+    """Compare every entry of a file's sheet with what the screen shows.
+
+    Raises ReadBackError for a number that is not on the sheet, or that is there twice.
+    """
+    entries = {entry.address: entry for entry in sheet.entries}
+    given: dict[Address, str] = {}
+    for each in shown:
+        try:
+            address = file.find(each.number)
+        except UnknownParameterError as error:
+            raise ReadBackError(str(error), each.line) from None
+        if address not in entries:
+            raise ReadBackError(f"{quoted(each.number)} is not on this sheet", each.line)
+        if address in given:
+            raise ReadBackError(f"{quoted(each.number)} occurs twice", each.line)
+        given[address] = each.text
+    return [judged(entry, given.get(address)) for address, entry in entries.items()]
+
+
+def judged(entry: Entry, shown: str | None) -> ReadBack:
+    """Compare one entry with what the screen shows; blank is not read."""
+    if shown is None or not shown.strip():
+        return ReadBack(entry, None, "not read")
+    if entry.keyed.shows(shown):
+        return ReadBack(entry, shown, "same")
+    is_old = entry.was is not None and entry.was.shows(shown)
+    return ReadBack(entry, shown, "old" if is_old else "other")

@@ -1,0 +1,100 @@
+"""How far somebody has come with a sheet: kept beside the file, so that the work can be interrupted and taken up again.
+
+A tick belongs to a number with the old and the new text. Where one of them has changed since, the value has to be keyed in
+again and the tick is gone.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+
+from amp_studio.files import write_atomic
+from amp_studio.schema.regular_file import read_file
+
+from .model import Entry, Sheet
+
+ENDING = ".ticks.json"
+_LARGEST = 1 << 22  # bytes
+_KEYS = ("number", "old", "new", "shown")
+
+
+class TicksError(ValueError):
+    """A file of ticks that cannot be read; one clear sentence."""
+
+
+def ticks_path(path: Path) -> Path:
+    """Return where the ticks of a file's sheet are kept."""
+    return path.with_name(path.name + ENDING)
+
+
+class Ticks:
+    """The ticks of one sheet, and what was read back; every change is on the disk at once.
+
+    Raises TicksError where the file that is there is no file of ticks, and OSError.
+    """
+
+    def __init__(self, path: Path, sheet: Sheet) -> None:
+        self.path = path
+        self._entries = {entry.number: entry for entry in sheet.entries}
+        self.shown: dict[str, str] = {}
+        """Number -> what the screen shows."""
+        self._ticked: set[str] = set()
+        self.forgotten = 0
+        """Ticks of values that have changed since."""
+        for number, old, new, shown, ticked in _read(path):
+            entry = self._entries.get(number)
+            if entry is None or (entry.old, entry.new) != (old, new):
+                self.forgotten += ticked
+                continue
+            if ticked:
+                self._ticked.add(number)
+            if shown:
+                self.shown[number] = shown
+
+    def __contains__(self, entry: object) -> bool:
+        return isinstance(entry, Entry) and entry.number in self._ticked
+
+    @property
+    def done(self) -> int:
+        """How many entries are ticked."""
+        return len(self._ticked)
+
+    def tick(self, entries: Iterable[Entry], on: bool = True) -> None:
+        """Tick entries, or take their ticks away."""
+        numbers = {entry.number for entry in entries}
+        self._ticked = self._ticked | numbers if on else self._ticked - numbers
+        self._save()
+
+    def read_back(self, entry: Entry, shown: str) -> None:
+        """Remember what the screen shows for an entry; "" for nothing."""
+        self.shown.pop(entry.number, None)
+        if shown.strip():
+            self.shown[entry.number] = shown.strip()
+        self._save()
+
+    def _save(self) -> None:
+        kept = [
+            {"number": e.number, "old": e.old, "new": e.new, "shown": self.shown.get(e.number, ""),
+             "ticked": e.number in self._ticked}
+            for e in self._entries.values() if e.number in self._ticked or e.number in self.shown
+        ]  # fmt: skip
+        write_atomic(self.path, (json.dumps({"ticks": kept}, indent=1) + "\n").encode(), keep_backup=False)
+
+
+def _read(path: Path) -> list[tuple[str, str, str, str, bool]]:
+    try:
+        content = read_file(path, _LARGEST)
+    except FileNotFoundError:
+        return []
+    try:
+        kept = json.loads(content)["ticks"]
+        found = [(*(each[key] for key in _KEYS), each["ticked"]) for each in kept]
+        if not all(
+            isinstance(ticked, bool) and all(type(text) is str for text in texts) for *texts, ticked in found
+        ):
+            raise TypeError
+    except (ValueError, LookupError, TypeError, RecursionError):
+        raise TicksError(f"{path} is no list of ticks of a sheet: move it away to begin anew") from None
+    return found
