@@ -35,6 +35,11 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio report {MILL} -o mill.pdf",
         f"amp-studio report {MILL} -o changed.csv --changed-only --sort axis",
     ),
+    "sheet": (
+        f"amp-studio sheet {MILL} --against other.amp -o sheet.pdf",
+        f"amp-studio sheet {MILL} --against other.amp --tick 1300",
+        f"amp-studio sheet {MILL} --against other.amp --check screen.txt",
+    ),
     "export": (f"amp-studio export {MILL} -o mill.csv",),
     "import": ("amp-studio import values.csv -o imported.amp --family 9pc",),
     "emulate": ("amp-studio emulate 9pc --listen tcp://127.0.0.1:8193 --state control",),

@@ -217,7 +217,10 @@ def parser() -> argparse.ArgumentParser:
         "-o", "--output", type=_path, help="the sheet as .pdf, .html, .csv or .txt (default: as text here)"
     )
     sub.add_argument(
-        "--tick", action="append", metavar="PARAM", help="remember that this value is keyed in; beside the file"
+        "--tick",
+        action="append",
+        metavar="PARAM",
+        help="remember that this value is keyed in; beside the file",
     )
     sub.add_argument("--untick", action="append", metavar="PARAM", help="forget that again")
     sub.add_argument("--check", type=_path, metavar="LIST",

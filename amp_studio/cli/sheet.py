@@ -59,14 +59,15 @@ def sheet_verb(options: argparse.Namespace) -> int:
 
 
 def _present(text: str) -> tuple[ParameterFile, str]:
-    """Return what a control contains and where that is known from: a file, a kept copy, or the control itself."""
+    """Return what a control contains and its source: a file, a kept copy, or the control itself."""
     from amp_studio.transfer.links.endpoint import is_endpoint
 
     if is_endpoint(text):
-        from amp_studio.transfer.client.parameters import fetch_control, sha256
+        from amp_studio.transfer.client.parameters import fetch_image, sha256
+        from amp_studio.transfer.content import decode_content
 
-        content, file = fetch_control(text, progress())
-        return file, f"{text}, sha256 {sha256(content)}"
+        content = fetch_image(text, progress())
+        return decode_content(content), f"{text}, sha256 {sha256(content)}"
     from amp_studio.transfer.client.kept import open_copy
 
     path = Path(text)
@@ -117,7 +118,11 @@ def _check(options: argparse.Namespace, file: ParameterFile, sheet: Sheet, ticks
 
 def _told(each: ReadBack) -> str:
     entry = each.entry
-    shown = "" if each.shown is None else f": the screen shows {each.shown}, it should be {entry.new} {entry.unit}".rstrip()
+    shown = (
+        ""
+        if each.shown is None
+        else f": the screen shows {each.shown}, it should be {entry.new} {entry.unit}".rstrip()
+    )
     return f"{entry.number} {entry.name}: {STATES[each.state]}{shown}"
 
 

@@ -160,7 +160,18 @@ def render_sheet_csv(printed: PrintedSheet) -> bytes:
     for _, steps in printed.parts():
         for step in steps:
             e = step.entry
-            row = (str(step.at), e.number, e.name, e.old, e.new, e.unit, e.meaning, e.page, step.shown, " ".join(step.notes))
+            row = (
+                str(step.at),
+                e.number,
+                e.name,
+                e.old,
+                e.new,
+                e.unit,
+                e.meaning,
+                e.page,
+                step.shown,
+                " ".join(step.notes),
+            )
             table.writerow(map(text_cell, row))
     return stream.getvalue().encode("utf-8-sig")
 

@@ -172,9 +172,12 @@ def _warnings(lines: Sequence[_Line], present: ParameterFile, own: BuilderRules)
     after = _broken_after(lines, present, own)
     before = Interim(present, own).broken
     errors = [(key, finding) for key, finding in after.items() if finding.severity == "error"]
-    return tuple(
-        f"Error {'as before' if key in before else 'when all is keyed in'}: {_short(finding)}"
-        for key, finding in errors
+    return (
+        *(fault.message for fault in own.faults),
+        *(
+            f"Error {'as before' if key in before else 'when all is keyed in'}: {_short(finding)}"
+            for key, finding in errors
+        ),
     )
 
 

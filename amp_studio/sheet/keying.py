@@ -55,7 +55,7 @@ class Instruction:
 
 @dataclass(frozen=True)
 class Stage:
-    """Values that are keyed in together, why they come here, and the page that says so."""
+    """Values that are keyed in together, why they come here, and the page for it."""
 
     title: str
     why: str = ""

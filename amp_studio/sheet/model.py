@@ -13,8 +13,8 @@ from .keying import Instruction, Keyed, Stage
 class Entry:
     """One value to key in.
 
-    ``was``, ``keyed``  what the control's screen shows now (None where that is not known) and is to show
-    ``meaning``  the value as the file gives it, where that is something else than what is keyed in
+    ``was``, ``keyed``  what the control's screen shows now (None if it is not known) and is to show
+    ``meaning``  the value as the file gives it, if it is something else than what is keyed in
     ``order``    why it comes after another entry than its stage would have it, with the page; "" where nothing needs that
     ``until``    what is broken from here on, and until which entry
     """
@@ -32,7 +32,7 @@ class Entry:
 
     @property
     def old(self) -> str:
-        """What the screen shows now; "" where that is not known."""
+        """What the screen shows now; "" if it is not known."""
         return "" if self.was is None else self.was.text
 
     @property

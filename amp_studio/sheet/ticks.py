@@ -45,7 +45,9 @@ class Ticks:
         """Ticks of values that have changed since."""
         for number, old, new, shown, ticked in _read(path):
             entry = self._entries.get(number)
-            if entry is None or (entry.old, entry.new) != (old, new):
+            if entry is None:  # the control contains it now
+                continue
+            if (entry.old, entry.new) != (old, new):
                 self.forgotten += ticked
                 continue
             if ticked:

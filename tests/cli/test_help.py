@@ -28,8 +28,9 @@ AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore"
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder with a copy of the example machine, another one that differs, and a table of values."""
+    """Return a folder with a copy of the example machine, another one that differs, a table of values, and a screen's."""
     monkeypatch.chdir(tmp_path)
+    Path("screen.txt").write_text("1300 0.00000\n")
     shutil.copy(EXAMPLE, MILL)
     shutil.copy(EXAMPLE, "other.amp")
     assert cli.run(["set", "other.amp", "1300=2"]) == 0

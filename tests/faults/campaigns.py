@@ -23,7 +23,7 @@ from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
-from . import persons, stored, texts, wire
+from . import persons, sheets, stored, texts, wire
 from .command_lines import fuzz_command_lines
 from .lines import download_over_bad_lines
 from .verbs import VERBS, fail_calls
@@ -144,6 +144,8 @@ CAMPAIGNS = (
         "damaged memory of an emulated control", partial(_damaged_in, stored.fuzz_memories), MANY, 100, 5_000
     ),
     Campaign("damaged copies of a control", partial(_damaged_in, stored.fuzz_copies), MANY, 50, 5_000),
+    Campaign("damaged lists of a control's screen", partial(_damaged, sheets.fuzz_screens), MANY, 100, 5_000),
+    Campaign("damaged ticks of a sheet", partial(_damaged_in, sheets.fuzz_ticks), MANY, 100, 5_000),
     Campaign("damaged backups", partial(_damaged_in, stored.fuzz_backups), MANY, 50, 5_000),
     Campaign("damaged cache", partial(_damaged_in, stored.fuzz_caches), MANY, 200, 5_000),
     Campaign("damaged lock notes", partial(_damaged_in, stored.fuzz_locks), MANY, 300, 5_000),

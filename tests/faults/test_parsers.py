@@ -42,6 +42,9 @@ READERS = {
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",
     "schema/regular_file.py": "",  # the gate itself: gives bytes
+    "cli/sheet.py": "damaged lists of a control's screen",
+    "sheet/read_back.py": "damaged lists of a control's screen",
+    "sheet/ticks.py": "damaged ticks of a sheet",
     "sim/compiled.py": "",  # one switch of numba, compared with "0"
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",

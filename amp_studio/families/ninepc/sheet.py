@@ -1,6 +1,6 @@
 """How values are keyed into a 9/PC: the Patch AMP utility (chapter 37).
 
-The manual prints no order for the values. It says that Patch AMP checks neither ranges nor what belongs together (37-1),
+The manual prints no order for the values. By it Patch AMP checks neither ranges nor what belongs together (37-1),
 that Excess Error protects the machine (7-20), and which limits must lie below which (7-20); the stages follow from that, and
 the rules of the family decide what they do not.
 """
@@ -63,7 +63,7 @@ _FAST = frozenset((
 
 def _obstacle(file: ParameterFile, address: Address) -> str:
     if address[0] == "patch.internal":
-        return "the manual says that it is not to be adjusted (page 37-3)"
+        return "by the manual it is not to be adjusted (page 37-3)"
     if not file.schema.parameters[address[0]].patchable:
         return "Patch AMP does not offer it: it has to be downloaded (page 37-2)"
     return ""
@@ -90,7 +90,7 @@ def _stage(before: ParameterFile, after: ParameterFile, address: Address) -> int
 
 
 def _size(file: ParameterFile, address: Address) -> float | None:
-    """Return how far a limit lets the machine go, or how fast a value makes it; None where that is not known."""
+    """Return how far a limit lets the machine go, or how fast a value makes it; None if it is not known."""
     parameter, value = file.schema.parameters[address[0]], file.get(address)
     if value is None:
         return None
@@ -125,7 +125,7 @@ KEYING = Keying(
             "For each line: {SEARCH NUMBER}, number, [ENTER]; {REPLACE VALUE}, value, [ENTER]; tick it.", "37-2, 37-3"
         ),
         Instruction(
-            "All values are in millimetres or degrees, whatever the file shows; units of time as the line says.", "37-3"
+            "All values are in millimetres or degrees, whatever the file shows; units of time as in the line.", "37-3"
         ),
     ),
     after=(
