@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from datetime import datetime
+from datetime import UTC, datetime
 
 import pytest
 from rule_machines import sound
@@ -19,7 +19,7 @@ from amp_studio.report.sheet import (
 from amp_studio.sheet import make_sheet
 
 NASTY = "</td><script>alert(1)</script> #panic() \x1b[31m =1+1 \u202e"
-WHEN = datetime(2026, 11, 22, 14, 0)
+WHEN = datetime(2026, 11, 22, 14, 0, tzinfo=UTC)
 
 
 @pytest.fixture(scope="module")
