@@ -1,4 +1,4 @@
-"""Verbs that check and print parameter files."""
+"""The verb that checks parameter files."""
 
 from __future__ import annotations
 
@@ -13,22 +13,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import ENDING, ParameterFileError, open_file, real_path
-from amp_studio.report import (
-    alike,
-    counted,
-    finding_json,
-    same_finding_text,
-    suppressed_text,
-    why_parts,
-    why_text,
-    write_report,
-)
+from amp_studio.files import ENDING, ParameterFile, ParameterFileError, open_file
+from amp_studio.report import alike, counted, finding_json, same_finding_text, suppressed_text
 from amp_studio.schema.regular_file import read_file
-from amp_studio.validate import RULES_FILE, Finding, Validator, explain, read_builder_rules, rules_beside
+from amp_studio.validate import BuilderRules, Finding, Validator, rules_beside
 
 from .console import note, print_json, progress
-from .output import check_replaced
 from .trouble import keep_details
 
 MANY = 50
@@ -167,9 +157,7 @@ def _check(options: argparse.Namespace, path: Path) -> CheckResult:
 
 def _checked(options: argparse.Namespace, path: Path) -> CheckResult:
     file = open_file(path).file
-    rules = options.rules
-    own = read_builder_rules(rules, file.schema) if rules else rules_beside(path, file.schema)
-    validator = Validator(file, own)
+    validator = Validator(file, _own_rules(options, path, file))
     findings = validator.run()
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
     if not options.json:
@@ -182,12 +170,30 @@ def _checked(options: argparse.Namespace, path: Path) -> CheckResult:
                        for s in validator.suppressed]})  # fmt: skip
 
 
+def _own_rules(options: argparse.Namespace, path: Path, file: ParameterFile) -> BuilderRules:
+    if not options.rules:
+        return rules_beside(path, file.schema)
+    from amp_studio.validate import read_builder_rules
+
+    return read_builder_rules(options.rules, file.schema)
+
+
 def _json(validator: Validator, finding: Finding, why: bool) -> dict[str, Any]:
     found = finding_json(validator.file, finding)
     if why:
+        from amp_studio.report import why_parts
+        from amp_studio.validate import explain
+
         parts = why_parts(validator.file, finding, explain(validator, finding))
         found["why"] = [{"title": title, "text": text} for title, text, _ in parts]
     return found
+
+
+def _reasons(validator: Validator, same: Sequence[Finding]) -> Iterator[str]:
+    from amp_studio.report import why_text
+    from amp_studio.validate import explain
+
+    return (why_text(validator.file, finding, explain(validator, finding)) for finding in same)
 
 
 def _lines(
@@ -196,27 +202,8 @@ def _lines(
     for same in alike(findings):
         yield same_finding_text(validator.file, same)
         if why:
-            yield from (why_text(validator.file, finding, explain(validator, finding)) for finding in same)
+            yield from _reasons(validator, same)
     for left in validator.suppressed:
         yield suppressed_text(validator.file, left)
     summary = ", ".join(counted(count, severity) for severity, count in counts.items())
     yield f"{path}: {summary}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else "")
-
-
-def report_verb(options: argparse.Namespace) -> int:
-    """Write the documentation of a file."""
-    check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
-    file = open_file(options.path).file
-    own = rules_beside(options.path, file.schema)
-    write_report(
-        file,
-        options.output,
-        sort=options.sort,
-        changed_only=options.changed_only,
-        source=options.path,
-        own=own,
-        secrets=options.secrets,
-        notify=note,
-    )
-    print(options.output)
-    return 0

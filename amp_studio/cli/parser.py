@@ -198,7 +198,7 @@ def parser() -> argparse.ArgumentParser:
         sub.add_argument(name, type=_path)
     sub.add_argument("-o", "--output", type=_path, required=True)
     secrets_option(sub)
-    sub = verb("report", "checks", "documentation as .pdf, .html, .csv or .txt", writes="output")
+    sub = verb("report", "documentation", "documentation as .pdf, .html, .csv or .txt", writes="output")
     sub.add_argument("path", type=_path)
     sub.add_argument("-o", "--output", type=_path, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")

@@ -3,24 +3,14 @@
 Saves are atomic and leave a backup, unsaved work survives a killed program,
 two programs on one file notice each other, and a file that is not fully
 understood is refused or kept whole.
+
+What this page loads when it is first asked for is needed to change files, not to check them.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from .atomic import ChangedOnDiskError, Notify, SaveError, check_output, digest_of, write_atomic
-from .axes import (
-    AxisError,
-    axis_instances,
-    axis_title,
-    axis_type,
-    copy_axis,
-    delete_axis,
-    fitted_axes,
-    name_axes,
-    retype_axis,
-)
-from .creation import new_file
-from .diff import Comparison, Conflict, Difference, compare, merge
-from .document import Document, HistoryEntry, Unsaved, recover_backup
-from .lock import InUseError
 from .parameter_file import (
     Change,
     Header,
@@ -31,9 +21,61 @@ from .parameter_file import (
     secret_values,
     without_secrets,
 )
-from .paths import backup_path, is_there, real_path, same_file, text_of_name
-from .project import ENDING, InvalidNameError, Project, ProjectInfo
+from .paths import ENDING, backup_path, is_there, real_path, same_file, text_of_name
 from .storage import FORMAT, Opened, ParameterFileError, content_of, open_file, read_content, save_file
+
+if TYPE_CHECKING:
+    from .axes import (
+        AxisError,
+        axis_instances,
+        axis_title,
+        axis_type,
+        copy_axis,
+        delete_axis,
+        fitted_axes,
+        name_axes,
+        retype_axis,
+    )
+    from .creation import new_file
+    from .diff import Comparison, Conflict, Difference, compare, merge
+    from .document import Document, HistoryEntry, Unsaved, recover_backup
+    from .lock import InUseError
+    from .project import InvalidNameError, Project, ProjectInfo
+
+_PLACES = {
+    "AxisError": "axes",
+    "Comparison": "diff",
+    "Conflict": "diff",
+    "Difference": "diff",
+    "Document": "document",
+    "HistoryEntry": "document",
+    "InUseError": "lock",
+    "InvalidNameError": "project",
+    "Project": "project",
+    "ProjectInfo": "project",
+    "Unsaved": "document",
+    "axis_instances": "axes",
+    "axis_title": "axes",
+    "axis_type": "axes",
+    "compare": "diff",
+    "copy_axis": "axes",
+    "delete_axis": "axes",
+    "fitted_axes": "axes",
+    "merge": "diff",
+    "name_axes": "axes",
+    "new_file": "creation",
+    "recover_backup": "document",
+    "retype_axis": "axes",
+}
+"""Name -> its module."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    found = globals()[name] = getattr(import_module(f".{_PLACES[name]}", __name__), name)
+    return found
+
 
 __all__ = [
     "ENDING",

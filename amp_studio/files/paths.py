@@ -11,6 +11,8 @@ from pathlib import Path
 
 from amp_studio.schema.regular_file import demand_file
 
+ENDING = ".amp"
+"""Of parameter files."""
 _LONGEST_NAME = 255
 """Bytes of a file name, on nearly every file system."""
 _BACKUP, _HISTORY = "{}.bak", "{}.history"

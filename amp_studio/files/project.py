@@ -19,14 +19,13 @@ from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, 
 from .atomic import SaveError, digest_of, write_atomic
 from .document import recover_backup
 from .lock import EditLock
-from .paths import backup_path, hidden_path, history_path, is_link, is_there
+from .paths import ENDING, backup_path, hidden_path, history_path, is_link, is_there
 from .storage import ParameterFileError, file_content, read_content
 from .yaml_text import amended, new_text, without_stray_tabs
 
 PROJECT_FORMAT = 1
 _VERSION = "amp_studio_project"
 _MOST_BYTES = 2**20
-ENDING = ".amp"
 
 
 class InvalidNameError(ValueError):

@@ -41,7 +41,6 @@ from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, 
 
 from .atomic import Notify, SaveError, digest, write_atomic
 from .parameter_file import Header, ParameterFile
-from .yaml_text import amended, new_text, without_stray_tabs
 
 FORMAT = 1
 """Version of the file format; a file of a newer one is refused."""
@@ -252,6 +251,8 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     wanted |= {"forced": {written(a): why for a, why in file.forced.items()}}
     text = None if previous is None else _amended(file, previous, wanted)
     if text is None:
+        from .yaml_text import new_text  # what only opens files does not write any
+
         wanted |= {"amp_studio": FORMAT}  # a number: everything else that is one is a text
         text = new_text({key: value for key, value in wanted.items() if value or key not in _SECTIONS}, "...")
     return text.encode("utf-8")
@@ -279,6 +280,8 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
                 wanted[key] = known[key]  # an empty entry stays as it is written
         elif not wanted.get(key):
             wanted.pop(key, None)
+    from .yaml_text import amended
+
     found = amended(document, known, wanted, _SECTIONS)
     return found if found is None or not text.startswith("\ufeff") else "\ufeff" + found
 
@@ -325,6 +328,8 @@ def readable_content(file: ParameterFile, path: Path, previous: bytes | None = N
         content = content_of(file, previous)
         found = _fault_of(file, path, content)
         if found and previous is not None:
+            from .yaml_text import without_stray_tabs
+
             content = without_stray_tabs(content)
             found = _fault_of(file, path, content)
     except UnicodeEncodeError as error:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .build import build_report
-    from .describe import definition, finding_json, finding_text, suppressed_text
+    from .describe import definition
+    from .finding_lines import finding_json, finding_text, suppressed_text
     from .findings import alike, same_finding_text
     from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
     from .model import SORTS, Report, Sort
@@ -31,15 +32,15 @@ _PLACES = {
     "counted": "wording",
     "definition": "describe",
     "facts": "manual_page",
-    "finding_json": "describe",
-    "finding_text": "describe",
+    "finding_json": "finding_lines",
+    "finding_text": "finding_lines",
     "formula_lines": "manual_page",
     "help_parts": "manual_page",
     "one_line": "manual_page",
     "page_of": "manual_page",
     "range_text": "manual_page",
     "same_finding_text": "findings",
-    "suppressed_text": "describe",
+    "suppressed_text": "finding_lines",
     "table_lines": "printed_table",
     "tables_of": "printed_table",
     "why_parts": "why",

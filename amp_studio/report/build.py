@@ -20,9 +20,10 @@ from amp_studio.files import (
 from amp_studio.schema import Address, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
+from .axes import axis_name, printed_axes, scope_of
 from .findings import joined_places, notes_of, suppressed_notes
 from .model import SORTS, Report, ReportRow, Sort
-from .rows import Rows, axis_name, printed_axes, row_of, rows_of, scope_of
+from .rows import Rows, row_of, rows_of
 from .sections import number_span, sections_of
 from .wording import counted
 

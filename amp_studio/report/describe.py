@@ -1,26 +1,18 @@
-"""Parameters as JSON; findings as JSON and as text."""
+"""One parameter definition as JSON."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
-from amp_studio.files import ParameterFile
 from amp_studio.schema import (
-    MASKED,
-    Address,
     Parameter,
     Schema,
-    Value,
     label_of,
-    write_value,
 )
 from amp_studio.schema.model import BoundRef, Choice, StateRule
-from amp_studio.validate import Finding, Setting, Suppressed
 
 from .manual_page import entry_units, erratum_text
 from .number_text import sharing_numbers
-from .wording import severity_name
 
 
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
@@ -126,56 +118,3 @@ def _available(schema: Schema, states: tuple[StateRule, ...]) -> str:
 def _help(parameter: Parameter) -> str:
     texts = parameter.help
     return "\n\n".join(part for part in (texts.what, texts.find, texts.wrong) if part)
-
-
-def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
-    """Return a finding in the form of ``validate --json``."""
-    here = file.machine_schema
-    return {
-        "rule": finding.rule, "severity": finding.severity,
-        "params": [here.short(a) for a in finding.addresses],
-        "compared": [here.short(a) for a in finding.compared],
-        "message": finding.message,
-        "fix": [_setting_json(file, setting) for setting in finding.fix],
-        "effective": [_setting_json(file, setting) for setting in finding.effective],
-        "source": finding.page,
-    }  # fmt: skip
-
-
-def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
-    parameter = file.schema.parameters[setting.address[0]]
-    param = file.machine_schema.short(setting.address)
-    if parameter.secret:
-        return {"param": param, "value": None, "secret": True}
-    return {"param": param, "value": write_value(parameter, setting.value)}
-
-
-def finding_text(file: ParameterFile, finding: Finding) -> str:
-    """Return a finding as one or two lines for the terminal."""
-    names = ", ".join(_named(file, a) for a in finding.addresses[:8])
-    page = f" ({finding.cited})" if finding.page else ""
-    severity = severity_name(finding.severity)
-    lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
-    for what, settings in (("effective value", finding.effective), ("suggested fix", finding.fix)):
-        if settings:
-            values = ", ".join(
-                f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"
-                for s in settings
-            )
-            lines.append(f"         {what}: {values}")
-    return "\n".join(lines)
-
-
-def suppressed_text(file: ParameterFile, left: Suppressed) -> str:
-    """Return a suppressed finding as two lines for the terminal."""
-    text = finding_text(file, replace(left.finding, fix=(), effective=()))
-    return f"suppressed {text}\n         by {left.suppression.by}: {left.suppression.reason}"
-
-
-def _written(parameter: Parameter, value: Value) -> str:
-    return MASKED if parameter.secret else write_value(parameter, value)
-
-
-def _named(file: ParameterFile, address: Address) -> str:
-    """Return what a person can look up: number and name, with the address where the number is not its own."""
-    return file.machine_schema.named(address)

@@ -10,9 +10,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import Finding, Setting, Suppressed
 
-from .describe import finding_text
-from .model import Note
-from .rows import axis_label, axis_name, scope_of
+from .axes import axis_label, axis_name, scope_of
+from .finding_lines import finding_text
+from .note import Note
 from .wording import severity_name
 
 _NAMED = 6

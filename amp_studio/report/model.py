@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
 
-from amp_studio.schema.model import ParameterState, Severity
+from amp_studio.schema.model import ParameterState
+
+from .note import Note, NoteKind
 
 Sort = Literal["axis", "number", "group"]
 """The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files)."""
@@ -165,31 +167,6 @@ class Section:
     key: str
     title: str
     parts: tuple[Listing | Grid, ...]
-
-
-NoteKind = Severity | Literal["suppressed"]
-
-
-@dataclass(frozen=True, slots=True)
-class Note:
-    """One finding, or several equal ones about different axes."""
-
-    severity: NoteKind
-    count: int
-    place: str
-    """``Axis 1 X, 2 Y``; empty for a finding about many values."""
-    about: tuple[tuple[str, str], ...]
-    """(anchor, label) of its values; the anchor is empty for a value that the report does not print."""
-    message: str
-    fix: str
-    page: str
-    is_own: bool = False
-    """Whether it belongs to a builder's rule; ``page`` is then the place in the rules file."""
-
-    @property
-    def cited(self) -> str:
-        """The source in words: ``page 7-20``."""
-        return self.page if self.is_own else f"page {self.page}"
 
 
 @dataclass(frozen=True, slots=True)

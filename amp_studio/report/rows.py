@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.files import ParameterFile
 from amp_studio.files.local_time import with_local_times
 from amp_studio.schema import (
     MASKED,
@@ -15,11 +15,11 @@ from amp_studio.schema import (
     Value,
     convert,
     field_value,
-    label_of,
     shown,
     write_value,
 )
 
+from .axes import axis_label, printed_axes, scope_of
 from .model import ReportRow
 
 
@@ -61,33 +61,6 @@ def _state_mark(state: StateInfo, marks: dict[tuple[str, str], str]) -> str:
     return marks.setdefault(
         (state.state, state.why), f"{letter}{sum(m[0] == letter for m in marks.values()) + 1}"
     )
-
-
-def printed_axes(file: ParameterFile) -> tuple[str, ...]:
-    """Return the axes a report prints: the fitted ones, or all if the family has no unfitted axes."""
-    family = file.schema.family
-    if family.axes is not None:
-        return fitted_axes(file)
-    scope = family.scopes.get("axis")
-    return scope.instances if scope else ()
-
-
-def scope_of(file: ParameterFile, address: Address) -> str:
-    """Return the scope of a value on the machine type of the file."""
-    layout = file.machine_schema.layout(file.schema.parameters[address[0]])
-    return layout.scope if layout else "global"
-
-
-def axis_name(file: ParameterFile, axis: str) -> str:
-    """Return the letter or name of an axis; empty if it has none."""
-    profile = file.schema.family.axes
-    value = file.get((profile.name, axis)) if profile else None
-    return label_of(file.schema.parameters[profile.name], str(value.value)) if profile and value else ""
-
-
-def axis_label(file: ParameterFile, axis: str) -> str:
-    """Return ``Axis 1 X``."""
-    return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {axis_name(file, axis)}".rstrip()
 
 
 def row_of(

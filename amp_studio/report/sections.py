@@ -9,8 +9,8 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile
 
+from .axes import axis_label, axis_name, printed_axes, scope_of
 from .model import Grid, GridLine, Listing, ReportRow, Section, Sort
-from .rows import axis_label, axis_name, printed_axes, scope_of
 
 _WIDEST_GRID = 8
 """Most axes in one grid; further axes get another grid below."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from .model import MARKS, Listing, Note, Report, ReportRow, printable
+from .model import MARKS, Listing, Report, ReportRow, printable
+from .note import Note
 from .wording import counted
 
 WIDTH = 100

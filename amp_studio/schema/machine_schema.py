@@ -169,7 +169,9 @@ class MachineSchema:
 
 def _layout(parameter: Parameter, machine: str) -> Layout | None:
     if parameter.layouts is None:
-        return Layout(scope=parameter.scope, numbers=parameter.numbers, instances=parameter.instances)
+        return Layout.model_construct(  # its parts have been checked
+            scope=parameter.scope, numbers=parameter.numbers, instances=parameter.instances
+        )
     for layout in parameter.layouts:
         if layout.machines is None or machine in layout.machines:
             return layout

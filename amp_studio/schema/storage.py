@@ -20,7 +20,7 @@ from .values import choice_key, choice_value, label_of, write_number
 
 WORD = 16
 """Bits of a register."""
-_PLAIN = Storage()
+_PLAIN = Storage.model_construct()  # of defaults alone: nothing to check, at every start
 
 
 class StorageError(InvalidValueError):

@@ -1,21 +1,48 @@
-"""Findings: range, choice, state and cross-parameter rules, each with its page and its suggested fix."""
+"""Findings: range, choice, state and cross-parameter rules, each with its page and its suggested fix.
 
-from .builder_rules import (
-    NO_RULES,
-    RULES_FILE,
-    BuilderRules,
-    Suppressed,
-    read_builder_rules,
-    rules_beside,
-    suppress,
-)
-from .calculators import Argument, Calculator, calculate, calculators, shown_result
-from .explanation import Explanation, Seen, explain
+What calculates, explains, makes fixes and reads a builder's rules is loaded when it is first asked for: most files are only checked.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from .beside import rules_beside
+from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
 from .expressions import RuleError
 from .finding import SEVERITIES, Finding, Setting
-from .fixes import Fixed, apply_all_safe, apply_fixes
 from .formulas import formulas
 from .validator import Validator
+
+if TYPE_CHECKING:
+    from .calculator import Argument, Calculator, calculate, calculators, shown_result
+    from .explanation import Explanation, Seen, explain
+    from .fixes import Fixed, apply_all_safe, apply_fixes
+    from .rule_file import read_builder_rules, suppress
+
+_PLACES = {
+    "Argument": "calculator",
+    "Calculator": "calculator",
+    "Explanation": "explanation",
+    "Fixed": "fixes",
+    "Seen": "explanation",
+    "apply_all_safe": "fixes",
+    "apply_fixes": "fixes",
+    "calculate": "calculator",
+    "calculators": "calculator",
+    "explain": "explanation",
+    "read_builder_rules": "rule_file",
+    "shown_result": "calculator",
+    "suppress": "rule_file",
+}
+"""Name -> its module."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    found = globals()[name] = getattr(import_module(f".{_PLACES[name]}", __name__), name)
+    return found
+
 
 __all__ = [
     "NO_RULES",

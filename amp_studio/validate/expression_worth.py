@@ -9,10 +9,9 @@ from typing import Any, Literal
 
 from amp_studio.schema import Parameter
 
+from .builder_rules import LONGEST_TEXT
 from .formulas import NUMBER_ANNOTATIONS
 
-LONGEST_TEXT = 4000
-"""Characters of a text that a builder's rule sees; it does not run where there is a longer one."""
 _TEXT_SIZE, _LIST_SIZE = 6, 4
 """What a copy of an empty one costs; that of a number costs 1, some 50 ns."""
 LARGEST = 10**15

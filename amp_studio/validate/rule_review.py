@@ -19,7 +19,6 @@ from .expression_worth import (
     ANY,
     DECIMAL,
     LANGUAGE,
-    LONGEST_TEXT,
     WHOLE,
     YES_NO,
     Signature,
@@ -271,7 +270,7 @@ def _value(parameter: Parameter) -> Worth:
         return choice_worth(parameter)
     if parameter.type == "boolean":
         return YES_NO
-    return text_worth(LONGEST_TEXT) if parameter.type in ("text", "format") else DECIMAL
+    return text_worth() if parameter.type in ("text", "format") else DECIMAL
 
 
 @cache

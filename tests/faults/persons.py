@@ -21,7 +21,7 @@ from amp_studio.transfer.emulated.record import Identity
 from amp_studio.transfer.image import decode_image, encode_image, patch_image
 from amp_studio.transfer.links.endpoint import is_endpoint, parse_endpoint
 from amp_studio.validate import Validator, read_builder_rules
-from amp_studio.validate.calculators import calculate, calculators
+from amp_studio.validate.calculator import calculate, calculators
 from amp_studio.validate.expression_tree import ExpressionError, read_expression
 
 from .texts import NUMBERS, TOKENS, mutants, violations

@@ -27,7 +27,7 @@ from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.record import Identity, StateError, to_json, written
 from amp_studio.transfer.house.message import Commit, Committed, OpenDownload
 from amp_studio.transfer.image import encode_image
-from amp_studio.validate.builder_rules import suppress
+from amp_studio.validate.rule_file import suppress
 
 from .texts import REPOSITORY, RULES, SMALL, mutants, violations
 

@@ -69,8 +69,8 @@ READERS = {
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
     "ui/restore.py": "damaged control image",
     "ui/settings.py": "damaged settings",
-    "validate/builder_rules.py": "damaged suppressions",
-    "validate/calculators.py": "odd arguments of formulas",
+    "validate/rule_file.py": "damaged suppressions",
+    "validate/calculator.py": "odd arguments of formulas",
     "validate/rule_review.py": "damaged expressions in rules",
 }
 """Module -> the campaign that damages what it reads; "" where it makes nothing of it."""

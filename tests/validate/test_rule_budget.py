@@ -10,8 +10,8 @@ import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.validate import Finding, Validator, builder_rules, explain, read_builder_rules, trial
-from amp_studio.validate.builder_rules import MOST_FAULTS
+from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rule_file, trial
+from amp_studio.validate.rule_file import MOST_FAULTS
 
 
 @pytest.fixture
@@ -141,7 +141,7 @@ def test_of_slips_without_end_the_first_are_told(mill, path: Path) -> None:
 
 
 def test_rules_without_end_are_told(mill, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(builder_rules, "MOST_RULES", 5)
+    monkeypatch.setattr(rule_file, "MOST_RULES", 5)
     found = findings(path, "".join(rule(n, "rapid > 0.0") for n in range(9)), mill)
     assert [f.message for f in found] == [
         "rules.yaml, line 43: works.rule5: there are 9 rules, and 5 are the most; the rest is not used."

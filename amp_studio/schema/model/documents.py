@@ -1,6 +1,6 @@
 """What else a manual prints: tables, guides, and where it contradicts itself."""
 
-from __future__ import annotations
+from typing import Self
 
 from pydantic import model_validator
 
@@ -23,7 +23,7 @@ class Table(Model):
     note: str = ""
 
     @model_validator(mode="after")
-    def _square(self) -> Table:
+    def _square(self) -> Self:
         if self.units and len(self.units) != len(self.head):
             raise ValueError(f"{len(self.head)} columns and {len(self.units)} units")
         for n, row in enumerate(self.rows, 1):

@@ -1,10 +1,8 @@
 """What a family is: identity, scopes, units, conditions and the order of its groups."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import AfterValidator, model_validator
 
@@ -58,7 +56,7 @@ class AxisProfile(Model):
     loop: ParameterId | None = None
 
     @model_validator(mode="after")
-    def _one_way(self) -> AxisProfile:
+    def _one_way(self) -> Self:
         if (self.unfitted is None) == (self.fitted_by is None):
             raise ValueError(
                 "an axis is left out either by its type ('unfitted') or by a number ('fitted_by')"
@@ -102,7 +100,7 @@ class UnitSize(Model):
     """The size with any other value; without it there is none."""
 
     @model_validator(mode="after")
-    def _are_sizes(self) -> UnitSize:
+    def _are_sizes(self) -> Self:
         for text in (*self.sizes.values(), *filter(None, [self.otherwise])):
             number, _, unit = text.partition(" ")
             if not re.fullmatch(r"\d+(\.\d+)?", number) or not float(number) or unit not in UNITS:

@@ -1,7 +1,5 @@
 """What a group is: a file of parameters, and the states that they share."""
 
-from __future__ import annotations
-
 from pydantic import ValidationInfo, field_validator
 
 from .parameter import Parameter, StateRule

@@ -1,8 +1,6 @@
 """What a parameter is: numbers, values, ranges, states, storage."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
@@ -144,7 +142,7 @@ class Numbers(Model):
     """The manual prints this number for another parameter too, and that other one is right."""
 
     @model_validator(mode="after")
-    def _one_way(self) -> Numbers:
+    def _one_way(self) -> Self:
         ways = [self.start, self.listed, self.starts]
         if ways.count(None) == len(ways) and "{n}" in self.format:
             raise ValueError("numbers need 'start', 'listed', 'starts' or a format without {n}")
@@ -177,7 +175,7 @@ class StateRule(Model):
     page: Page | None = None
 
     @model_validator(mode="after")
-    def _one_condition(self) -> StateRule:
+    def _one_condition(self) -> Self:
         if (self.when is None) == (self.unless is None):
             raise ValueError("a state takes either 'when' or 'unless'")
         return self
@@ -275,7 +273,7 @@ class Parameter(Model):
         return (self.scope,) if self.layouts is None else tuple(layout.scope for layout in self.layouts)
 
     @model_validator(mode="after")
-    def _whole(self) -> Parameter:
+    def _whole(self) -> Self:
         if self.secret and self.type not in ("integer", "real", "text"):
             raise ValueError("a secret is a number or a text")  # what shows choices and bits masks nothing
         if self.type == "choice" and not self.choices:

@@ -1,7 +1,5 @@
 """What all models have in common: a frozen record without unknown keys, and the names of things."""
 
-from __future__ import annotations
-
 import re
 from typing import Annotated, Literal
 

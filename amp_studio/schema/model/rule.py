@@ -1,7 +1,5 @@
 """What a rule is: a constraint between parameters, its fix, and a builder's own rules and suppressions."""
 
-from __future__ import annotations
-
 import re
 from typing import Annotated, Literal
 

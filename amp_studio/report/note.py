@@ -1,0 +1,32 @@
+"""A finding as it is printed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from amp_studio.schema.model import Severity
+
+NoteKind = Severity | Literal["suppressed"]
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """One finding, or several equal ones about different axes."""
+
+    severity: NoteKind
+    count: int
+    place: str
+    """``Axis 1 X, 2 Y``; empty for a finding about many values."""
+    about: tuple[tuple[str, str], ...]
+    """(anchor, label) of its values; the anchor is empty for a value that the report does not print."""
+    message: str
+    fix: str
+    page: str
+    is_own: bool = False
+    """Whether it belongs to a builder's rule; ``page`` is then the place in the rules file."""
+
+    @property
+    def cited(self) -> str:
+        """The source in words: ``page 7-20``."""
+        return self.page if self.is_own else f"page {self.page}"

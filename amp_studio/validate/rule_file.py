@@ -1,0 +1,278 @@
+"""A machine builder's own rules: ``rules.yaml`` beside his files.
+
+It contains ``rules`` in the form of the database's own, and ``suppressions``: findings that somebody has checked and
+leaves as they are, with his name and the reason. What cannot be used in it is a finding itself, with file and line,
+and keeps nothing else from being checked.
+"""
+
+from __future__ import annotations
+
+import codecs
+from collections.abc import Iterable, Iterator
+from functools import cache, lru_cache, partial
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from amp_studio.files import write_atomic
+from amp_studio.files.atomic import Notify, SaveError, digest_of
+from amp_studio.files.yaml_text import with_item
+from amp_studio.schema import (
+    BuilderRule,
+    DatabaseError,
+    Entry,
+    Evaluation,
+    Schema,
+    Suppression,
+    family_ids,
+    load_schema,
+    read_address,
+    read_entries,
+)
+from amp_studio.schema.model_errors import Slip
+from amp_studio.schema.nearest import did_you_mean
+from amp_studio.schema.yaml_reader import KeyPath, YamlError, read_yaml
+
+from .builder_rules import BuilderRules
+from .expression_tree import shown
+from .expressions import RuleError
+from .finding import OWN_FAULT, Finding
+from .plan import checks_of
+from .rule_entry import entry_model
+from .rule_review import MOST_STEPS, review
+
+_SUPPRESSIONS = "suppressions"
+GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown")
+"""Findings of every family that are of no separate rule."""
+MOST_RULES = 2000
+MOST_SUPPRESSIONS = 10_000
+MOST_FAULTS = 200
+"""Of a file: the rest is reported in one finding."""
+MOST_STEPS_OF_A_FILE = 4 * MOST_STEPS
+"""Of all its rules together."""
+
+
+def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
+    """Return what a file means for files of a family; faults of the file are findings."""
+    try:
+        return _read(path, digest_of(path), schema)
+    except OSError as error:
+        message = DatabaseError(path, None, f"cannot be read: {error.strerror}")
+        return BuilderRules(faults=(_finding(path, message),))
+
+
+@lru_cache(maxsize=32)  # it lies beside many files
+def _read(path: Path, _digest: str | None, schema: Schema) -> BuilderRules:
+    return _RuleFileReader(path, schema).read()
+
+
+class _RuleFileReader:
+    """What is found in one file of rules for one family."""
+
+    def __init__(self, path: Path, schema: Schema) -> None:
+        self._path, self._schema = path, schema
+        self._rules: dict[str, BuilderRule] = {}
+        self._places: dict[str, str] = {}
+        self._costs: dict[str, int] = {}
+        self._lines: dict[str, int | None] = {}
+        """Id of every rule of the file, usable or not, of this family or another -> its line."""
+        self._families = family_ids()
+        self._cost = 0
+        self._faults: list[DatabaseError] = []
+
+    def read(self) -> BuilderRules:
+        entries, self._faults = read_entries(self._path, ("rules", _SUPPRESSIONS))
+        for kind, most in (("rules", MOST_RULES), ("suppressions", MOST_SUPPRESSIONS)):
+            of_kind = [entry for entry in entries if entry.kind == kind]
+            for entry in of_kind[most : most + 1]:
+                self._fault(
+                    entry,
+                    (),
+                    f"there are {len(of_kind):,} {kind}, and {most:,} are the most; the rest is not used",
+                )
+            for entry in of_kind[:most]:
+                if kind == "rules":
+                    self._rule(entry)
+        suppressions = [e for e in entries if e.kind == "suppressions"][:MOST_SUPPRESSIONS]
+        used = tuple(found for entry in suppressions if (found := self._suppression(entry)) is not None)
+        return BuilderRules(
+            tuple(self._rules.values()), used, tuple(self._findings()), self._places, self._costs
+        )
+
+    def _fault(self, entry: Entry, place: KeyPath, what: str) -> None:
+        steps = " ".join(str(step + 1) if isinstance(step, int) else shown(step)[1:-1] for step in place)
+        words = [word for word in (_named(entry.data), steps) if word]
+        self._faults.append(DatabaseError(self._path, entry.line(place), ": ".join([*words, what])))
+
+    def _findings(self) -> Iterator[Finding]:
+        shown_faults = sorted(self._faults, key=lambda fault: fault.line or 0)[:MOST_FAULTS]
+        for fault in shown_faults:
+            yield _finding(self._path, fault)
+        if more := len(self._faults) - len(shown_faults):
+            yield Finding(OWN_FAULT, "error", (), f"{self._path.name}: {more:,} more entries cannot be used.")
+
+    # -- rules -----------------------------------------------------------------
+
+    def _rule(self, entry: Entry) -> None:
+        rule, slips = entry_model(entry.data, BuilderRule)
+        family = rule.family if rule else ""
+        if family and family not in self._families:
+            slips.append((("family",), f"{shown(family)} is no family{did_you_mean(family, self._families)}"))
+        if rule and entry.data.get("id") == rule.id:
+            slips += self._same_id(entry, rule)
+        if rule and family in ("", self._schema.family.family):
+            found = review(rule, self._schema, any_family=not family)
+            slips += _further(found.slips, slips)
+            if not slips and found.is_ours:
+                slips += self._try(rule, found.cost)
+            if not slips and found.is_ours:
+                self._rules[rule.id], self._costs[rule.id] = rule, found.once
+                self._places[rule.id] = f"{self._path.name}, line {entry.line(())}"
+        for place, what in slips:
+            self._fault(entry, place, what)
+
+    def _same_id(self, entry: Entry, rule: BuilderRule) -> list[Slip]:
+        line = self._lines.setdefault(rule.id, entry.line(()))
+        if rule.id in _ids(self._schema):
+            return [(("id",), f"a rule of {self._schema.family.family} has this id already")]
+        if line != entry.line(()):
+            return [(("id",), f"the rule in line {line} has this id already")]
+        return []
+
+    def _try(self, rule: BuilderRule, cost: int) -> list[Slip]:
+        """See whether a rule can be used on every machine type, and is not one too many."""
+        if self._cost + cost > MOST_STEPS_OF_A_FILE:
+            return [
+                ((), "with those before it the rules can take too many steps: let them go over fewer lists")
+            ]
+        try:
+            for machine in self._schema.family.machines:
+                checks_of(Evaluation(self._schema, lambda _: None, partial(str, machine.key)), (rule,))
+        except RuleError as fault:
+            return [(("reads",), fault.what)]
+        self._cost += cost
+        return []
+
+    # -- suppressions ----------------------------------------------------------
+
+    def _suppression(self, entry: Entry) -> Suppression | None:
+        """Return a suppression that is about this family."""
+        found, slips = entry_model(entry.data, Suppression)
+        if found and not slips:
+            others = {*self._families} - {self._schema.family.family}
+            if found.rule in self._rules or found.rule in _ids(self._schema):
+                slips += self._unknown_params(found)
+            elif found.rule in GENERAL_RULES:
+                if found.params and all(_is_elsewhere(text, self._schema) for text in found.params):
+                    return None
+                slips += self._unknown_params(found)
+            elif found.rule in self._lines or found.rule.partition(".")[0] in others:
+                return None
+            else:
+                near = did_you_mean(found.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
+                slips.append((("rule",), f"{shown(found.rule)} is no rule{near}"))
+        for place, what in slips:
+            self._fault(entry, place, what)
+        return None if slips else found
+
+    def _unknown_params(self, suppression: Suppression) -> Iterator[Slip]:
+        for n, text in enumerate(suppression.params):
+            if not _is_known(text, self._schema) and not _is_elsewhere(text, self._schema):
+                near = did_you_mean(text.partition("@")[0], self._schema.parameters)
+                yield ("params", n), f"{shown(text)} is no parameter of {self._schema.family.family}{near}"
+
+
+def _further(found: list[Slip], before: list[Slip]) -> list[Slip]:
+    """Return what is wrong besides what is known to be: a key that cannot be used is not checked again."""
+    wrong = {place[0] for place, _ in before if place}
+    return [(place, what) for place, what in found if (place[:1] or ("",))[0] not in wrong]
+
+
+def _named(data: object) -> str:
+    """Return the id of a rule, as messages show it."""
+    name = data.get("id") if isinstance(data, dict) else None
+    return shown(name)[1:-1] if isinstance(name, str) and name else ""
+
+
+@cache
+def _ids(schema: Schema) -> frozenset[str]:
+    return frozenset(rule.id for rule in schema.rules)
+
+
+@lru_cache(maxsize=4096)
+def _is_known(text: str, schema: Schema) -> bool:
+    """Return whether a family has what a suppression names, on whatever machine type."""
+    parameter_id, which = read_address(text.strip().casefold())
+    parameter = schema.parameters.get(parameter_id)
+    for on in (schema.on(machine.key) for machine in schema.family.machines):
+        if parameter is None:
+            word = text.strip().rpartition(".")[0]  # of one of its bits
+            known = bool(on.addressed_by(text) or on.words(text) or (word and on.addressed_by(word)))
+        else:
+            is_axis = which.isalpha() and on.kin(
+                on.scopes[parameter.id], "axis"
+            )  # by a letter that the file gives it
+            known = not which or is_axis or which in map(str.casefold, on.instances(parameter))
+        if known:
+            return True
+    return False
+
+
+@lru_cache(maxsize=4096)
+def _is_elsewhere(text: str, schema: Schema) -> bool:
+    """Return whether another family has what a suppression names, and this one has not."""
+    return not _is_known(text, schema) and any(
+        _is_known(text, load_schema(family)) for family in family_ids() if family != schema.family.family
+    )
+
+
+def _finding(path: Path, fault: DatabaseError) -> Finding:
+    text = _fault_text(path, fault)
+    return Finding(OWN_FAULT, "error", (), text if text.endswith("?") else f"{text}.")
+
+
+def _fault_text(path: Path, fault: DatabaseError) -> str:
+    return f"{path.name}{f', line {fault.line}' if fault.line else ''}: {fault.what.rstrip('.')}"
+
+
+def suppress(
+    path: Path,
+    rule: str,
+    params: Iterable[str],
+    *,
+    reason: str,
+    by: str,
+    notify: Notify = lambda _message: None,
+) -> None:
+    """Add a suppression to a file of rules, which is made where there is none; no other byte of it changes.
+
+    ``notify`` is called with what the save could not keep. Raises ValueError where reason or name is missing or the file
+    cannot be read, SaveError where it cannot be written.
+    """
+    try:
+        entry = Suppression(rule=rule, params=tuple(params), reason=reason.strip(), by=by.strip())
+    except ValidationError:
+        raise ValueError("A suppression needs a reason and a name.") from None
+    item = entry.model_dump(mode="json", exclude_defaults=True)
+    write_atomic(path, lambda previous: _with_suppression(path, previous or b"", item), notify=notify)
+
+
+def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> bytes:
+    """Return the content of a file of rules with one more suppression, read back; raises ValueError, SaveError."""
+    try:
+        document = read_yaml(previous.decode("utf-8"), spans=True)
+        data = {} if document.data is None else document.data
+        if not isinstance(data, dict) or not isinstance(data.get(_SUPPRESSIONS) or [], list):
+            raise ValueError(f"{path.name} has no list of suppressions.")
+        wanted = data | {_SUPPRESSIONS: [*(data.get(_SUPPRESSIONS) or []), item]}
+        text = with_item(document, _SUPPRESSIONS, item)
+    except (UnicodeDecodeError, YamlError) as error:
+        raise ValueError(f"{path.name} cannot be read: {error}") from None
+    try:
+        if text is None or read_yaml(text).data != wanted:
+            raise SaveError(f"{path} was not written: the suppression would be read back otherwise")
+    except YamlError as error:
+        raise SaveError(f"{path} was not written: {error}") from None
+    mark = codecs.BOM_UTF8 if previous.startswith(codecs.BOM_UTF8) else b""
+    return mark + text.encode("utf-8")
