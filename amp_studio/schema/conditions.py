@@ -234,6 +234,8 @@ class Conditions:
 
     def reference(self, text: str, instance: str, scope: str | None) -> Reference:
         """Resolve one entry of ``reads`` for an instance; raises UnknownParameterError."""
+        if text.endswith("@*"):
+            instance = ""  # the same for every one
         key = (text, instance, scope)
         found = self._references.get(key)
         if found is None:

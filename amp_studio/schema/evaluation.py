@@ -6,7 +6,7 @@ until it is notified that an address changed; it never changes a value.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 
 from .address import Address, UnknownParameterError
 from .addressing import meant
@@ -81,6 +81,11 @@ class Evaluation:
         With the ``scope`` of the instance, axis 1 is not taken for process 1; without it equal names are enough.
         """
         return self._conditions.reference(text, instance, scope)
+
+    def references(self, texts: Iterable[str], instance: str, scope: str | None) -> list[Reference]:
+        """Resolve several entries of ``reads`` for an instance; raises UnknownParameterError."""
+        resolve = self._conditions.reference
+        return [resolve(text, instance, scope) for text in texts]
 
     # -- conditions ------------------------------------------------------------
 

@@ -154,12 +154,16 @@ class Decision(Expression):
         self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances
     ) -> bool | None:
         """Return the same, and None where it makes no sense of the values."""
+        found = self.result_of(keys, names, circumstances)
+        return None if found is NO_RESULT else found is True
+
+    def result_of(self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances) -> Any:
+        """Return what it comes to for the values of its names, true or false or anything else."""
 
         def context() -> Context:
             return context_of(self.functions, self.always, names, map(value_of, keys), circumstances)
 
-        found = self.result(keys, circumstances, context)
-        return None if found is NO_RESULT else found is True
+        return self.result(keys, circumstances, context)
 
 
 def context_of(

@@ -7,7 +7,7 @@ whatever a rule contains that cannot be meant is a fault before it runs.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from string import Formatter
@@ -15,7 +15,15 @@ from typing import Any
 
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
-from amp_studio.schema.expression import ALWAYS_THERE, Decision, Expression
+from amp_studio.schema.expression import (
+    ALWAYS_THERE,
+    NO_RESULT,
+    Circumstances,
+    Decision,
+    Expression,
+    Key,
+    Remembered,
+)
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.units import UNITS
 
@@ -66,11 +74,25 @@ class FindingExpressions:
     """Names in the message."""
 
 
+class _Part:
+    """An expression of a rule that is decided by itself, and which of the rule's values it names."""
+
+    def __init__(self, decision: Decision, names: Sequence[str]) -> None:
+        self._decision = decision
+        self._places = [n for n, name in enumerate(names) if name in decision.named]
+        self._names = [names[n] for n in self._places]
+
+    def result(self, keys: tuple[Key, ...], circumstances: Circumstances) -> Any:
+        """Return what it comes to for the keys of all values of the rule."""
+        return self._decision.result_of(tuple([keys[n] for n in self._places]), self._names, circumstances)
+
+
 class Expressions:
     """The expressions of a rule that may call ``functions``.
 
-    Compiled when they are first asked for, since most rules of a file are satisfied: ``broken`` when the rule is first decided,
-    ``finding`` when it is first broken. Either raises RuleError for a rule that cannot be used; ``check_rule`` does at once.
+    Each is compiled when it is first asked for: whether the rule applies when it is first decided, its ``check`` where it
+    does, and ``finding`` when it is first broken, since most rules of a file do not apply or are satisfied. A rule that cannot
+    be used raises RuleError then; ``check_rule`` does at once.
     """
 
     def __init__(
@@ -80,23 +102,57 @@ class Expressions:
         finding: FindingExpressions | None = None,
     ) -> None:
         self._rule, self._functions, self._finding = rule, functions, finding
+        self._names = (*(n for n in rule.reads if not is_list(rule.reads[n])),
+                       *(n for n in rule.reads if is_list(rule.reads[n])))  # fmt: skip
+        self.remembered = Remembered()
+        """Keys of the values of the rule -> whether it is broken, where that hangs on nothing else."""
+
+    def verdict(self, keys: tuple[Key, ...], circumstances: Circumstances) -> bool | None:
+        """Return whether values break the rule: it applies and is not satisfied; None where it makes no sense of them.
+
+        ``keys`` are those of the single values, then of the lists. What is not asked separately comes to what CEL makes of
+        ``when && !check``.
+        """
+        applies = True if self._rule.when == "true" else self._when.result(keys, circumstances)
+        if applies is False:
+            found = False
+        else:
+            part = self._not_satisfied if applies is True else self._broken
+            found = part.result(keys, circumstances)
+        verdict = None if found is NO_RESULT else found is True
+        if verdict is not None and self._hangs_on_values_alone:
+            self.remembered[keys] = verdict
+        return verdict
 
     @cached_property
-    def broken(self) -> Decision:
-        """True where the rule applies and is not satisfied."""
+    def _hangs_on_values_alone(self) -> bool:
+        return not any(name in self._rule.when or name in self._rule.check for name in ALWAYS_THERE)
+
+    @cached_property
+    def _when(self) -> _Part:
+        return self._part(self._rule.when)
+
+    @cached_property
+    def _not_satisfied(self) -> _Part:
+        return self._part(f"!({self._rule.check}\n)")  # the line ends a comment of the expression
+
+    @cached_property
+    def _broken(self) -> _Part:
+        """Both, for what makes no sense of the values: an error on one side is none where the other one decides."""
+        return self._part(f"({self._rule.when}\n) && !({self._rule.check}\n)")
+
+    def _part(self, text: str) -> _Part:
         rule = self._rule
-        # A separate line for each bracket: an expression may end in a comment.
-        compiled = _compiled(rule, "check", f"({rule.when}\n) && !({rule.check}\n)")
-        lists = _OVER_A_LIST.findall(rule.when) + _OVER_A_LIST.findall(rule.check)
+        lists = _OVER_A_LIST.findall(text)
         known = {*rule.reads, *ALWAYS_THERE, *TYPES, *lists}
         try:
-            decision = Decision(compiled, self._functions)
+            decision = Decision(_compiled(rule, "check", text), self._functions)
         except KeyError:  # a function that there is not
             decision = None
         if decision is None or not known.issuperset(decision.named):
-            check_rule(rule, self._functions)  # names in which of the two expressions
+            check_rule(rule, self._functions)  # names in which of the expressions
         assert decision is not None
-        return decision
+        return _Part(decision, self._names)
 
     @cached_property
     def finding(self) -> FindingExpressions:
@@ -131,7 +187,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
     others = [
         name
         for name, text in rule.reads.items()
-        if name not in blames and name not in rule.compares and not _is_list(text)
+        if name not in blames and name not in rule.compares and not is_list(text)
     ]
     compares = {
         **rule.compares,
@@ -181,18 +237,19 @@ def _at_hand(rule: Rule, conditions: dict[str, str]) -> Iterator[tuple[str, Prog
     """Yield names and conditions; of a list that is named without one, the values that are there."""
     for name, text in conditions.items():
         if text == "true":
-            yield name, program("it != null") if _is_list(rule.reads[name]) else None
+            yield name, program("it != null") if is_list(rule.reads[name]) else None
         else:
             yield name, program(text)
 
 
-def _is_list(read: str) -> bool:
+def is_list(read: str) -> bool:
+    """Return whether an entry of ``reads`` is a list over instances."""
     return read.partition("@")[2] in ("*", "<", ">", ".")
 
 
 def _check_names(rule: Rule) -> set[str]:
     """Check the names a rule uses outside its expressions; returns those its message shows, raises RuleError."""
-    lists = {name for name, text in rule.reads.items() if _is_list(text)}
+    lists = {name for name, text in rule.reads.items() if is_list(text)}
     named = {f: getattr(rule, f) for f in ("optional", "any_state", "blames", "compares")}
     for place, names in named.items():
         for name in names:

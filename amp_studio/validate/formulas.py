@@ -27,6 +27,10 @@ def _ceil(a: float) -> float:
     return float(math.ceil(a))
 
 
+def _abs(a: float) -> float:
+    return abs(a)
+
+
 def _min(a: float, b: float) -> float:
     return min(a, b)
 
@@ -43,7 +47,7 @@ GENERAL: dict[str, Callable[..., Any]] = {
     "mod": _mod,
     "floor": _floor,
     "ceil": _ceil,
-    "abs": abs,
+    "abs": _abs,
     "round": _round,
     "min": _min,
     "max": _max,

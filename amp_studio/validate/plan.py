@@ -6,7 +6,8 @@ address to the checks that read it, so that an edit runs only those again.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import count
@@ -24,7 +25,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.quoting import quoted
 
-from .expressions import Expressions, RuleError, check_rule
+from .expressions import Expressions, RuleError, check_rule, is_list
 from .formulas import rule_functions
 
 
@@ -49,25 +50,33 @@ def _listed(addresses: tuple[Address, ...]) -> Listed:
     return Listed(addresses)
 
 
-@dataclass(frozen=True)
+@dataclass(
+    eq=False
+)  # not frozen, which would take three times as long to make thousands of them at each start
 class RuleCheck:
-    """One rule for one instance, its names resolved."""
+    """One rule for one instance, its names resolved; never changed."""
 
     place: int
     """Position among all checks of the plan."""
     rule: Rule
     instance: str
     expressions: Expressions
-    singles: tuple[Single, ...]
-    lists: tuple[tuple[str, Listed], ...]
     names: tuple[str, ...]
     """Of the single values, then of the lists."""
-    is_own: bool
-    """Of a builder's rule."""
     reads: tuple[Address, ...]
     """The addresses of the single values."""
+    lists: tuple[tuple[str, Listed], ...]
+    is_own: bool
+    """Of a builder's rule."""
     is_lenient: bool
     """Whether some of the single values need not be there, or active."""
+
+    @cached_property
+    def singles(self) -> tuple[Single, ...]:
+        """The single values that it reads."""
+        optional, any_state = self.rule.optional, self.rule.any_state
+        own = zip(self.names, self.reads, strict=False)
+        return tuple([Single(name, address, name in optional, name in any_state) for name, address in own])
 
     @cached_property
     def always_about(self) -> tuple[tuple[Address, ...], tuple[Address, ...]] | None:
@@ -191,48 +200,31 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
         seen.add(rule.id)
         finding = None if n < late else check_rule(rule, functions)
         expressions, is_own = Expressions(rule, functions, finding), isinstance(rule, BuilderRule)
-        for instance, references in _resolved(evaluation, rule):
-            singles = tuple(
-                [
-                    Single(name, reference.addresses[0], name in rule.optional, name in rule.any_state)
-                    for name, reference in references.items()
-                    if not reference.is_list
-                ]
-            )
-            lists = tuple(
-                [
-                    (name, _listed(reference.addresses))
-                    for name, reference in references.items()
-                    if reference.is_list
-                ]
-            )
-            names = (*[single.name for single in singles], *[name for name, _ in lists])
-            reads = tuple([single.address for single in singles])
-            is_lenient = any(single.optional or single.any_state for single in singles)
-            place = next(places)
+        lists = [name for name, text in rule.reads.items() if is_list(text)]
+        singles = [name for name in rule.reads if name not in lists]
+        names = (*singles, *lists)
+        is_lenient = not {*rule.optional, *rule.any_state}.isdisjoint(singles)
+        for instance, references in _resolved(evaluation, rule, names):
+            reads = tuple([reference.addresses[0] for reference in references[: len(singles)]])
+            listed = [_listed(reference.addresses) for reference in references[len(singles) :]]
+            named = tuple(zip(lists, listed, strict=True))
             checks.append(
-                RuleCheck(
-                    place, rule, instance, expressions, singles, lists, names, is_own, reads, is_lenient
-                )
+                RuleCheck(next(places), rule, instance, expressions, names, reads, named, is_own, is_lenient)
             )
     return tuple(checks)
 
 
-def _resolved(evaluation: Evaluation, rule: Rule) -> list[tuple[str, dict[str, Reference]]]:
-    """Return the instances a rule runs for, each with what it reads there; none where that does not exist."""
+def _resolved(
+    evaluation: Evaluation, rule: Rule, names: Iterable[str]
+) -> Iterator[tuple[str, list[Reference]]]:
+    """Yield the instances a rule runs for, each with what the names mean there; none where that does not exist."""
     for text in rule.reads.values():
         _check_read(evaluation.schema, rule, text)
     scope, instances = _runs_for(evaluation, rule)
-    found = []
+    texts = [rule.reads[name] for name in names]
     for instance in instances:
-        try:
-            references = {
-                name: evaluation.reference(text, instance, scope) for name, text in rule.reads.items()
-            }
-        except UnknownParameterError:
-            continue
-        found.append((instance, references))
-    return found
+        with suppress(UnknownParameterError):
+            yield instance, evaluation.references(texts, instance, scope)
 
 
 def _check_read(schema: Schema, rule: Rule, text: str) -> None:

@@ -34,7 +34,7 @@ from amp_studio.schema.expression import (
 from amp_studio.schema.units import angular
 
 from .blame import about
-from .expression_worth import LONGEST_TEXT
+from .builder_rules import LONGEST_TEXT
 from .finding import OWN_FAULT, Finding, Setting
 from .formulas import rule_functions
 from .plan import Listed, RuleCheck
@@ -110,9 +110,8 @@ class RuleChecks:
             keys = self._keys(check)
             if keys is None:
                 continue
-            decision = check.expressions.broken
-            broken = None if decision.always else decision.remembered.get(keys)
-            if broken.__class__ is not bool:
+            broken = check.expressions.remembered.get(keys)
+            if broken is None:
                 broken = self._broken_by(check, keys)
             if broken is None:
                 yield check, self._unusable(check)
@@ -133,7 +132,7 @@ class RuleChecks:
 
         None where a builder's rule makes no sense of values that are all there. Our own are tried with all that there are.
         """
-        found = check.expressions.broken.verdict(keys, check.names, self._circumstances(check))
+        found = check.expressions.verdict(keys, self._circumstances(check))
         return None if found is None and check.is_own and not _is_any_missing(keys) else found is True
 
     def context_of(self, check: RuleCheck) -> Context:
@@ -311,9 +310,7 @@ class RuleChecks:
             if not mended.keys().isdisjoint(listed.addresses):
                 before = dict(zip(listed.addresses, self._list(listed), strict=True))
                 after[n] = tuple((before | mended)[a] for a in listed.addresses)
-        return (
-            check.expressions.broken.verdict(tuple(after), check.names, self._circumstances(check)) is False
-        )
+        return check.expressions.verdict(tuple(after), self._circumstances(check)) is False
 
     def _value(self, address: Address, found: Any) -> Value | None:
         """Return what was worked out as the parameter stores it, in the unit of the present value; None where there is none."""
