@@ -49,6 +49,10 @@ def progress() -> Callable[[str, int, int], None]:
         if stage == "silent":
             silence(done)
             return
+        if stage == "cut":
+            print_notice("the line is cut, trying again …")
+            last["silent"] = 0
+            return
         percent = 100 if total == 0 else done * 100 // total
         if last.get(stage) == percent:
             return

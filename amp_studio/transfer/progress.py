@@ -7,10 +7,11 @@ from collections.abc import Callable
 
 # (stage, done, total); the stages of a download are keep, download, commit, restart and verify. Between them
 # comes SILENT with the seconds for which nothing that was waited for has come and those after which the control
-# is cancelled; done is 0 when it has come.
+# is cancelled; done is 0 when it has come. CUT comes when the line has broken and is made again.
 Progress = Callable[[str, int, int], None]
 
 SILENT = "silent"
+CUT = "cut"
 
 
 def quiet(stage: str, done: int, total: int) -> None:

@@ -133,8 +133,9 @@ class ProgressDialog(QDialog):
         loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
 
     def _progress(self, stage: str, done: int, total: int) -> None:
-        if stage == "silent":
-            self._silence(done)
+        if stage in ("silent", "cut"):
+            silence = f"No answer for {done} s" if done else ""
+            self._silence("The line is cut" if stage == "cut" else silence)
             return
         self._stage = self._stages.get(stage, stage)
         if not self.task.cancelled.is_set():
@@ -142,9 +143,9 @@ class ProgressDialog(QDialog):
         self.bar.setRange(0, max(total, 0))
         self.bar.setValue(done)
 
-    def _silence(self, seconds: int) -> None:
-        """Show for how long there was no answer; 0 when there is one again."""
-        waiting = f"\nNo answer for {seconds} s, trying again …" if seconds else ""
+    def _silence(self, why: str) -> None:
+        """Show why there is no answer; nothing when there is one again."""
+        waiting = f"\n{why}, trying again …" if why else ""
         doing = STOPPING if self.task.cancelled.is_set() else self._stage
         self.text.setText(doing + waiting)
 

@@ -17,7 +17,7 @@ from amp_studio.transfer.errors import (
     WrongFamilyError,
 )
 from amp_studio.transfer.links.link import Link, LinkError
-from amp_studio.transfer.progress import SILENT, Progress, Stop, quiet
+from amp_studio.transfer.progress import CUT, SILENT, Progress, Stop, quiet
 
 from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, RefusalError, Welcome
 from .retry_timer import RetryPolicy
@@ -83,6 +83,7 @@ class Connection:
         self._best = 0  # the most bytes of it that were ever there
         self._moved_at = self._notified_at = clock()
         self._stopped_at: float | None = None
+        self._is_cut = False  # and that was notified
 
     def close(self) -> None:
         """Hang up."""
@@ -143,6 +144,8 @@ class Connection:
                 raise self._gave_up(cause) from cause
             except (LinkError, NoAnswerError) as error:
                 cause = error
+                if isinstance(error, LinkError):
+                    self._notify_cut()
             except RefusalError as refusal:
                 if refusal.code != Code.BUSY:
                     raise
@@ -172,7 +175,8 @@ class Connection:
 
     def further(self) -> None:
         """Something that was waited for is there: nothing is silent."""
-        was_silent = self._notified_at > self._moved_at
+        was_silent = self._is_cut or self._notified_at > self._moved_at
+        self._is_cut = False
         self._moved_at = self._notified_at = self.now()
         if was_silent:
             self.notify(SILENT, 0, round(self._patience))
@@ -189,6 +193,12 @@ class Connection:
         if done >= min(total, self._reached + max(1, step)) and done > self._reached:
             self._reached = done
             self._until = self.now() + self._patience
+
+    def _notify_cut(self) -> None:
+        """Notify at once that the line has broken; of further breaks only after something has come again."""
+        if not self._is_cut:
+            self._is_cut = True
+            self.notify(CUT, 0, round(self._patience))
 
     def notify(self, stage: str, done: int, total: int) -> None:
         """Notify whoever waits; that he cannot be notified ends no exchange."""

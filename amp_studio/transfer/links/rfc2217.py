@@ -11,7 +11,6 @@ import socket
 import threading
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 from serial import SerialException, rfc2217
@@ -24,6 +23,11 @@ from .telnet import Data, Negotiation, TelnetReader
 
 READ_SIZE = 1_024
 STORED = 65_536  # bytes that wait to be read; beyond them the line rests, and TCP slows the other end down
+FLOW_CONTROLS = (
+    rfc2217.SET_CONTROL_USE_NO_FLOW_CONTROL,
+    rfc2217.SET_CONTROL_USE_SW_FLOW_CONTROL,
+    rfc2217.SET_CONTROL_USE_HW_FLOW_CONTROL,
+)
 CLOSING = 1.0  # seconds the reader may take to notice that the line was closed
 
 
@@ -31,22 +35,19 @@ def connect_rfc2217(
     endpoint: Endpoint, timeout: float, look: Callable[[], None] = keep_waiting, *, own_flow: bool = False
 ) -> SerialLink:
     """Open and set a port within ``timeout`` seconds; raises LinkError, and what ``look`` raises."""
-    port = in_time(
-        partial(_open, endpoint, own_flow),
-        _RemotePort.close,
-        timeout,
-        look,
-        lambda error: LinkError(endpoint, _message(error)),
-    )
-    return SerialLink(endpoint, port, look)
-
-
-def _open(endpoint: Endpoint, own_flow: bool) -> _RemotePort:
     host = f"[{endpoint.host}]" if ":" in endpoint.host else endpoint.host
     port = _RemotePort(None, timeout=SLICE, **port_settings(endpoint, own_flow))
     port.port = f"rfc2217://{host}:{endpoint.port}"
-    port.open()
-    return port
+
+    def error_of(error: Exception) -> LinkError:
+        return LinkError(endpoint, _message(error))
+
+    try:
+        in_time(port.open, lambda _: port.close(), timeout, look, error_of)
+    except BaseException:
+        port.close()
+        raise
+    return SerialLink(endpoint, port, look)
 
 
 class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
@@ -55,16 +56,16 @@ class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
     _socket: Any
     _thread: Any
 
-    def open(self) -> None:
-        """Connect, negotiate and set."""
+    def __init__(self, *args: Any, **settings: Any) -> None:
         self._stored = bytearray()
         self._changed = threading.Condition()
         self._has_ended = False
-        super().open()
+        self._is_given_up = False
+        super().__init__(*args, **settings)
 
     def close(self) -> None:
-        """Hang up at once."""
-        self.is_open = False
+        """Hang up at once, also while another thread opens it."""
+        self.is_open, self._is_given_up = False, True
         connection, self._socket = self._socket, None
         if connection is not None:
             with contextlib.suppress(OSError):
@@ -101,6 +102,13 @@ class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
             self._changed.notify_all()
         return data
 
+    def rfc2217_set_control(self, value: bytes) -> None:
+        """Set flow control and wait for the answer; a port may be without DTR and RTS, and its server then answers nothing."""
+        if value in FLOW_CONTROLS:
+            super().rfc2217_set_control(value)
+        else:
+            self._rfc2217_options["control"].set(value)
+
     def reset_input_buffer(self) -> None:
         """Forget what came before."""
         self.rfc2217_send_purge(rfc2217.PURGE_RECEIVE_BUFFER)
@@ -111,6 +119,8 @@ class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
     def _telnet_read_loop(self) -> None:
         """Be the thread that reads the line (pyserial starts it)."""
         telnet = TelnetReader()
+        if self._is_given_up:
+            self.close()
         try:
             while self.is_open:
                 with contextlib.suppress(TimeoutError):
