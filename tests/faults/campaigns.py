@@ -149,6 +149,13 @@ CAMPAIGNS = (
     Campaign("damaged backups", partial(_damaged_in, stored.fuzz_backups), MANY, 50, 5_000),
     Campaign("damaged cache", partial(_damaged_in, stored.fuzz_caches), MANY, 200, 5_000),
     Campaign("damaged lock notes", partial(_damaged_in, stored.fuzz_locks), MANY, 300, 5_000),
+    Campaign(
+        "damaged notes of begun downloads",
+        partial(_damaged_in, stored.fuzz_begun_downloads),
+        MANY,
+        300,
+        5_000,
+    ),
     Campaign("damaged facts", partial(_damaged_in, stored.fuzz_facts), MANY, 50, 5_000),
     Campaign("damaged settings", partial(_damaged_in, stored.fuzz_settings), MANY, 100, 5_000),
     Campaign("every offered fix, machines of random values", _fixes, 1_000, 2, 50),

@@ -25,6 +25,7 @@ from amp_studio.schema.load import Compiled, compile_family
 from amp_studio.transfer.client.kept import CopyError, digest_path, keep_image, open_copy
 from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.record import Identity, StateError, to_json, written
+from amp_studio.transfer.house.broken_transfers import BrokenTransfers
 from amp_studio.transfer.house.message import Commit, Committed, OpenDownload
 from amp_studio.transfer.image import encode_image
 from amp_studio.validate.rule_file import suppress
@@ -183,6 +184,20 @@ def fuzz_locks(folder: Path, seed: int, count: int) -> list[str]:
             EditLock(path).take()
 
         return violations(mutants(["me on here, process 12, since now"], seed, count), look, (InUseError,))
+
+
+def fuzz_begun_downloads(folder: Path, seed: int, count: int) -> list[str]:
+    """Look for a begun download whose note is damaged: an id of 16 bytes, or none."""
+    broken = BrokenTransfers(folder)
+    broken.keep(b"x", bytes(16))
+    (path,) = folder.iterdir()
+
+    def look(text: str) -> None:
+        path.write_bytes(text.encode("utf-8", "surrogatepass"))
+        found = broken.find(b"x")
+        assert found is None or len(found) == 16
+
+    return violations(mutants(["0123456789abcdef" * 2], seed, count), look, ())
 
 
 def fuzz_facts(folder: Path, seed: int, count: int) -> list[str]:

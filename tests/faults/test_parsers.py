@@ -55,6 +55,7 @@ READERS = {
     "transfer/emulated/memory.py": "damaged memory of an emulated control",
     "transfer/emulated/record.py": "damaged memory of an emulated control",
     "transfer/emulated/staging.py": "damaged memory of an emulated control",
+    "transfer/house/broken_transfers.py": "damaged notes of begun downloads",
     "transfer/house/frame.py": "damaged frames",
     "transfer/house/message.py": "damaged messages",
     "transfer/image.py": "odd commands at an emulated control",

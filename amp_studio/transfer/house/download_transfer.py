@@ -9,12 +9,15 @@ from dataclasses import dataclass
 from amp_studio.transfer.errors import (
     AtControl,
     CancelledError,
+    ConnectionCutError,
+    ControlSilentError,
     ImageChangedError,
     ProtocolMismatchError,
     TransferError,
     unforeseen,
 )
 
+from .broken_transfers import BrokenTransfers
 from .connection import STEPS, Connection
 from .message import Abort, Aborted, Code, Commit, Committed, OpenDownload, Ready, RefusalError
 from .refusals import error_of
@@ -29,22 +32,35 @@ ABORT_WAIT = 0.5  # seconds
 
 @dataclass(frozen=True)
 class Sent:
-    """An image that a control has committed: what it answered, and how often the line was made again."""
+    """An image that a control has committed.
+
+    ``committed`` is what it answered, ``reconnections`` how often the line was made again, ``resumed_at`` the byte up
+    to which an earlier run of the program had sent it.
+    """
 
     committed: Committed
     reconnections: int
+    resumed_at: int = 0
 
 
 class DownloadTransfer:
     """Sends one image under one transfer id; ``at_control`` is what the control contains as far as can be known."""
 
-    def __init__(self, line: Connection, image: bytes, signature: str, expected: bytes) -> None:
+    def __init__(
+        self, line: Connection, image: bytes, signature: str, expected: bytes, broken: BrokenTransfers
+    ) -> None:
         self._line = line
         self._image = image
         self._signature = signature
         self._expected = expected
         self._digest = hashlib.sha256(image).digest()
-        self._transfer = line.random(16)
+        control = line.welcome.name if line.welcome is not None else ""
+        self._broken = broken
+        self._what = b"\n".join((self._digest, expected, signature.encode(), control.encode()))
+        begun = broken.find(self._what)
+        self._transfer = begun or line.random(16)
+        self._is_resumed = begun is not None
+        self._resumed_at = 0
         self._reached = 0
         self._lost = 0  # how often the control had less than it had answered before
         self.at_control: AtControl = "old"
@@ -55,10 +71,14 @@ class DownloadTransfer:
         self._line.is_committing = False
         self._line.reconnections = 0
         try:
-            return Sent(self._stage_and_commit(), self._line.reconnections)
+            self._broken.keep(self._what, self._transfer)
+            return Sent(self._stage_and_commit(), self._line.reconnections, self._resumed_at)
         except TransferError as error:
             error.at_control = self.at_control
-            self._abort()
+            if isinstance(error, ConnectionCutError | ControlSilentError) and self.at_control == "old":
+                error.what += self._advice()
+            else:
+                self._abort()
             raise
         except KeyboardInterrupt:
             self._abort()
@@ -111,6 +131,8 @@ class DownloadTransfer:
             self._line.moved(staged, total)
             self._line.notify("download", staged, total)
 
+        if self._is_resumed:
+            self._is_resumed, self._resumed_at = False, ready.offset
         done(ready.offset)
         push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
         return self._commit(talk)
@@ -121,6 +143,7 @@ class DownloadTransfer:
             if cancel is not None and cancel.is_set():
                 raise CancelledError("stopped")
             self._line.begin()  # the time for the commit counts from its first asking, over all lines
+        self._broken.forget(self._what)
         self._line.notify("commit", 0, 1)
         self._line.is_committing = True  # from here on the matter is seen through
         self.at_control = "unknown"
@@ -157,9 +180,16 @@ class DownloadTransfer:
         self.at_control = error.at_control
         return error
 
+    def _advice(self) -> str:
+        """Return how the staged bytes are made use of; nobody could tell the control to throw them away."""
+        if not self._reached or self._broken.find(self._what) is None:
+            return ""
+        return f" (the same download goes on from byte {self._reached} of {len(self._image)})"
+
     def _abort(self) -> None:
         """Have the control throw the staged bytes away; one that does not hear it keeps them for nothing."""
         self._line.cancel = None
+        self._broken.forget(self._what)
         if self.at_control == "old":
             self._line.once(
                 lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1),

@@ -58,10 +58,11 @@ class HouseDriver(HouseContent):
         cancel: threading.Event | None = None,
     ) -> Receipt:
         """Stage and commit an image, all or nothing."""
-        answer = self.session.send(
+        sent = self.session.send(
             content, signature=signature, expected=expected, progress=progress, cancel=cancel
-        ).committed
-        return Receipt(answer.restarting, answer.incarnation)
+        )
+        notes = (f"It was taken up again at byte {sent.resumed_at}.",) if sent.resumed_at else ()
+        return Receipt(sent.committed.restarting, sent.committed.incarnation, notes=notes)
 
     def wait_restarted(
         self,

@@ -7,7 +7,10 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import TypeVar
+
+import platformdirs
 
 from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, TransferError
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
@@ -15,6 +18,7 @@ from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
 from amp_studio.transfer.progress import Progress, quiet
 
+from .broken_transfers import BrokenTransfers, NoBrokenTransfers
 from .connection import PAUSE, Connection, OpenLink, OutOfTimeError
 from .download_transfer import DownloadTransfer, Sent
 from .message import (
@@ -58,7 +62,9 @@ class Session:
         sleep: Callable[[float], None] = time.sleep,
         random_bytes: Callable[[int], bytes] = os.urandom,
         client: str = "AMP Studio",
+        broken: BrokenTransfers | None = None,
     ) -> None:
+        self._broken = broken or NoBrokenTransfers()
         self._line = Connection(
             open_link,
             family=family,
@@ -75,7 +81,8 @@ class Session:
         """Return a session with the control at an address; raises ValueError when it is none."""
         place = parse_endpoint(address) if isinstance(address, str) else address
         place.need_all_bytes("the house protocol")
-        return cls(lambda look: connect(place, look=look), family=family, patience=patience)
+        broken = BrokenTransfers(Path(platformdirs.user_state_dir("amp-studio")) / "transfers")
+        return cls(lambda look: connect(place, look=look), family=family, patience=patience, broken=broken)
 
     def __enter__(self) -> Session:
         return self
@@ -179,7 +186,7 @@ class Session:
         ``at_control`` is what the control contains.
         """
         self._line.progress = progress
-        return DownloadTransfer(self._line, image, signature, expected).run(cancel)
+        return DownloadTransfer(self._line, image, signature, expected, self._broken).run(cancel)
 
     def _ask(self, action: Callable[[Transaction], Result]) -> Result:
         try:
