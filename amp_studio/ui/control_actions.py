@@ -19,6 +19,7 @@ from .file_actions import FileActions
 from .out_of_range import AskInDialogs
 from .questions import ask, show_message
 from .restore import restore
+from .sheet_actions import enter_by_hand
 from .studio_window import StudioWindow
 from .task import Progress
 from .workspace import Workspace
@@ -42,7 +43,8 @@ class ControlActions:
         verify = act("&Verify With Control…", self.verify, "F6", "file", icons.SP_DialogApplyButton, "Verify")
         upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
         put_back = act("&Restore Control From Backup…", partial(restore, self.exchanges), None, "")
-        menu.addActions([download, verify, upload, put_back])
+        by_hand = act("Enter Values by &Hand…", partial(enter_by_hand, self.exchanges), None, "file")
+        menu.addActions([download, verify, upload, put_back, by_hand])
         menu.addSeparator()
         self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
         self.estop_action = act("Emulated Control in &E-Stop", self._estop, None, "")
