@@ -49,6 +49,8 @@ def progress() -> Callable[[str, int, int], None]:
         if stage == "silent":
             silence(done)
             return
+        if total < 0:  # a sentence that tells the person what to do at the control
+            print_notice(stage)
         if stage == "cut":
             print_notice("the line is cut, trying again …")
             last["silent"] = 0

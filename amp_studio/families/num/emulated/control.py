@@ -39,7 +39,8 @@ class NumControl:
         self._parameters = ParameterMemory(setup.memory, delivered_table(setup.family))
         self._doing: Doing = "menu"
         self._job: Job = "load"
-        self._parity: Parity = "none"
+        self._parity: Parity = "even"
+        """Of the eighth bit. Page 9-20 gives the Xoff of the ISO code as 93, which is 13 with even parity."""
         self._start = ""
         """The first line of an unload, as the operator left it."""
         self._out = bytearray()

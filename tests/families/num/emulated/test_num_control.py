@@ -19,6 +19,7 @@ class Bench:
     def __init__(self, folder: Path) -> None:
         self.screen: list[str] = []
         self.control = NumControl(DeviceSetup("num", Memory(folder), self.screen.append))
+        self.control.command("parity none")
 
     def press(self, *keys: str) -> None:
         for key in keys:

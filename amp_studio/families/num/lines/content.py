@@ -1,0 +1,141 @@
+"""What a NUM control contains: its parameter table, as it unloads it (page 13-14), under a line that names the kind."""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio.families.num.formats.lines import blocks_of, split_table
+from amp_studio.families.num.formats.table import FORMAT, KEY
+from amp_studio.families.num.formats.words import name_of
+from amp_studio.files import ParameterFile
+from amp_studio.formats.import_export import file_of
+from amp_studio.formats.text_format import FormatError
+from amp_studio.schema import load_schema
+from amp_studio.transfer.image import ImageError
+
+KIND = "NUM table 1"
+FAMILY = "num"
+_START = f"{KIND}\n".encode()
+_NAMED = 5
+"""Words that a message names."""
+
+
+class NumTableContent:
+    """Between a parameter file and the table of one control."""
+
+    has_header = False
+
+    def decode(self, content: bytes) -> ParameterFile:
+        """Return what a table means; words that the schema does not have are kept. Raises ImageError."""
+        try:
+            return file_of(
+                load_schema(FAMILY), FORMAT.read(table_text(content), load_schema(FAMILY), True), "control"
+            )
+        except FormatError as error:
+            raise ImageError(f"the parameter table of the control: {error}") from None
+
+    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+        """Return the table that is held with the values of a file in it; raises ImageError."""
+        present = self.decode(held)
+        try:
+            before = FORMAT.write(present)
+            if before != table_text(held):
+                raise ImageError(
+                    "this program would write the table of this control otherwise than the control does"
+                )
+            _check_reference(file, present)
+            present.take(file.values)
+            after = FORMAT.write(present)
+        except FormatError as error:
+            raise ImageError(f"the parameter table of the control: {error}") from None
+        content = _START + after.encode("ascii")
+        added = words_of_table(content).keys() - words_of_table(held).keys()
+        if added:
+            raise ImageError(f"the control does not have {_names(sorted(added))}, which the file sets")
+        return content
+
+    def refit(self, content: bytes, held: bytes) -> bytes:
+        """Return a table that was kept, if it is of the CNC that contains ``held``; raises ImageError."""
+        there, here = reference_of(content), reference_of(held)
+        if held and there != here:
+            raise _other_reference("the copy", there, here)
+        if held and (other := words_of_table(content).keys() ^ words_of_table(held).keys()):
+            raise ImageError(f"the copy and the control do not have the same words: {_names(sorted(other))}")
+        return content
+
+    def difference(self, content: bytes, found: bytes) -> str:
+        """Return the words that differ, in a few words."""
+        if content == found:
+            return ""
+        try:
+            wanted, present = words_of_table(content), words_of_table(found)
+        except ImageError:
+            return "so much that it cannot be read"
+        different = [word for word in {**wanted, **present} if wanted.get(word) != present.get(word)]
+        if different:
+            return f"in {_names(different)}"
+        there, here = reference_of(content), reference_of(found)
+        return "" if there == here else f"in the job reference ({here}, not {there})"
+
+
+def content_of_table(table: str) -> bytes:
+    """Return the content of a table that has come; what a person typed behind the job reference is left out of it."""
+    first, end, rest = table.partition("\n")
+    if found := re.match(r"%[0-9]{8}", first):
+        ending = "\r" if first.endswith("\r") else ""
+        first = f"{found[0]};09{ending}"
+    return _START + f"{first}{end}{rest}".encode("ascii")
+
+
+def table_text(content: bytes) -> str:
+    """Return the table itself; raises ImageError for a content of another kind."""
+    if not content.startswith(_START):
+        raise ImageError("this is not the parameter table of a NUM control")
+    try:
+        return content[len(_START) :].decode("ascii")
+    except UnicodeDecodeError:
+        raise ImageError("the parameter table of the control contains more than ASCII") from None
+
+
+def reference_of(content: bytes) -> str:
+    """Return the job reference of a table, its eight digits."""
+    return content[len(_START) + 1 : len(_START) + 9].decode("ascii", errors="replace")
+
+
+def words_of_table(content: bytes) -> dict[str, str]:
+    """Return every word of a table by its number, as the control spells it; raises ImageError."""
+    words: dict[str, str] = {}
+    try:
+        lines, _ = split_table(table_text(content))
+        for block in blocks_of(lines):
+            parameter, first = block.first
+            words.update(
+                (name_of((parameter, n)), text) for n, text in enumerate(block.data.split(" "), first)
+            )
+    except FormatError as error:
+        raise ImageError(f"the parameter table of the control: {error}") from None
+    return words
+
+
+def _check_reference(file: ParameterFile, present: ParameterFile) -> None:
+    """Refuse a file that was read from a CNC with another job reference, as the control itself does (page 13-10)."""
+    there, here = (_reference(each) for each in (file, present))
+    if there is not None and there != (here or "00000000"):
+        raise _other_reference("the file", there, here or "00000000")
+
+
+def _reference(file: ParameterFile) -> str | None:
+    header = file.header.extra.get(KEY)
+    number = header.get("job_reference") if isinstance(header, dict) else None
+    return None if number is None else f"{number:08d}" if isinstance(number, int) else str(number)
+
+
+def _other_reference(what: str, there: str, here: str) -> ImageError:
+    return ImageError(
+        f"{what} is of a CNC with the job reference {there}, and this one has {here} (NUM parameter manual, page 13-10)"
+    )
+
+
+def _names(words: list[str]) -> str:
+    more = len(words) - _NAMED
+    return ", ".join(words[:_NAMED]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,338 @@
+"""The tool as the peripheral of a NUM control: it takes and gives the parameter table while a person presses the keys.
+
+Sections 13.2.3 to 13.2.6 of the NUM parameter manual; docs/protocols/num-table.md.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+from amp_studio.schema import load_schema
+from amp_studio.transfer.break_state import state_after_break
+from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ControlSilentError,
+    ImageDamagedError,
+    ImageRejectedError,
+    NoConnectionError,
+    TransferError,
+    WrongFamilyError,
+)
+from amp_studio.transfer.image import ImageError
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.links.serial_settings import SerialSettings
+from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.waiting import OpenLink, Waiting
+
+from .content import FAMILY, NumTableContent, content_of_table, reference_of, table_text, words_of_table
+from .table_reader import XOFF, XON, Parity, TableReader, with_parity
+
+USUAL = SerialSettings(baud=9_600)
+PERSON_WAIT = 600.0  # seconds a person may take to start an unload
+RECOVERY_WAIT = 120.0  # seconds he may take to do so after a break
+READY_WAIT = 60.0  # seconds after which a load is sent to a control that does not ask for it with Xon
+HELD_WAIT = 300.0  # seconds the control may stop a load: its operator corrects the job reference (page 13-10)
+GAP_WAIT = 20.0  # seconds between two characters of a table
+TABLE_WAIT = 900.0  # seconds a table may take to come; the largest takes 420 s at 300 bit/s
+LOAD_WAIT = 3_600.0  # seconds a load may take with all its stops
+HELD_TOLD = 2.0  # seconds a load is stopped until the person is told
+SETTLE = 1.0  # seconds in which the control may still refuse the end of a load
+RATE = 11_520.0  # bytes a second on a line that states no rate: Xoff must not come too late
+UNLOADS = 3  # until a table has come undamaged
+LARGEST_DRAIN = 1 << 16
+
+UNLOAD_TEXT = (
+    "At the control: MACHINE SETUP DATA, 3 UNLOAD, Enter at READY?, leave the job reference as it is, start "
+    "(NUM parameter manual, page 13-12)"
+)
+LOAD_TEXT = (
+    "At the control: MACHINE SETUP DATA, 2 LOAD, Enter at READY? (page 13-10). The table is sent as soon as the "
+    f"control asks for it, or in {READY_WAIT:g} s"
+)
+HELD_TEXT = (
+    "The control has stopped the table. Where it shows a number with %, replace it by the job reference (page 13-10); "
+    "where it shows FILE ERROR, stop here"
+)
+
+
+class PeripheralDriver(NumTableContent):
+    """Speaks to a control in utility 5. Every operation is begun by a person; what to press is told by ``progress``."""
+
+    abilities = Abilities(can_send=True, all_or_nothing=False)
+
+    def __init__(
+        self, open_link: OpenLink, *, is_checked: bool = False, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """``is_checked``: the line itself finds damaged bytes, as TCP does."""
+        self._open_link = open_link
+        self._is_checked = is_checked
+        self._waiting = Waiting(clock)
+        self._link: Link | None = None
+        self._parity: Parity = "none"
+        self._seen: bytes | None = None
+        """The table of the last unload, until it was asked for."""
+        self._is_within_line = False
+        self._is_held = False
+
+    @classmethod
+    def at(cls, endpoint: Endpoint, family: str = "") -> PeripheralDriver:
+        """Return the driver of an endpoint; raises WrongFamilyError where another family is asked for."""
+        if family not in ("", FAMILY):
+            raise WrongFamilyError(f"this is how NUM controls are spoken to, not {family}")
+        place = endpoint.with_usual(USUAL)
+        if place.bits == 7 and place.parity in ("even", "odd"):
+            # The same ten bits a character; so a damaged one is seen here, where the port would pass it on unnoticed.
+            place = replace(place, bits=8, parity="none")
+        return cls(
+            lambda look: connect(place, look=look, own_flow=True), is_checked=endpoint.kind in ("tcp", "tls")
+        )
+
+    # -- what a driver can be asked for -----------------------------------------------------------
+
+    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+        """Return the job reference of the CNC, which its table begins with."""
+        self._waiting.begin(progress, cancel)
+        self._seen = self._unloaded("identify", PERSON_WAIT)
+        return ControlIdentity(
+            family=FAMILY,
+            protocol="peripheral",
+            name=f"CNC with the job reference {reference_of(self._seen)}",
+            signature=load_schema(FAMILY).signature,
+            size=len(self._seen),
+            sha256=hashlib.sha256(self._seen).digest(),
+        )
+
+    def fetch(
+        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+    ) -> bytes:
+        """Return the table; the one that ``identify`` has just read need not be unloaded again."""
+        seen, self._seen = self._seen, None
+        if seen is not None:
+            return seen
+        self._waiting.begin(progress, cancel)
+        return self._unloaded(stage, PERSON_WAIT)
+
+    def send(
+        self,
+        content: bytes,
+        *,
+        signature: str,  # noqa: ARG002 -- the control states none
+        expected: bytes,  # noqa: ARG002
+        held: bytes,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Receipt:
+        """Load a table; after a break a person is asked for one more unload, to say what the control contains."""
+        self._waiting.begin(progress, cancel)
+        self._seen = None
+        lines = table_text(content).splitlines(keepends=True)
+        load = _Load(lines)
+        try:
+            self._push(load)
+        except CancelledError as error:
+            error.at_control = "unknown" if load.has_changed else "old"
+            raise
+        except (LinkError, TransferError) as error:
+            broken = (
+                error
+                if isinstance(error, TransferError)
+                else ConnectionCutError(f"the line broke: {error.what}")
+            )
+            if not load.has_changed:
+                raise broken from None
+            raise self._after_break(broken, held, content) from None
+        return Receipt(notes=("Leave utility 5, confirm the changes and reset the CNC (page 13-8).",))
+
+    def wait_restarted(
+        self,
+        receipt: Receipt,  # noqa: ARG002
+        seconds: float,  # noqa: ARG002
+        progress: Progress = quiet,  # noqa: ARG002
+        cancel: threading.Event | None = None,  # noqa: ARG002
+    ) -> bool:
+        """Nothing restarts by itself."""
+        return True
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+
+    # -- unload -----------------------------------------------------------------------------------
+
+    def _unloaded(self, stage: str, seconds: float) -> bytes:
+        """Have a person unload until a table has come undamaged, twice the same where nothing on the line shows damage."""
+        before, fault, last = b"", "", TransferError("no table")
+        for _ in range(UNLOADS):
+            self._waiting.ask(f"{fault}{UNLOAD_TEXT}")
+            try:
+                reader = self._one_unload(stage, seconds)
+                content = _checked(reader)
+            except (ImageDamagedError, ConnectionCutError) as error:
+                fault, last = f"{error.what}: unload it once more. ", error
+                continue
+            self._parity = reader.parity
+            if self._is_checked or reader.parity != "none" or content == before:
+                return content
+            fault = "Nothing on this line (no parity) shows a damaged character: unload it once more, to compare. "
+            last = ImageDamagedError("two unloads of the table were not the same")
+            before = content
+        raise last
+
+    def _one_unload(self, stage: str, seconds: float) -> TableReader:
+        reader, waiting = TableReader(), self._waiting
+        waiting.is_told = False
+        end = waiting.now() + seconds
+        try:
+            link = self._line()
+            while not reader.is_whole:
+                is_coming = reader.has_begun or reader.has_noise
+                left = max(0.0, end - waiting.now())
+                data = waiting.read(link, min(GAP_WAIT, left) if is_coming else left)
+                if not data or (left == 0 and is_coming):
+                    raise self._nothing_came(reader, seconds)
+                reader.feed(data)
+                if reader.has_begun and not waiting.is_told:
+                    waiting.is_told, end = True, waiting.now() + TABLE_WAIT
+                waiting.heard()
+                waiting.notify(stage, len(reader.table), 2 * len(reader.table))
+            waiting.notify(stage, len(reader.table), len(reader.table))
+        except LinkError as error:
+            self.close()
+            raise ConnectionCutError(f"the line broke: {error.what}") from None
+        finally:
+            waiting.is_told = True
+        return reader
+
+    def _nothing_came(self, reader: TableReader, seconds: float) -> TransferError:
+        if reader.has_noise and not reader.has_begun:
+            return ImageDamagedError("what has come does not begin with %, as a table does")
+        if not reader.has_begun:
+            return ControlSilentError(f"no table has come within {seconds:g} s")
+        line = reader.table.count(b"\n") + 1
+        return ImageDamagedError(f"the table did not come to its end: it stopped in line {line}")
+
+    def _line(self) -> Link:
+        if self._link is None:
+            try:
+                self._link = self._open_link(self._look)
+            except LinkError as error:
+                raise NoConnectionError(f"no connection to the control: {error}") from None
+        return self._link
+
+    def _look(self) -> None:
+        """Be called while the link waits; a line of the table that has been begun is sent to its end."""
+        if not self._is_within_line:
+            self._waiting.look()
+
+    # -- load -------------------------------------------------------------------------------------
+
+    def _push(self, load: _Load) -> None:
+        """Send a table line by line, as fast as the control takes it."""
+        link, waiting = self._line(), self._waiting
+        drained = 0
+        while drained < LARGEST_DRAIN and (data := link.read(0)):
+            drained += len(data)
+        self._is_held = False
+        waiting.ask(LOAD_TEXT)
+        self._await_ready(link)
+        rate = link.bytes_per_second or RATE
+        due = began = waiting.now()
+        for number, line in enumerate(load.lines, 1):
+            waiting.look()
+            self._await_go_on(link)
+            if waiting.now() > began + LOAD_WAIT:
+                raise ImageRejectedError(f"the control has not taken the table within {LOAD_WAIT:g} s")
+            load.sent(line)
+            self._write(link, line)
+            due = max(due, waiting.now()) + len(line) / rate
+            self._listen(link, due - waiting.now())
+            waiting.heard()
+            waiting.notify("download", number, len(load.lines))
+        self._listen(link, SETTLE)
+        self._await_go_on(link)
+
+    def _write(self, link: Link, line: str) -> None:
+        self._is_within_line = True
+        try:
+            link.write(bytes(with_parity(sign, self._parity) for sign in line.encode("ascii")))
+        finally:
+            self._is_within_line = False
+
+    def _await_ready(self, link: Link) -> None:
+        """Wait for the control to ask for the table; one that never does gets it after a while."""
+        waiting = self._waiting
+        waiting.is_told = False
+        end = waiting.now() + READY_WAIT
+        try:
+            while (left := end - waiting.now()) > 0:
+                if any(byte & 0x7F == XON for byte in waiting.read(link, left)):
+                    return
+        finally:
+            waiting.is_told = True
+            waiting.heard()
+
+    def _listen(self, link: Link, seconds: float) -> None:
+        """Let some time pass, and obey Xoff and Xon; what else a control sends means nothing."""
+        end = self._waiting.now() + seconds
+        while True:
+            for byte in self._waiting.read(link, max(0.0, end - self._waiting.now())):
+                self._is_held = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_held)
+            if self._waiting.now() >= end:
+                return
+
+    def _await_go_on(self, link: Link) -> None:
+        """Wait while the control has stopped the table; raises ImageRejectedError where it does not go on."""
+        began, is_told = self._waiting.now(), False
+        while self._is_held:
+            self._listen(link, 0.1)
+            waited = self._waiting.now() - began
+            if waited >= HELD_TOLD and not is_told:
+                is_told = True
+                self._waiting.ask(HELD_TEXT)
+            if waited >= HELD_WAIT:
+                raise ImageRejectedError(f"the control has stopped the table for {HELD_WAIT:g} s")
+
+    def _after_break(self, error: TransferError, held: bytes, content: bytes) -> TransferError:
+        """Return the error with what the control contains now, which only one more unload can show."""
+        self.close()
+        self._waiting.ask(f"{error.what}. End the load at the control")
+        try:
+            now = words_of_table(self._unloaded("verify", RECOVERY_WAIT))
+            error.at_control, error.new = state_after_break(
+                words_of_table(held), words_of_table(content), now
+            )
+        except (TransferError, ImageError):
+            error.at_control = "unknown"
+        return error
+
+
+class _Load:
+    """The lines of a load, and whether one that changes the control is under way."""
+
+    def __init__(self, lines: list[str]) -> None:
+        self.lines = lines
+        self.has_changed = False
+
+    def sent(self, line: str) -> None:
+        """Take notice of a line that is about to be sent."""
+        self.has_changed |= line.startswith("#")
+
+
+def _checked(reader: TableReader) -> bytes:
+    """Return the content of a table whose lines are whole; raises ImageDamagedError."""
+    content = content_of_table(reader.table.decode("ascii"))
+    try:
+        words_of_table(content)
+    except ImageError as error:
+        raise ImageDamagedError(f"the table has arrived damaged ({error})") from None
+    return content

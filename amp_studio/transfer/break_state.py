@@ -1,0 +1,45 @@
+"""What a control that takes single values contains after a break, from what it is read to contain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from .errors import AtControl
+
+MOST_NAMED = 20
+
+
+def state_after_break(
+    held: Mapping[str, str], wanted: Mapping[str, str], now: Mapping[str, str]
+) -> tuple[AtControl, tuple[str, ...]]:
+    """Return what the control contains, and the numbers of what is new already where that is a part of it.
+
+    ``held`` is what it contained, ``wanted`` what it was to contain, ``now`` what it was read to contain. Something that
+    is neither old nor new is not known for either.
+    """
+    names = sorted({*held, *wanted, *now}, key=_by_numbers)
+    changed = [name for name in names if held.get(name) != wanted.get(name)]
+    other = [name for name in names if now.get(name) not in (held.get(name), wanted.get(name))]
+    if other:
+        return "unknown", ()
+    new = [name for name in changed if now.get(name) == wanted.get(name)]
+    if len(new) == len(changed):
+        return "new", ()
+    if not new:
+        return "old", ()
+    more = len(new) - MOST_NAMED
+    return "mixed", (*new[:MOST_NAMED], *([f"{more} more"] if more > 0 else []))
+
+
+def _by_numbers(name: str) -> tuple[object, ...]:
+    """Order P9N2 before P10N0."""
+    parts, digits = [], ""
+    for sign in f"{name} ":
+        if sign.isdigit():
+            digits += sign
+            continue
+        if digits:
+            parts.append((1, int(digits), ""))
+            digits = ""
+        parts.append((0, 0, sign))
+    return tuple(parts)

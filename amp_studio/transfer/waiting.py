@@ -1,0 +1,73 @@
+"""Waiting on a line to a control that is no frame protocol: every wait has an end, silence is told, Ctrl-C ends it at once."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable
+
+from .errors import CancelledError
+from .links.link import Link
+from .progress import SILENT, Progress, quiet
+
+SLICE = 0.1  # seconds between two looks at the cancel event
+SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is notified
+SILENT_EVERY = 1.0
+PERSON = -1
+"""The total of a progress whose stage is a sentence that tells a person what to do at the control."""
+
+OpenLink = Callable[[Callable[[], None]], Link]
+
+
+class Waiting:
+    """Whose progress and cancel event are obeyed just now, and how long nothing has been heard."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self.now = clock
+        self.is_told = True
+        """Whether silence is told; not while a person has been told what is waited for."""
+        self._progress: Progress = quiet
+        self._cancel: threading.Event | None = None
+        self._heard_at = self._notified_at = clock()
+
+    def begin(self, progress: Progress, cancel: threading.Event | None) -> None:
+        """Serve another call."""
+        self._progress, self._cancel = progress, cancel
+        self._heard_at = self._notified_at = self.now()
+
+    def look(self) -> None:
+        """Notify of silence; raises CancelledError where somebody has asked to stop."""
+        if self._cancel is not None and self._cancel.is_set():
+            raise CancelledError("stopped")
+        now = self.now()
+        silent = now - self._heard_at
+        if self.is_told and silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
+            self._notified_at = now
+            self.notify(SILENT, round(silent), 0)
+
+    def heard(self) -> None:
+        """Something that was waited for has come."""
+        was_silent = self._notified_at > self._heard_at
+        self._heard_at = self._notified_at = self.now()
+        if was_silent:
+            self.notify(SILENT, 0, 0)
+
+    def notify(self, stage: str, done: int, total: int) -> None:
+        """Notify whoever waits; that he cannot be notified ends no exchange."""
+        with contextlib.suppress(Exception):
+            self._progress(stage, done, total)
+
+    def ask(self, sentence: str) -> None:
+        """Tell a person what to do at the control."""
+        self.notify(sentence, 0, PERSON)
+
+    def read(self, link: Link, seconds: float) -> bytes:
+        """Return what comes within so many seconds, b"" for nothing; raises LinkError, CancelledError."""
+        end = self.now() + seconds
+        while True:
+            self.look()
+            left = end - self.now()
+            data = link.read(max(0.0, min(left, SLICE)))
+            if data or left <= SLICE:
+                return data

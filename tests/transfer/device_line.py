@@ -1,0 +1,38 @@
+"""A line without a cable between a driver and an emulated device, in a time of its own."""
+
+from __future__ import annotations
+
+from amp_studio.transfer.emulated.line_device import LineDevice
+from amp_studio.transfer.links.link import LinkError
+
+from .null_modem import VirtualClock
+
+
+class DeviceLine:
+    """One line; time passes while the client waits. ``bytes_per_second`` is what it states and carries."""
+
+    def __init__(
+        self, device: LineDevice, clock: VirtualClock, bytes_per_second: float | None = None
+    ) -> None:
+        self.device = device
+        self.clock = clock
+        self.bytes_per_second = bytes_per_second
+        self.sent = bytearray()
+        """All that the client has sent."""
+        self._is_open = True
+
+    def read(self, timeout: float) -> bytes:
+        if not self._is_open:
+            raise LinkError("device line", "the line is closed")
+        answer = self.device.answer()
+        self.clock.sleep(len(answer) / (self.bytes_per_second or 1e6) if answer else timeout)
+        return answer
+
+    def write(self, data: bytes) -> None:
+        if not self._is_open:
+            raise LinkError("device line", "the line is closed")
+        self.sent += data
+        self.device.receive(data)
+
+    def close(self) -> None:
+        self._is_open = False
