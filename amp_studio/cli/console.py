@@ -51,6 +51,7 @@ def progress() -> Callable[[str, int, int], None]:
             return
         if total < 0:  # a sentence that tells the person what to do at the control
             print_notice(stage)
+            return
         if stage == "cut":
             print_notice("the line is cut, trying again …")
             last["silent"] = 0

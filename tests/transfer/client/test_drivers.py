@@ -79,15 +79,16 @@ def test_a_family_without_drivers_is_spoken_to_in_the_house_protocol() -> None:
 
 def test_the_first_protocol_of_a_family_is_the_usual_one(sheet_family: None) -> None:
     assert list(protocols_of("sheet")) == ["sheet", "house"]
-    assert list(protocols_of("")) == ["house", "sheet"]
+    assert list(protocols_of(""))[0] == "house"
+    assert "sheet" in protocols_of("")
     assert isinstance(open_driver("tcp://127.0.0.1:7090?protocol=house", "sheet"), HouseDriver)
     with pytest.raises(ModuleNotFoundError):  # chosen, and loaded only now
         open_driver("tcp://127.0.0.1:7090", "sheet")
 
 
 def test_an_unknown_protocol_is_refused_with_those_there_are(sheet_family: None) -> None:
-    with pytest.raises(ValueError, match=r"^Unknown protocol 'dnc' of num\. Known: house$"):
-        open_driver("tcp://127.0.0.1:7090?protocol=dnc", "num")
+    with pytest.raises(ValueError, match=r"^Unknown protocol 'dnc' of syntec\. Known: house$"):
+        open_driver("tcp://127.0.0.1:7090?protocol=dnc", "syntec")
     with pytest.raises(ValueError, match=r"^Unknown protocol 'sheet' of num"):
         open_driver("tcp://127.0.0.1:7090?protocol=sheet", "num")
 
