@@ -49,7 +49,7 @@ def progress() -> Callable[[str, int, int], None]:
         if stage == "silent":
             silence(done)
             return
-        if total < 0:  # a sentence that tells the person what to do at the control
+        if total < 0:  # what the person is to do at the control, as a sentence
             print_notice(stage)
             return
         if stage == "cut":

@@ -12,7 +12,7 @@ MOST_NAMED = 20
 def state_after_break(
     held: Mapping[str, str], wanted: Mapping[str, str], now: Mapping[str, str]
 ) -> tuple[AtControl, tuple[str, ...]]:
-    """Return what the control contains, and the numbers of what is new already where that is a part of it.
+    """Return what the control contains, and the numbers of what is new already if that is a part of it.
 
     ``held`` is what it contained, ``wanted`` what it was to contain, ``now`` what it was read to contain. Something that
     is neither old nor new is not known for either.

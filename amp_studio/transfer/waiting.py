@@ -1,4 +1,4 @@
-"""Waiting on a line to a control that is no frame protocol: every wait has an end, silence is told, Ctrl-C ends it at once."""
+"""Waiting on a line to a control that is no frame protocol: every wait has an end, silence is shown, Ctrl-C ends it at once."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SLICE = 0.1  # seconds between two looks at the cancel event
 SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is notified
 SILENT_EVERY = 1.0
 PERSON = -1
-"""The total of a progress whose stage is a sentence that tells a person what to do at the control."""
+"""The total of a progress whose stage is a sentence: what a person is to do at the control."""
 
 OpenLink = Callable[[Callable[[], None]], Link]
 
@@ -25,8 +25,8 @@ class Waiting:
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self.now = clock
-        self.is_told = True
-        """Whether silence is told; not while a person has been told what is waited for."""
+        self.shows_silence = True
+        """Whether silence is shown; not while a person knows what is waited for."""
         self._progress: Progress = quiet
         self._cancel: threading.Event | None = None
         self._heard_at = self._notified_at = clock()
@@ -42,7 +42,7 @@ class Waiting:
             raise CancelledError("stopped")
         now = self.now()
         silent = now - self._heard_at
-        if self.is_told and silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
+        if self.shows_silence and silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
             self._notified_at = now
             self.notify(SILENT, round(silent), 0)
 
@@ -59,7 +59,7 @@ class Waiting:
             self._progress(stage, done, total)
 
     def ask(self, sentence: str) -> None:
-        """Tell a person what to do at the control."""
+        """Show a person what to do at the control."""
         self.notify(sentence, 0, PERSON)
 
     def read(self, link: Link, seconds: float) -> bytes:

@@ -1,6 +1,6 @@
 """An emulated control that speaks in its family's own way: one device behind one line.
 
-What it says and obeys is its family's code (``Registration.emulators``); the line, the operator and the faults are here.
+What it sends and obeys is its family's code (``Registration.emulators``); the line, the operator and the faults are here.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ class AcrCard:
         self._echoes = True
 
     def connected(self) -> None:
-        """Nobody connects to a terminal line: the card says nothing, and keeps what it has of a line."""
+        """Nobody connects to a terminal line: the card sends nothing, and keeps what it has of a line."""
         self._out.clear()
 
     def answer(self) -> bytes:

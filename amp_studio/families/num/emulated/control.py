@@ -230,7 +230,7 @@ class NumControl:
             return f"dialogue line: {self._start}"
         self._doing, self._has_begun, self._lines = "reading", False, 0
         self._line.clear()
-        self._out.append(XON)  # assumed: the peripheral is told that it may send
+        self._out.append(XON)  # assumed: Xon shows the peripheral that it may send
         return "(reading)"
 
     def _unload(self) -> str:
@@ -239,7 +239,7 @@ class NumControl:
         return "(sending)"
 
     def _reference(self, number: str) -> str:
-        """Edit the job reference: of the table while a load is held by it, of the table to be unloaded."""
+        """Edit the job reference: of the table while it stops a load, of the table to be unloaded."""
         if self._doing == "asking":
             self._start = f"%{number}{self._start[9:]}"
             return f"dialogue line: {self._start}"

@@ -134,7 +134,7 @@ class ParameterMemory:
         return Header(parameter, first, line)
 
     def split(self, header: Header, data: str) -> list[str]:
-        """Part a data line into its words; a text that is alone has blanks of its own."""
+        """Part a data line into its words; a text that is alone may contain blanks."""
         alone = self.types[header.parameter] == 8 and len(self.words[header.parameter]) == 1
         return [data] if alone else data.split(" ")
 

@@ -35,7 +35,7 @@ class NumTableContent:
             raise ImageError(f"the parameter table of the control: {error}") from None
 
     def encode(self, file: ParameterFile, held: bytes) -> bytes:
-        """Return the table that is held with the values of a file in it; raises ImageError."""
+        """Return the table of the control with the values of a file in it; raises ImageError."""
         present = self.decode(held)
         try:
             before = FORMAT.write(present)

@@ -43,7 +43,7 @@ HELD_WAIT = 300.0  # seconds the control may stop a load: its operator corrects 
 GAP_WAIT = 20.0  # seconds between two characters of a table
 TABLE_WAIT = 900.0  # seconds a table may take to come; the largest takes 420 s at 300 bit/s
 LOAD_WAIT = 3_600.0  # seconds a load may take with all its stops
-HELD_TOLD = 2.0  # seconds a load is stopped until the person is told
+HELD_TOLD = 2.0  # seconds a load is stopped until the person reads why
 SETTLE = 1.0  # seconds in which the control may still refuse the end of a load
 RATE = 11_520.0  # bytes a second on a line that states no rate: Xoff must not come too late
 UNLOADS = 3  # until a table has come undamaged
@@ -64,7 +64,7 @@ HELD_TEXT = (
 
 
 class PeripheralDriver(NumTableContent):
-    """Speaks to a control in utility 5. Every operation is begun by a person; what to press is told by ``progress``."""
+    """Speaks to a control in utility 5. Every operation is begun by a person; what to press comes through ``progress``."""
 
     abilities = Abilities(can_send=True, all_or_nothing=False)
 
@@ -190,7 +190,7 @@ class PeripheralDriver(NumTableContent):
 
     def _one_unload(self, stage: str, seconds: float) -> TableReader:
         reader, waiting = TableReader(), self._waiting
-        waiting.is_told = False
+        waiting.shows_silence = False
         end = waiting.now() + seconds
         try:
             link = self._line()
@@ -201,8 +201,8 @@ class PeripheralDriver(NumTableContent):
                 if not data or (left == 0 and is_coming):
                     raise self._nothing_came(reader, seconds)
                 reader.feed(data)
-                if reader.has_begun and not waiting.is_told:
-                    waiting.is_told, end = True, waiting.now() + TABLE_WAIT
+                if reader.has_begun and not waiting.shows_silence:
+                    waiting.shows_silence, end = True, waiting.now() + TABLE_WAIT
                 waiting.heard()
                 waiting.notify(stage, len(reader.table), 2 * len(reader.table))
             waiting.notify(stage, len(reader.table), len(reader.table))
@@ -210,7 +210,7 @@ class PeripheralDriver(NumTableContent):
             self.close()
             raise ConnectionCutError(f"the line broke: {error.what}") from None
         finally:
-            waiting.is_told = True
+            waiting.shows_silence = True
         return reader
 
     def _nothing_came(self, reader: TableReader, seconds: float) -> TransferError:
@@ -271,14 +271,14 @@ class PeripheralDriver(NumTableContent):
     def _await_ready(self, link: Link) -> None:
         """Wait for the control to ask for the table; one that never does gets it after a while."""
         waiting = self._waiting
-        waiting.is_told = False
+        waiting.shows_silence = False
         end = waiting.now() + READY_WAIT
         try:
             while (left := end - waiting.now()) > 0:
                 if any(byte & 0x7F == XON for byte in waiting.read(link, left)):
                     return
         finally:
-            waiting.is_told = True
+            waiting.shows_silence = True
             waiting.heard()
 
     def _listen(self, link: Link, seconds: float) -> None:
