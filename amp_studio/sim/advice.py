@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import cached_property
 
 from .law import AxisLaw, Source
 from .linear import LinearModel, Margins, axis_model, linear_model
@@ -41,6 +42,10 @@ INERTIAS = (1.0 / 16.0, 16.0)
 STEPS = 8
 """Steps to each of them."""
 
+CHATTER = (
+    "Inside of its backlash the motor moves without its load, and this loop is too fast for the motor alone: it is not stable there,"
+    " and chatters to and fro in the gap."
+)
 POSITION = ("position_gain",)
 VELOCITY = (
     "velocity_rate",
@@ -54,28 +59,36 @@ VELOCITY = (
 """Figures in `AxisLaw.sources`: gains of the position loop, of the velocity loop or of a damping term."""
 
 
-@dataclass(frozen=True)
 class Loops:
-    """How an axis is damped: margins of the velocity loop (None without one) and of the position loop, damping ratio."""
+    """How an axis is damped: its loops, each computed when it is asked for."""
 
-    inner: Margins | None
-    outer: Margins
-    damping: float
-    inner_stable: bool
-    stable: bool
+    def __init__(self, axis: AxisLaw, points: int = POINTS) -> None:
+        self._models, self._points = axis_model(axis), points
 
-    @classmethod
-    def of(cls, axis: AxisLaw, points: int = POINTS) -> Loops:
-        """Return the loops of an axis."""
-        models = axis_model(axis)
-        outer = models.cut.margins(points)
-        return cls(
-            models.inner.margins(points) if models.inner else None,
-            outer,
-            _damping(models.whole, outer.phase_frequency),
-            models.inner is None or models.inner.is_stable(drift=True),
-            models.whole.is_stable(),
-        )
+    @cached_property
+    def stable(self) -> bool:
+        """Whether the axis is stable."""
+        return self._models.whole.is_stable()
+
+    @cached_property
+    def inner_stable(self) -> bool:
+        """Whether the velocity loop alone is stable."""
+        return self._models.inner is None or self._models.inner.is_stable(drift=True)
+
+    @cached_property
+    def inner(self) -> Margins | None:
+        """Margins of the velocity loop; None without one."""
+        return self._models.inner.margins(self._points) if self._models.inner else None
+
+    @cached_property
+    def outer(self) -> Margins:
+        """Margins of the position loop."""
+        return self._models.cut.margins(self._points)
+
+    @cached_property
+    def damping(self) -> float:
+        """Damping ratio."""
+        return _damping(self._models.whole, self.outer.phase_frequency)
 
     def inner_sound(self, phase: float = INNER[0], gain: float = INNER[1]) -> bool:
         """Return whether the velocity loop is stable with these margins."""
@@ -83,8 +96,9 @@ class Loops:
 
     def sound(self, phase: float = LEAST[0], gain: float = LEAST[1], damping: float = LEAST[2]) -> bool:
         """Return whether the axis is stable with these margins and this damping ratio."""
-        inner = self.inner_sound(min(phase, INNER[0]), min(gain, INNER[1]))
-        return self.stable and inner and _keeps(self.outer, phase, gain) and self.damping >= damping
+        if not (self.stable and self.inner_sound(min(phase, INNER[0]), min(gain, INNER[1]))):
+            return False
+        return _keeps(self.outer, phase, gain) and self.damping >= damping
 
 
 def _keeps(margins: Margins, phase: float, gain: float) -> bool:
@@ -106,7 +120,7 @@ def recommend(trial: Trial, scenario: str) -> tuple[Recommendation, ...]:
 
     While figures of the machine are assumed no gain is raised: a wrong guess would cost a machine.
     """
-    loops = Loops.of(trial.axis)
+    loops = Loops(trial.axis)
     if not loops.sound():
         return tuple(_sounder(trial, loops))
     ample = _keeps(loops.outer, *AMPLE) and loops.outer.gain is not None
@@ -117,6 +131,7 @@ def recommend(trial: Trial, scenario: str) -> tuple[Recommendation, ...]:
 
 def _sounder(trial: Trial, loops: Loops) -> Iterator[Recommendation]:
     """Yield the least change that makes the axis sound; where none does, the least that gives it some margin."""
+    tried = _Tried(trial)
     for aim in (LEAST, *LESS):
         if loops.inner_sound(min(aim[0], INNER[0]), min(aim[1], INNER[1])) and loops.sound(*aim):
             return
@@ -133,7 +148,7 @@ def _sounder(trial: Trial, loops: Loops) -> Iterator[Recommendation]:
                 else found.sound(*aim)
             )
 
-        shares = [(share, group) for group in groups if (share := _boundary(trial, group, good))]
+        shares = [(share, group) for group in groups if (share := _boundary(tried, group, good))]
         if shares:
             share, group = min(shares, key=lambda found: abs(math.log(found[0])) * len(found[1]))
             yield from _changed(trial, loops, group, share, _why(loops, trial.axis))
@@ -144,32 +159,50 @@ def _faster(trial: Trial, loops: Loops) -> Iterator[Recommendation]:
     """Yield the highest position gain that keeps ample margins."""
     for share in (8.0, 4.0, 2.0, math.sqrt(2.0), WORTH):
         axis = _with(trial, POSITION, share)
-        if axis is not None and Loops.of(axis).sound(*KEPT):
+        if axis is not None and Loops(axis).sound(*KEPT):
             why = f"The position loop has a reserve: {_margins(loops.outer)}"
             yield from _changed(trial, loops, POSITION, share, why)
             return
 
 
-def _boundary(trial: Trial, names: Sequence[str], good: Callable[[Loops], bool]) -> float | None:
+class _Tried:
+    """The loops of an axis with a share of some of its gains, each computed once."""
+
+    def __init__(self, trial: Trial) -> None:
+        self._trial, self._known = trial, dict[tuple[Sequence[str], float], Loops | None]()
+        self.bases = (0.5,) if trial.axis.assumed else (0.5, 2.0)
+        """Ways to change a gain: down, up; up on a machine that is known alone."""
+
+    def loops(self, names: Sequence[str], share: float) -> Loops | None:
+        """Return the loops; None where a gain has no value or would be out of range."""
+        if (names, share) not in self._known:
+            axis = _with(self._trial, names, share)
+            self._known[names, share] = None if axis is None else Loops(axis)
+        return self._known[names, share]
+
+
+def _boundary(tried: _Tried, names: Sequence[str], good: Callable[[Loops], bool]) -> float | None:
     """Return the factor nearest to 1 that makes the gains good, found by doubling and halving; None for none."""
     best: list[float] = []
-    for base in (0.5,) if trial.axis.assumed else (0.5, 2.0):
+    for base in tried.bases:
         for n in range(1, FURTHEST + 1):
-            axis = _with(trial, names, base**n)
-            if axis is None:
+            found = tried.loops(names, base**n)
+            if found is None:
                 break
-            if good(Loops.of(axis)):
-                best.append(_nearest(trial, names, good, base, n))
+            if good(found):
+                best.append(_nearest(tried, names, good, base, n))
                 break
     return min(best, key=lambda share: abs(math.log(share))) if best else None
 
 
-def _nearest(trial: Trial, names: Sequence[str], good: Callable[[Loops], bool], base: float, n: int) -> float:
+def _nearest(
+    tried: _Tried, names: Sequence[str], good: Callable[[Loops], bool], base: float, n: int
+) -> float:
     far, near = float(n), float(n - 1)
     for _ in range(HALVINGS):
         middle = 0.5 * (far + near)
-        axis = _with(trial, names, base**middle)
-        if axis is not None and good(Loops.of(axis)):
+        found = tried.loops(names, base**middle)
+        if found is not None and good(found):
             far = middle
         else:
             near = middle
@@ -207,7 +240,7 @@ def _changed(
     axis = _with(trial, names, share)
     if axis is None:
         return
-    after = Loops.of(axis)
+    after = Loops(axis)
     inner = not loops.inner_sound() and after.inner is not None
     gives = _margins(after.inner if inner and after.inner else after.outer)
     assumed = ", on the assumed machine" if trial.axis.assumed else ""
@@ -308,14 +341,41 @@ def recommendations(
 
     The family's goes before.
     """
+    chatter = (CHATTER,) if chatters_in_gap(trial.axis) else ()
+    if _mends(trial, own):  # lower gains besides would work against it
+        return tuple(own), chatter
     named = {each.parameter for each in own}
-    found = recommend(trial, scenario)
-    loops = Loops.of(trial.axis)
+    found, loops = recommend(trial, scenario), Loops(trial.axis)
     if found or loops.sound():
-        return (*own, *(each for each in found if each.parameter not in named)), ()
+        return (*own, *(each for each in found if each.parameter not in named)), chatter
     raised = (
         " without raising a gain, which is not recommended on an assumed machine"
         if trial.axis.assumed
         else ""
     )
-    return tuple(own), (f"{_why(loops, trial.axis)}. No change of the gains alone gives it enough{raised}.",)
+    why = f"{_why(loops, trial.axis)}. No change of the gains alone gives it enough{raised}."
+    return tuple(own), (why, *chatter)
+
+
+def _mends(trial: Trial, own: Sequence[Recommendation]) -> bool:
+    """Return whether the family's own recommendations make an axis sound that is not."""
+    values = {
+        each.parameter: each.value
+        for each in own
+        if (old := trial.value(each.parameter)) and old.unit == each.unit
+    }
+    if not values or Loops(trial.axis).stable:
+        return False
+    axis = trial.bound(values)
+    return axis is not None and Loops(axis).sound()
+
+
+def chatters_in_gap(axis: AxisLaw) -> bool:
+    """Return whether a motor without its load, as it is inside of the backlash, is in a loop that is not stable."""
+    machine = axis.machine
+    if machine.backlash == 0.0 or machine.velocity_per_output > 0.0:
+        return False
+    light = machine.acceleration_per_output * (1.0 + machine.coupling[2])
+    alone = replace(machine, acceleration_per_output=light, backlash=0.0, resonance=0.0, load_sensor=False)
+    loops = Loops(replace(axis, machine=alone))
+    return not (loops.inner_stable and loops.stable)

@@ -148,6 +148,8 @@ class AxisLaw:
     """predict(feedrate in u/s) -> figures by name; ``steady_following_error`` and others that the motion is compared with."""
     circle_feedrate: Callable[[float], float | None] = lambda _radius: None
     """circle_feedrate(radius in u) -> the highest feedrate in u/s that the control allows on a circle; None for no limit."""
+    undamped: str = ""
+    """What to do first if the loop is not stable, a sentence; "" where the law knows nothing better than lower gains."""
     limits: Mapping[str, float] = field(default_factory=dict)
     """Limits of the following error in u, to draw beside the curves."""
     sources: Mapping[str, Source] = field(default_factory=dict)

@@ -63,6 +63,10 @@ class LinearModel(SampledLoop):
 
     def poles(self) -> Response:
         """Return the poles of the closed loop in the z plane, the slowest first."""
+        return self._poles
+
+    @cached_property
+    def _poles(self) -> Response:
         found = np.linalg.eigvals(self.closed).astype(np.complex128)
         return found[np.argsort(-np.abs(found))]
 

@@ -14,6 +14,10 @@ from .errors import SimulationError
 
 CONTACT = 150.0
 """Hz: resonance of motor and load in contact, of an axis that has backlash but no given resonance; an assumption."""
+CONTACT_DAMPING = 1.0
+"""Damping ratio of that contact: it adds no oscillation of its own; an assumption."""
+RESONANCE_DAMPING = 0.05
+"""Damping ratio of a resonance that is given without one; an assumption."""
 
 LARGEST = {
     "acceleration_per_output": 1e12,
@@ -55,8 +59,8 @@ class Machine:
     """u between both directions."""
     resonance: float = 0.0
     """Hz: motor and load against each other; 0 for one rigid mass."""
-    damping: float = 0.05
-    """Damping ratio of the resonance."""
+    damping: float | None = None
+    """Damping ratio of motor and load against each other; None for that of a contact or of a resonance."""
     gravity: float = 0.0
     """Torque that balances the weight of the axis; a positive one acts in the negative direction."""
     brake: float = 0.0
@@ -86,6 +90,8 @@ class Machine:
 
     def __post_init__(self) -> None:
         for field in fields(self):
+            if getattr(self, field.name) is None:
+                continue
             value = float(getattr(self, field.name))
             if math.isnan(value) or (math.isinf(value) and "limit" not in field.name):
                 raise SimulationError(f"{words(field.name)} of the machine is {value:g}; it must be finite")
@@ -112,11 +118,21 @@ class Machine:
         return self.resonance > 0.0 or self.backlash > 0.0
 
     @property
+    def coupling(self) -> tuple[float, float, float]:
+        """Frequency (Hz) and damping ratio of motor and load against each other, inertia of the load / inertia of the motor."""
+        usual = RESONANCE_DAMPING if self.resonance > 0.0 else CONTACT_DAMPING
+        return (
+            self.resonance or CONTACT,
+            usual if self.damping is None else self.damping,
+            self.inertia_ratio or INERTIA_ASSUMED,
+        )
+
+    @property
     def fastest(self) -> float:
         """The fastest rate in 1/s that the physics step has to resolve."""
         rates = [self.acceleration_per_output * self.viscous_friction]
         if self.two_masses:
-            rates.append(2.0 * math.pi * (self.resonance or CONTACT))
+            rates.append(2.0 * math.pi * self.coupling[0])
         if self.spring > 0.0:
             rates.append(math.sqrt(self.acceleration_per_output * self.spring))
         if self.velocity_per_output > 0.0:
@@ -158,14 +174,14 @@ SIZE = 37
 def machine_array(machine: Machine, step: float) -> list[float]:
     """Return the figures as the plant uses them with physics steps of ``step`` s; indices as above."""
     m = [0.0] * SIZE
-    ratio = machine.inertia_ratio or INERTIA_ASSUMED
+    frequency, damping_ratio, ratio = machine.coupling
     own, total = machine.motor_friction, machine.acceleration_per_output
     motor, load = total * (1.0 + ratio), total * (1.0 + ratio) / ratio
     m[KEEP : STATIC + 1] = _mass(machine, total, 1.0, step)
     m[MOTOR : MOTOR + STATIC + 1] = _mass(machine, motor, own, step)
     m[LOAD : LOAD + STATIC + 1] = _mass(machine, load, 1.0 - own, step)
-    rate = 2.0 * math.pi * (machine.resonance or CONTACT)
-    damping = 2.0 * machine.damping * rate / (motor + load)
+    rate = 2.0 * math.pi * frequency
+    damping = 2.0 * damping_ratio * rate / (motor + load)
     m[STIFFNESS], m[HALF_GAP] = rate * rate / (motor + load), 0.5 * machine.backlash
     m[DAMPING] = damping / (1.0 + 0.5 * step * (motor + load) * damping)
     m[MOTOR_KICK], m[LOAD_KICK], m[ELASTIC_KICK] = (0.5 * step * each for each in (motor, load, motor + load))

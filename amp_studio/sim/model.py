@@ -7,6 +7,7 @@ from dataclasses import replace
 from .axis_parameters import AxisParameters
 from .errors import SimulationError
 from .law import AxisLaw
+from .machine import Machine
 from .rounding import shown
 
 AT_SPEED = 60.0 / 1000.0
@@ -91,7 +92,26 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
             raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
     assumed = {figure: why for figure, why in axis.assumed.items() if figure not in changes}
     machine = replace(axis.machine, **changes)  # type: ignore[arg-type]  # none of them is the flag
+    if machine.two_masses:
+        machine = _coupled(machine, assumed)
     return replace(axis, machine=machine, assumed=assumed)
+
+
+def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:
+    """Return a machine of two masses with the figures that it is simulated with; those that are not given go to ``assumed``."""
+    frequency, damping, ratio = machine.coupling
+    if machine.resonance == 0.0:
+        assumed["resonance"] = (
+            "Backlash without a resonance: motor and load in contact are taken as that stiff."
+        )
+        assumed["damping"] = "The contact adds no oscillation of its own."
+    if machine.damping is None and machine.resonance > 0.0:
+        assumed["damping"] = "The damping ratio of the resonance is not given."
+    if machine.damping is not None:
+        assumed.pop("damping", None)
+    if machine.inertia_ratio == 0.0:
+        assumed["inertia_ratio"] = "Motor and load are taken as equal masses."
+    return replace(machine, resonance=frequency, damping=damping, inertia_ratio=ratio)
 
 
 def assumptions(axis: AxisLaw) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .errors import SimulationError
-from .machine import CONTACT, INERTIA_ASSUMED, Machine
+from .machine import Machine
 
 Matrix = npt.NDArray[np.float64]
 
@@ -72,12 +72,12 @@ def plant_of(machine: Machine) -> Plant:
     motor, motor_speed, load, load_speed, torque, error_sum = range(6)
     a, b = np.zeros((6, 6)), np.zeros((6, 1))
     acceleration = machine.acceleration_per_output
-    ratio = machine.inertia_ratio or INERTIA_ASSUMED
+    frequency, ratio_of_damping, ratio = machine.coupling
     push = {motor_speed: acceleration * (1.0 + ratio), load_speed: acceleration * (1.0 + ratio) / ratio}
     a[motor, motor_speed] = a[load, load_speed] = 1.0
     if machine.two_masses:
-        both, rate = sum(push.values()), 2.0 * math.pi * (machine.resonance or CONTACT)
-        stiffness, damping = rate**2 / both, 2.0 * machine.damping * rate / both
+        both, rate = sum(push.values()), 2.0 * math.pi * frequency
+        stiffness, damping = rate**2 / both, 2.0 * ratio_of_damping * rate / both
         own = {motor_speed: machine.motor_friction, load_speed: 1.0 - machine.motor_friction}
         for speed, sign in ((motor_speed, -1.0), (load_speed, 1.0)):
             a[speed, motor] += sign * push[speed] * stiffness

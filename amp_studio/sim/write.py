@@ -64,7 +64,8 @@ def trace_text(trace: Trace) -> str:
     width = max(len(name) for name in trace.result)
     for name, (value, unit) in trace.result.items():
         words = name.replace("_", " ").ljust(width)
-        lines.append(f"  {words}  {'not reached' if value is None else shown(value, unit, 6)}")
+        none = "not steady" if name.startswith("steady") else "not reached"
+        lines.append(f"  {words}  {none if value is None else shown(value, unit, 6)}")
     for heading, entries in (
         (
             "Recommendations",

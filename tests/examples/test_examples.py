@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -163,3 +164,10 @@ def test_it_can_be_printed(example: Path, tmp_path: Path) -> None:
 def test_nothing_but_the_file_its_project_and_its_readme_is_shipped(example: Path) -> None:
     shipped = {p.name for p in example.parent.iterdir() if not p.name.startswith(".")}  # not: open just now
     assert shipped == {example.name, "project.yaml", "README.md"}
+
+
+def test_the_press_runs_its_cam_without_a_fault(machine: Callable[[str], ParameterFile]) -> None:
+    # Its points change the speed by 31 counts in a scan, below the 40 of R2057 (4-9).
+    trace = simulate(machine("57c422b-label-press"), "cam", "Y")
+    assert not trace.alarms
+    assert trace.result["points"][0] == 32.0

@@ -130,6 +130,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         ramps={"linear": Ramp("linear", ramp), "none": Ramp()},
         monitors=loop.MONITORS,
         alarms={1: AlarmText("EXCESS ERROR", _excess(excess))},
+        undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
         sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
         assumptions=tuple(notes),
@@ -144,6 +145,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         rest_band=_rest_band(p, whole),
         predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)},
     )
+
+
+UNDAMPED = "D Gain is 0, as in a new file (page 59): nothing damps an axis in torque mode. Set D Gain first, then P Gain (page 115, steps 8 to 10)"
 
 
 def _excess(band: float) -> str:
@@ -281,8 +285,9 @@ def _damping(axis: AxisLaw) -> Sequence[Recommendation]:
             D_GAIN,
             wanted,
             "Vs/count",
-            "without D Gain the axis rings in every ramp (page 115); this is the aperiodic limit on the assumed machine. Its"
-            " price: every count of the encoder is heard in the output, and too much makes the motor buzz",
+            "D Gain is 0, as in a new file (page 59), and nothing else damps an axis in torque mode; this is the aperiodic limit on"
+            " the assumed machine (page 115).",
+            "Every count of the encoder is heard in the output, and too much makes the motor buzz.",
         ),
     )
 
@@ -300,8 +305,8 @@ def _feed_forward(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
             VEL_FFWD,
             float(f"{wanted:.3g}"),
             "Vs/count",
-            f"the axis is {abs(pulses):.3g} pulses {'ahead' if pulses < 0.0 else 'behind'} at this speed (page 115). Its price:"
-            " the part that is dry friction is paid back at other speeds",
+            f"The axis is {abs(pulses):.3g} pulses {'ahead' if pulses < 0.0 else 'behind'} at this speed (page 115).",
+            "The part that is dry friction is paid back at other speeds.",
         ),
     )
 

@@ -90,10 +90,10 @@ def gain_notes(
         notes.append(
             "The velocity loop is not stable: "
             + (
-                f"its rate is {shown(loop, '1/s', 3)}, and with a lag of {shown(1000.0 * lag, 'ms', 2)} (assumed) it oscillates from"
+                f"its rate is {shown(loop, '1/s', 3)}, and with a lag of {shown(1000.0 * lag, 'ms', 2)} it oscillates from"
                 f" {shown(highest, '1/s', 3)} on (A-9)."
                 if highest > 0.0
-                else f"the integral gain is too high for any proportional gain with a lag of {shown(1000.0 * lag, 'ms', 2)} (assumed; A-10)."
+                else f"the integral gain is too high for any proportional gain with a lag of {shown(1000.0 * lag, 'ms', 2)} (A-10)."
             )
         )
     if motor[:2] in ODD_FRAMES:

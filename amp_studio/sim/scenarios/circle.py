@@ -211,7 +211,13 @@ def _unstable(axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearMo
         if not model.is_stable():
             gain = model.margins().gain
             by = f": the gain is {shown(-gain, 'dB', 3)} too high" if gain and gain < 0.0 else ""
-            return (Alarm("UNSTABLE", 0.0, f"The position loop of axis {each.axis} is not stable{by}."),)
+            return (
+                Alarm(
+                    "UNSTABLE",
+                    0.0,
+                    f"The position loop of axis {each.axis} is not stable{by}.{' ' if each.undamped else ''}{each.undamped}",
+                ),
+            )
     return ()
 
 

@@ -41,7 +41,7 @@ def alarms_of(
             Alarm(
                 "UNSTABLE",
                 0.0 if not stable else moment,
-                f"The loop of axis {axis.axis} is not stable{_margins(margins)}",
+                f"The loop of axis {axis.axis} is not stable{_margins(margins)}{'. ' if axis.undamped else ''}{axis.undamped}",
             )
         )
     if motion.stop != 0 and motion.stop != int(DIVERGED):

@@ -246,7 +246,7 @@ def _unstable(loop: _Loop) -> str:
         if margins.gain and margins.gain < 0.0
         else ""
     )
-    return f"The {'velocity' if inside else 'position'} loop is not stable: {grows} {double}{by}. It was not swept."
+    return f"The {'velocity' if inside else 'position'} loop is not stable: {grows} {double}{by}. It was not swept.{' ' if loop.axis.undamped else ''}{loop.axis.undamped}"
 
 
 def _falls(curve: Series, size: Series, level: float) -> float | None:

@@ -40,6 +40,8 @@ LONGEST_WAIT = 12.0
 """Time constants of the position loop after the end of the command, after which an axis is not waited for any more."""
 LONGEST_SETTLING = 5.0
 """s more than that."""
+LONG_STRETCH = 1e5
+"""s of a move that reaches its feedrate by any ramp."""
 COAST = 2.0
 """s in which an axis is watched after an alarm."""
 RUN_OUT = (
@@ -93,7 +95,7 @@ def _move(axis: AxisLaw, settings: Settings) -> Move:
     if distance == 0.0:
         raise SimulationError("move.distance is 0; it must not be 0", "move.distance")
     if distance is None:
-        ramps = end_of(move(feedrate, feedrate, ramp, count)) - 1.0
+        ramps = end_of(move(LONG_STRETCH * feedrate, feedrate, ramp, count)) - LONG_STRETCH
         distance = rounded_up(feedrate * (max(ramps, 0.0) + 2.0 * STEADY_LAGS / axis.position_rate), 2)
     if not (math.isfinite(distance) and abs(distance) / feedrate < math.inf):
         raise SimulationError("The move is too long to be simulated. Give move.distance", "move.distance")

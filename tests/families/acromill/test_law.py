@@ -179,6 +179,22 @@ def volts(io: dict[int, float], s: list[float] | None = None, **p: float) -> flo
     return signals[OUTPUT] if signals[STOP] == 0.0 else -99.0
 
 
+def test_a_new_file_says_that_nothing_damps_it_and_that_d_gain_does() -> None:
+    # Page 59: D Gain is delivered as 0; page 115 sets it before P Gain.
+    file = file_of(servo__d_gain=Value(0.0, "Vs/count"), servo__p_gain=Value(0.00244, "V/count"))
+    unstable = simulate(file, "step", "X", system="metric")
+    assert unstable.alarms[0].code == "UNSTABLE"
+    assert "D Gain is 0, as in a new file (page 59)" in unstable.alarms[0].message
+    for scenario in ("frequency", "circle"):
+        assert "Set D Gain first" in simulate(file, scenario, "X").alarms[0].message
+    (wanted,) = unstable.recommendations  # no lower P Gain beside it
+    assert wanted.parameter == "servo.d_gain"
+    assert wanted.price.startswith("Every count")
+    assert not any("No change of the gains" in text for text in unstable.assumptions)
+    file.set((wanted.parameter, "X"), Value(wanted.value, wanted.unit))
+    assert not simulate(file, "step", "X").alarms
+
+
 def test_every_gain_has_its_printed_unit() -> None:
     # Pages 59 and 113: volts for a pulse, a pulse/s, a pulse/s².
     assert volts({COMMAND: 8.0, POSITION: 5.0}, P_GAIN=0.5) == pytest.approx(1.5)
