@@ -8,6 +8,7 @@ the figures of an axis, bound from a file); the rest knows no family: the machin
 
 from __future__ import annotations
 
+from . import one_thread as one_thread
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .errors import SimulationError
 from .law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source, law_of, simulated_families

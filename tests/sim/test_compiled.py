@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from types import FunctionType, SimpleNamespace
@@ -77,3 +78,13 @@ def test_machine_code_that_can_be_stored_nowhere_is_used_all_the_same(
     monkeypatch.setitem(sys.modules, "numba", numbers)
     assert compiled(with_globals(sample), None).__name__.startswith("run_")
     assert stored == [True, False]
+
+
+def test_linear_algebra_has_one_thread() -> None:
+    # Threads that wait for each other made 5 s of 0.7 s on a busy machine.
+    script = "import amp_studio.sim, os; print(os.environ['OPENBLAS_NUM_THREADS'])"
+    free = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, env=free
+    )
+    assert done.stdout == "1\n"
