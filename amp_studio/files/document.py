@@ -19,7 +19,7 @@ from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
 from .parameter_file import Change, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
-from .storage import open_file, read_content, read_stored, save_file
+from .storage import Opened, open_file, read_content, read_stored, save_file
 
 _TYPED = ("name", "application", "revision", "notes")
 """What a person types of the file itself."""
@@ -164,6 +164,12 @@ class Document:
         twin = self.file.copy()
         twin.header.name = text_of_name(path.stem)
         return Document.create(twin, path)
+
+    def acknowledge(self, on_disk: Opened) -> None:
+        """Take the version on disk, which another program has written, for known: the next save replaces it, and it becomes the backup."""
+        self.digest = on_disk.digest
+        self.saved = dict(on_disk.file.values)
+        self._saved_rest = (replace(on_disk.file.header), dict(on_disk.file.forced))
 
     # -- history ---------------------------------------------------------------
 

@@ -19,7 +19,7 @@ __all__ = ["main"]
 
 
 def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
-    """Open the desktop program, on a file if one is named; ``emulate`` starts an emulated control. Returns the exit code."""
+    """Open the desktop program, on files if some are named, else on those of the last time; ``emulate`` starts an emulated control. Returns the exit code."""
     from PySide6.QtWidgets import QApplication
 
     from .main_window import MainWindow
@@ -31,8 +31,10 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     window = MainWindow()
     sys.excepthook = _hook(window)
     window.show()
-    if arguments:
-        window.open_first(Path(arguments[0]))
+    for argument in arguments:
+        window.open_first(Path(argument))
+    if not arguments:
+        window.files.restore_session()
     if emulate:
         window.control.start_emulated()
     return int(application.exec())

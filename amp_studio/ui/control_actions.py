@@ -184,12 +184,12 @@ class ControlActions:
             return
         from .compare_dialog import CompareDialog
 
-        CompareDialog(workspace, present.values, "the control", self.window.go_to, self.window).show()
+        page = self.window.page
+        assert page is not None
+        CompareDialog(workspace, present.values, "the control", page.go_to, self.window).show()
 
     def upload(self) -> None:
         """Read the parameters of the control, ask about each value out of range, and save them as a new file."""
-        if not self.window.may_leave():
-            return
         address = self.exchanges.ask_address("Upload")
         if address is None:
             return

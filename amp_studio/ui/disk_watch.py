@@ -1,54 +1,47 @@
-"""Notices when another program changes the open file on disk."""
+"""Notices when another program changes an open file on disk, and offers what can be done without losing anything."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
-from .questions import ask, show_message
+from .file_page import FilePage
+from .questions import ask
 from .settings import is_there
-from .studio_window import StudioWindow
-from .workspace import Workspace
 
 SETTLE_MS = 250
 """Milliseconds to wait, as a program may write a file in several steps."""
 
 
 class DiskWatch(QObject):
-    """Watches one file, and its folder, because a rename over a file ends the watch of the file itself."""
+    """Watches the file of one page, and its folder, because a rename over a file ends the watch of the file itself.
 
-    def __init__(self, window: StudioWindow, reload: Callable[[Path], object]) -> None:
-        super().__init__(window)
-        self._window, self._reload = window, reload
-        self._workspace: Workspace | None = None
+    ``compare`` shows the file on disk beside the open one; ``reload`` opens it in place of the open one.
+    """
+
+    def __init__(
+        self, page: FilePage, compare: Callable[[FilePage], object], reload: Callable[[FilePage], object]
+    ) -> None:
+        super().__init__(page)
+        self._page, self._compare, self._reload = page, compare, reload
         self._refused: str | None = None
         self._watcher = QFileSystemWatcher(self)
+        path = page.workspace.path
+        self._watcher.addPaths([str(path), str(path.parent)])
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._look)
         self._watcher.fileChanged.connect(self._wait)
         self._watcher.directoryChanged.connect(self._wait)
-
-    def follow(self, workspace: Workspace | None) -> None:
-        """Watch the file of a workspace, or nothing."""
-        self._timer.stop()
-        watched = self._watcher.files() + self._watcher.directories()
-        if watched:
-            self._watcher.removePaths(watched)
-        self._workspace, self._refused = workspace, None
-        if workspace is not None:
-            self._watcher.addPaths([str(workspace.path), str(workspace.path.parent)])
+        page.conflict.connect(self.offer)
 
     def _wait(self, _: str) -> None:
         self._timer.start(SETTLE_MS)
 
     def _look(self) -> None:
-        workspace = self._workspace
-        if workspace is None:
-            return
+        workspace = self._page.workspace
         if workspace.is_saving or QApplication.activeModalWidget() is not None:
             self._timer.start(4 * SETTLE_MS)
             return
@@ -57,12 +50,30 @@ class DiskWatch(QObject):
         state = workspace.disk_state()
         if state is None or state == self._refused:
             return
-        self._refused = state  # asked once for each change
+        self._refused = state  # offered once for each change
         if state == "removed":
-            show_message(self._window, "File removed", f"{workspace.path.name} was removed or renamed by another program.\n\n"
-                 "Your work is still open. Save it under a new name.")  # fmt: skip
-            return
-        lost = " Your unsaved changes will be lost." if workspace.is_dirty else ""
-        question = f"{workspace.path.name} was changed by another program.\n\nReload it?{lost}"
-        if ask(self._window, "Changed on disk", question, "&Reload", "Keep Open Version") == "&Reload":
-            self._window.guarded(lambda: self._reload(workspace.path), "Open")
+            self._page.bar.say(
+                f"{workspace.path.name} was removed or renamed by another program. Your work is still open: "
+                "save it under a new name.",
+                "warning",
+            )
+        else:
+            self.offer()
+
+    def offer(self) -> None:
+        """Say that the file on disk is another one now, with a button for each way on."""
+        name, dirty = self._page.workspace.path.name, self._page.workspace.is_dirty
+        compare, reload = ("&Compare…", lambda: self._compare(self._page)), ("&Reload", self._ask_reload)
+        if dirty:
+            text = f"{name} was changed by another program while you have unsaved changes. Compare both, then save."
+            self._page.bar.say(text, "warning", compare, reload)
+        else:
+            self._page.bar.say(f"{name} was changed by another program.", "warning", reload, compare)
+
+    def _ask_reload(self) -> None:
+        workspace = self._page.workspace
+        if workspace.is_dirty:
+            question = f"Reload {workspace.path.name}? Your unsaved changes will be lost."
+            if ask(self._page, "Reload", question, "&Reload", "Cancel", default=1) != "&Reload":
+                return
+        self._reload(self._page)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QStyle
@@ -11,6 +13,7 @@ from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, calculators, suppress
 
+from .file_page import FilePage
 from .questions import ask, show_message
 from .studio_window import StudioWindow
 from .workspace import Workspace
@@ -65,6 +68,11 @@ class EditActions:
         assert workspace is not None
         return workspace
 
+    def _page(self) -> FilePage:
+        page = self.window.page
+        assert page is not None
+        return page
+
     def _here(self) -> Address:
         address = self.window.selected()
         if address is None:
@@ -74,8 +82,11 @@ class EditActions:
     # -- one value -------------------------------------------------------------
 
     def commit(self, address: Address, text: str) -> bool:
+        """Set a value of the file in front from typed text."""
+        return self.commit_to(self._workspace(), address, text)
+
+    def commit_to(self, workspace: Workspace, address: Address, text: str) -> bool:
         """Set a value from typed text; asks before a value out of range is forced. Returns whether it was set."""
-        workspace = self._workspace()
         name = describe(workspace.file, address)
         try:
             value = workspace.read(address, text)
@@ -85,16 +96,15 @@ class EditActions:
         try:
             workspace.edit(name, {address: value})
         except RangeError as error:
-            return self._ask_force(address, value, str(error))
+            return self._ask_force(workspace, address, value, str(error))
         return True
 
-    def _ask_force(self, address: Address, value: Value | None, problem: str) -> bool:
+    def _ask_force(self, workspace: Workspace, address: Address, value: Value | None, problem: str) -> bool:
         force = "&Force and Mark"
         text = f"{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
         icon = QMessageBox.Icon.Warning
         if ask(self.window, "Out of range", text, force, "Cancel", default=1, icon=icon) != force:
             return False
-        workspace = self._workspace()
         name = describe(workspace.file, address)
         return workspace.edit(f"{name} (forced)", {address: value}, force=f"on {now()} in the studio")
 
@@ -151,8 +161,9 @@ class EditActions:
         """Open quick edit by number."""
         from .quick_edit import QuickEdit
 
-        assert self.window.table is not None
-        QuickEdit(self.window.table, self.commit, self.window.go_to, self.window).show()
+        page = self._page()
+        commit = partial(self.commit_to, page.workspace)
+        QuickEdit(page.table, commit, page.go_to, self.window).show()
 
     def calculator(self) -> None:
         """Open the calculators, with the formulas of the selected parameter first."""
@@ -161,14 +172,15 @@ class EditActions:
         workspace = self._workspace()
         if not calculators(workspace.file.schema.family.family):
             raise ValueError(f"No formulas are published for {workspace.file.schema.family.name}.")
-        CalculatorDialog(workspace, self.window.selected(), self.commit, self.window).show()
+        commit = partial(self.commit_to, workspace)
+        CalculatorDialog(workspace, self.window.selected(), commit, self.window).show()
 
     def tables(self) -> None:
         """Open the manual's tables, with those of the selected parameter first."""
         from .tables_dialog import TablesDialog
 
         dialog = TablesDialog(self._workspace(), self.window.selected(), self.window)
-        dialog.linked.connect(self.window.follow)
+        dialog.linked.connect(self._page().follow)
         dialog.show()
 
     def _find(self) -> None:
@@ -196,7 +208,7 @@ class EditActions:
         """Open the explanation of a finding."""
         from .finding_dialogs import WhyDialog
 
-        WhyDialog(self._workspace(), finding, self.window.go_to, self.window).show()
+        WhyDialog(self._workspace(), finding, self._page().go_to, self.window).show()
 
     def suppress(self, finding: Finding) -> None:
         """Suppress a finding; asks for a reason and a name."""

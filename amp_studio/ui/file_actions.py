@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,9 +27,9 @@ from amp_studio.files import (
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import EditLock
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address
 from amp_studio.validate import Validator, rules_beside
 
+from .file_page import FilePage
 from .format_actions import FormatActions
 from .questions import ask
 from .settings import is_there
@@ -46,11 +47,15 @@ CheckedDocument = tuple[Document, Validator]
 """A document, its validator (already run), and the errors in the rules file beside it."""
 
 
+Show = Callable[[Workspace, FilePage | None], FilePage]
+"""Shows a workspace in a tab of its own, or in the place of a page."""
+
+
 class FileActions:
     """Everything that opens, saves, compares or prints the open file."""
 
-    def __init__(self, window: StudioWindow) -> None:
-        self.window = window
+    def __init__(self, window: StudioWindow, show: Show) -> None:
+        self.window, self._show_in_tab = window, show
         act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
         new = act("&New…", self.new, keys.New, "", icons.SP_FileIcon, "New")
         opened = act("&Open…", self.open, keys.Open, "", icons.SP_DialogOpenButton, "Open")
@@ -70,7 +75,8 @@ class FileActions:
             [act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")]
         )
         menu.addSeparator()
-        menu.addActions(FormatActions(window, self.ask_path, self.write_new).actions)
+        self.formats = FormatActions(window, self.ask_path, self.write_new)
+        menu.addActions(self.formats.actions)
         menu.addSeparator()
         menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()
@@ -98,7 +104,9 @@ class FileActions:
         for n, path in enumerate(paths, 1):
             action = QAction(f"&{n} {path.name.replace('&', '&&')}  ({path.parent})", self._recent_menu)
             action.setData(path)
-            action.triggered.connect(lambda *_, path=path: self.window.open_first(path))
+            action.triggered.connect(
+                lambda *_, path=path: self.window.guarded(lambda: self.open_path(path), "Open")
+            )
             self._recent_menu.addAction(action)
 
     # -- opening ---------------------------------------------------------------
@@ -107,8 +115,6 @@ class FileActions:
         """Make a new file from the family's defaults."""
         from .file_dialogs import NewFileDialog
 
-        if not self.window.may_leave():
-            return
         project, workspace = self.window.project, self.window.workspace
         now = project.info.family if project else workspace.file.schema.family.family if workspace else ""
         dialog = NewFileDialog(self.window, now)
@@ -138,8 +144,13 @@ class FileActions:
             return None
         return real_path(path) if path.exists() else path  # of a link it is the file that is replaced
 
-    def write_new(self, path: Path, write: Callable[[], Document], here: Address | None = None) -> None:
-        """Show the document that ``write`` makes; an existing file is backed up first."""
+    def write_new(self, path: Path, write: Callable[[], Document], instead: FilePage | None = None) -> None:
+        """Show the document that ``write`` makes, in the place of a page if one is given; an existing file is backed up first.
+
+        Raises ValueError for a file that is open here.
+        """
+        if self.window.page_of(path) is not None:
+            raise ValueError(f"{path.name} is open in a tab. Close it first, or choose another name.")
 
         def work() -> CheckedDocument:
             if not path.exists():
@@ -155,7 +166,7 @@ class FileActions:
                     raise
             return document, checked(document)
 
-        self._show(in_background(self.window, "Saving", work), here)
+        self._show(in_background(self.window, "Saving", work), instead)
 
     def open(self) -> None:
         """Ask for a file and open it."""
@@ -165,17 +176,15 @@ class FileActions:
         if text:
             self.open_path(Path(text))
 
-    def open_path(self, path: Path, ask_first: bool = True) -> None:
-        """Open a file; offers unsaved work, and to look at it when another program edits it. Raises ParameterFileError."""
-        if ask_first and not self.window.may_leave():
+    def open_path(self, path: Path) -> None:
+        """Open a file, or come back to it where it is open; offers unsaved work, and to look at it when another program edits it.
+
+        Raises ParameterFileError.
+        """
+        page = self.window.page_of(path)
+        if page is not None:
+            self.window.tabs.bring(page)
             return
-        workspace, here = self.window.workspace, None
-        if workspace is not None and same_file(workspace.path, path):
-            here = self.window.selected()
-            in_background(
-                self.window, "Opening", lambda: open_file(path)
-            )  # what cannot be read replaces nothing
-            self.window.show_nothing()
         try:
             opened = in_background(self.window, "Opening", lambda: _opened(Document.open, path))
         except InUseError as error:
@@ -183,18 +192,72 @@ class FileActions:
             if ask(self.window, "File in use", question, "&Open Read-Only", "Cancel") != "&Open Read-Only":
                 return
             opened = in_background(self.window, "Opening", lambda: _opened(Document.view, path))
-        self._show(opened, here)
+        self._show(opened)
 
-    def _show(self, opened: CheckedDocument, here: Address | None = None) -> None:
+    def reload(self, page: FilePage) -> None:
+        """Open a file again in the place of its page; what cannot be read replaces nothing. Shows errors."""
+
+        def work() -> None:
+            path, here = page.workspace.path, page.table_view.address()
+            in_background(self.window, "Opening", lambda: open_file(path))
+            page.workspace.document.close()  # gives up the lock
+            again = self._show(
+                in_background(self.window, "Opening", lambda: _opened(Document.open, path)), page
+            )
+            if here and again:
+                again.go_to(here)
+
+        self.window.guarded(work, "Open")
+
+    def compare_with_disk(self, page: FilePage) -> None:
+        """Show what differs from the file on disk, which another program has changed; from then on a save may replace it."""
+
+        def work() -> None:
+            workspace = page.workspace
+            on_disk = in_background(self.window, "Opening", lambda: open_file(workspace.path))
+            if on_disk.file.schema is not workspace.file.schema:
+                raise ValueError(
+                    f"{workspace.path.name} is a file for {on_disk.file.schema.family.name} now. Save your work under a new name."
+                )
+            workspace.acknowledge(on_disk)
+            CompareDialog(workspace, on_disk.file.values, "the file on disk", page.go_to, self.window).show()
+
+        from .compare_dialog import CompareDialog
+
+        self.window.guarded(work, "Compare")
+
+    def restore_session(self) -> None:
+        """Open the files that were open when the program was left; what cannot be opened is named."""
+        missing = []
+        for path in self.window.settings.session():
+            try:
+                try:
+                    opened = in_background(self.window, "Opening", partial(_opened, Document.open, path))
+                except InUseError:
+                    opened = in_background(self.window, "Opening", partial(_opened, Document.view, path))
+            except (OSError, ValueError):
+                missing.append(path.name)
+            else:
+                self._show(opened)
+        if missing:
+            self.window.show_status(f"Not opened again: {', '.join(missing)}")
+
+    def keep_session(self) -> None:
+        """Store which files are open, the one in front last."""
+        pages = sorted(self.window.tabs.pages(), key=lambda page: page is self.window.page)
+        self.window.settings.keep_session(p.workspace.path.absolute() for p in pages)
+
+    def _show(self, opened: CheckedDocument, instead: FilePage | None = None) -> FilePage | None:
+        """Show a document; returns its page, None where it was closed again."""
         document, validator = opened
-        self.window.show_workspace(Workspace(document, validator))
+        page = self._show_in_tab(Workspace(document, validator), instead)
         self._remember(document.path)
-        if here:
-            self.window.go_to(here)
         if document.is_locked:
-            self._offer_unsaved(document)
+            self._offer_unsaved(page)
+        return page if page in self.window.tabs.pages() else None
 
-    def _offer_unsaved(self, document: Document) -> None:
+    def _offer_unsaved(self, page: FilePage) -> None:
+        document = page.workspace.document
         unsaved = document.find_unsaved()
         if unsaved is None or not (unsaved.changes or unsaved.header):
             return
@@ -205,21 +268,21 @@ class FileActions:
                 f"{note}\n\nRecover the unsaved work? You can undo this.")  # fmt: skip
         answer = ask(self.window, "Unsaved work found", text, "&Recover", "&Discard", "Decide &Later")
         if answer == "&Recover":
-            self._recover_unsaved(unsaved)
+            self._recover_unsaved(page.workspace, unsaved)
         elif answer == "&Discard":
             document.discard_unsaved()
         else:
-            self.window.show_nothing()  # the first edit would write over it
+            self.window.close_page(page)  # the first edit would write over it
 
-    def _recover_unsaved(self, unsaved: Unsaved) -> None:
-        file = self._workspace().file
+    def _recover_unsaved(self, workspace: Workspace, unsaved: Unsaved) -> None:
+        file = workspace.file
         changes = {c.address: c.new for c in unsaved.changes}
 
         def recover() -> None:
             file.set_many(changes, force="recovered from unsaved work")
             vars(file.header).update(unsaved.header)
 
-        self._workspace().do("Recover unsaved work", recover)
+        workspace.do("Recover unsaved work", recover)
 
     # -- the open file ---------------------------------------------------------
 
@@ -228,21 +291,24 @@ class FileActions:
         assert workspace is not None
         return workspace
 
-    def close(self) -> None:
-        """Close the file and show the welcome page."""
-        if self.window.may_leave():
-            self.window.show_nothing()
+    def close(self, page: FilePage | None = None) -> None:
+        """Close a file, the one in front by default, after a question about unsaved work."""
+        page = page or self.window.page
+        if page is not None and self.window.may_leave(page):
+            self.window.close_page(page)
 
     def save_as(self) -> None:
         """Save under a new name; the original file is not changed."""
-        workspace, here = self._workspace(), self.window.selected()
+        page, workspace, here = self.window.page, self._workspace(), self.window.selected()
         path = self.ask_path("Save as", workspace.path)
         if path is None:
             return
         if same_file(path, workspace.path):
             self.window.save()
             return
-        self.write_new(path, lambda: workspace.document.save_as(path), here)
+        self.write_new(path, lambda: workspace.document.save_as(path), page)
+        if here:
+            self.window.go_to(here)
 
     def compare(self) -> None:
         """List the differences from another file."""
@@ -256,7 +322,9 @@ class FileActions:
                 raise ValueError(
                     f"{Path(text).name} is a file for {other.schema.family.name}. Choose a file of the same control family."
                 )
-            CompareDialog(workspace, other.values, Path(text).name, self.window.go_to, self.window).show()
+            page = self.window.page
+            assert page is not None
+            CompareDialog(workspace, other.values, Path(text).name, page.go_to, self.window).show()
 
     def recover(self) -> None:
         """Replace the open file by its backup."""
@@ -268,7 +336,9 @@ class FileActions:
         question = f"Replace {path.name} by its backup? The present content becomes the backup.{lost}"
         if ask(self.window, "Recover backup", question, "&Replace", "Cancel", default=1) == "&Replace":
             in_background(self.window, "Recovering", lambda: recover_backup(path, workspace.document.digest))
-            self.open_path(path, ask_first=False)
+            page = self.window.page
+            assert page is not None
+            self.reload(page)
 
     def facts(self) -> None:
         """Edit name, revision, application and notes of the open file."""

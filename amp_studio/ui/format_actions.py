@@ -45,18 +45,19 @@ class FormatActions:
         """Ask for a text file and a name, and show the imported parameter file."""
         from amp_studio.formats import all_formats  # not needed at program start
 
-        if not self.window.may_leave():
-            return
         endings = " ".join(f"*{ending}" for f in all_formats() for ending in f.endings)
         text, _ = QFileDialog.getOpenFileName(
             self.window, "Import", "", f"Text formats ({endings});;All files (*)"
         )
-        if not text:
-            return
-        file = self._understood(Path(text))
+        if text:
+            self.read_from(Path(text))
+
+    def read_from(self, source: Path) -> None:
+        """Ask for a name, and show the parameter file that a text file means."""
+        file = self._understood(source)
         if file is None or not self._takes_what_is_out_of_range(file):
             return
-        path = self._ask_path("Import as", Path(text))
+        path = self._ask_path("Import as", source)
         if path is not None:
             file.header.name = path.stem
             self._write_new(path, lambda: Document.create(file, path))

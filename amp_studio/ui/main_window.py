@@ -6,57 +6,45 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QCloseEvent
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QMessageBox, QVBoxLayout, QWidget
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QLabel, QMainWindow, QMessageBox, QStackedWidget
 
-from amp_studio.files import describe
+from amp_studio.files import ENDING
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, Parameter
 from amp_studio.validate import Finding
 
 from .axis_actions import AxisActions
 from .control_actions import ControlActions
-from .detail_panel import DetailPanel
 from .disk_watch import DiskWatch
 from .edit_actions import EditActions
 from .file_actions import FileActions
-from .findings_panel import FindingsPanel
+from .file_page import FilePage
 from .garbage import collect_by_timer
-from .group_list import GroupList
-from .parameter_table import ParameterTable
 from .project_actions import ProjectActions
 from .questions import show_message
 from .studio_window import StudioWindow
 from .task import Task
 from .theme import program_icon
-from .value_table import ValueTable
 from .view_actions import ViewActions
 from .welcome import WelcomePage
 from .workspace import Workspace
 
-_PANELS = (
-    ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 225),
-    ("Parameter", Qt.DockWidgetArea.RightDockWidgetArea, 320),
-    ("Findings", Qt.DockWidgetArea.BottomDockWidgetArea, 190),
-)
-
 
 class MainWindow(StudioWindow):
-    """One window, one open file. Menus are filled by the action groups in the modules beside this one."""
+    """The open files in tabs. Menus are filled by the action groups in the modules beside this one."""
 
     def __init__(self) -> None:
         collect_by_timer()
         super().__init__()
         self.setWindowIcon(program_icon())
+        self.setAcceptDrops(True)
         room = self.screen().availableSize()
         self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
-        self._list_title = ""
         self.file_status, self.value_status = QLabel(), QLabel()
         self.statusBar().addWidget(self.value_status, 1)
         self.statusBar().addPermanentWidget(self.file_status)
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
-        self.files = FileActions(self)
-        self.watch = DiskWatch(self, partial(self.files.open_path, ask_first=False))
+        self.files = FileActions(self, self.show_workspace)
         self.edits = EditActions(self)
         self.axes = AxisActions(self)
         self.view = ViewActions(self)
@@ -64,8 +52,17 @@ class MainWindow(StudioWindow):
         self.projects = ProjectActions(self, self.files.open_path)
         self._help_menu()
         self._toolbar()
+        self.view.panels.addAction(self.action("&Reset Layout", self.docks.reset))
+        self.welcome = WelcomePage(self.files.welcome, self.open_first)
+        self.centre = QStackedWidget()
+        self.centre.addWidget(self.welcome)
+        self.centre.addWidget(self.tabs)
+        self.setCentralWidget(self.centre)
+        self.tabs.current_changed.connect(self._show_page)
+        self.tabs.close_wanted.connect(self.files.close)
+        self.project_changed.connect(self.enable)
         self.settings.place(self)
-        self.show_nothing()
+        self._show_page(None)
 
     # -- building --------------------------------------------------------------
 
@@ -98,132 +95,43 @@ class MainWindow(StudioWindow):
         if chosen is not None:
             chosen.trigger()
 
-    # -- opening and closing a workspace ---------------------------------------
+    # -- the open files ----------------------------------------------------------
 
-    def show_nothing(self) -> None:
-        """Show the welcome page in place of a file."""
-        self._clear()
-        self.workspace = None
-        page = WelcomePage(self.files.welcome, self.files.recent(), self.open_first)
-        self.setCentralWidget(page)
-        page.setFocus()
+    def show_workspace(self, workspace: Workspace, instead: FilePage | None = None) -> FilePage:
+        """Show a file in a tab of its own, or in the place of another one, which is closed."""
+        page = FilePage(workspace, self.edits.commit_to, self.edits.of_a_cell)
+        page.front_wanted.connect(self.tabs.bring)
+        page.selected.connect(self._show_value)
+        page.noted.connect(self.show_status)
+        page.findings.fix_requested.connect(self._fix)
+        page.findings.explanation_requested.connect(self._why)
+        page.findings.suppression_requested.connect(self._suppress)
+        DiskWatch(page, self.files.compare_with_disk, self.files.reload)
+        self.docks.add(page)
+        self.view.apply_options(page)
+        self.tabs.add(page, instead)
+        page.changed.connect(self._update)
+        if instead is not None:
+            self.close_page(instead)
+        page.table_view.setFocus()
+        return page
+
+    def _show_page(self, page: FilePage | None) -> None:
+        """Make the window that of the file in front, or show the welcome page."""
+        if page is None:
+            self.welcome.show_recent(self.files.recent())
+            self.centre.setCurrentWidget(self.welcome)
+            self.value_status.clear()
+        else:
+            self.centre.setCurrentWidget(self.tabs)
+            self.view.follow(page.workspace)
+            self.projects.notice(page.workspace.path.parent)
+            self._show_value()
+        self.docks.show_page(page)
         self.enable()
 
-    def show_workspace(self, workspace: Workspace) -> None:
-        """Close the present file and show another one."""
-        self._clear()
-        self.workspace = workspace
-        self.table = ParameterTable(workspace)
-        self.table_view = ValueTable(self.table, self.edits.commit, self.edits.of_a_cell)
-        self.list_title = QLabel()
-        self.list_title.setContentsMargins(6, 4, 6, 4)
-        centre = QWidget()
-        layout = QVBoxLayout(centre)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.list_title)
-        layout.addWidget(self.table_view)
-        self.setCentralWidget(centre)
-        self.groups, self.detail, self.findings = (
-            GroupList(workspace),
-            DetailPanel(workspace, self.edits.commit),
-            FindingsPanel(workspace),
-        )
-        for (title, area, size), panel in zip(
-            _PANELS, (self.groups, self.detail, self.findings), strict=True
-        ):
-            self._dock(title, panel, area, size)
-        self.groups.chosen.connect(self._show_parameters)
-        self.groups.left.connect(self.table_view.setFocus)
-        self.table_view.selected.connect(self._show_address)
-        self.table.modelReset.connect(self._update_title)
-        self.detail.linked.connect(self.follow)
-        self.findings.activated.connect(self._show_finding)
-        self.findings.fix_requested.connect(self._fix)
-        self.findings.explanation_requested.connect(self._why)
-        self.findings.suppression_requested.connect(self._suppress)
-        workspace.changed.connect(self.enable)
-        workspace.undo_stack.indexChanged.connect(
-            self.enable
-        )  # a step is on the stack only after it was made
-        workspace.saved.connect(self.enable)
-        self.watch.follow(workspace)
-        self.view.follow(workspace)
-        self.projects.notice(workspace.path.parent)
-        self.groups.choose()
-        self.settings.arrange(self)
-        self.enable()
-        self.table_view.setFocus()
-
-    def _clear(self) -> None:
-        if self.workspace is None:
-            return
-        self.settings.keep_arrangement(self)
-        self.watch.follow(None)
-        self.workspace.close()
-        for dock in self.findChildren(QDockWidget):
-            self.removeDockWidget(dock)
-            dock.deleteLater()
-        self.table = self.table_view = self.groups = self.detail = self.findings = None
-        self.value_status.clear()
-
-    def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea, size: int) -> None:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(title)
-        dock.setWidget(widget)
-        dock.setFocusProxy(widget)
-        self.addDockWidget(area, dock)
-        below = area == Qt.DockWidgetArea.BottomDockWidgetArea
-        self.resizeDocks([dock], [size], Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal)
-
-    # -- selection -------------------------------------------------------------
-
-    def _show_parameters(self, title: str, parameters: list[Parameter]) -> None:
-        assert self.table is not None
-        self._list_title = title
-        if parameters == self.table.asked:
-            self._update_title()
-        else:
-            self.table.show_parameters(parameters)
-
-    def _update_title(self) -> None:
-        assert self.table is not None
-        count, hidden = len(self.table.rows), self.table.hidden_rows
-        more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
-        what = counted(count, "parameter", none="no")
-        self.list_title.setText(f"<b>{self._list_title}</b> — {what}{more}")
-
-    def _show_address(self, address: Address) -> None:
-        assert self.workspace is not None
-        assert self.detail is not None
-        self.detail.show_address(address)
-        file = self.workspace.file
-        place = file.machine_schema.instance_label(address)
-        self.value_status.setText("   ".join(t for t in (describe(file, address), place, address[0]) if t))
-
-    def go_to(self, address: Address) -> None:
-        """Select an address; shows its group when the table does not contain it."""
-        if self.table is None or self.table_view is None or self.groups is None or self.workspace is None:
-            return
-        if not self.table.index_of(address).isValid():
-            self.groups.choose_group_of(address[0])
-        hidden = self.workspace.file.evaluation.state(address).state == "hidden"
-        for option in ([self.view.hidden_too] if hidden else []) + [self.view.all_axes]:
-            if not self.table.index_of(address).isValid() and not option.isChecked():
-                option.trigger()
-        index = self.table.index_of(address)
-        if index.isValid():
-            self.table_view.setCurrentIndex(index)
-            self.table_view.scrollTo(index)
-        else:
-            self.show_status(
-                f"{describe(self.workspace.file, address)} is not available on this machine type"
-            )
-
-    def _show_finding(self, finding: Finding) -> None:
-        if finding.addresses and self.table_view is not None:
-            self.go_to(finding.addresses[0])
-            self.table_view.setFocus()
+    def _show_value(self, *_: object) -> None:
+        self.value_status.setText(self.page.address_text() if self.page else "")
 
     def _why(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.why(finding), "Explain")
@@ -233,6 +141,12 @@ class MainWindow(StudioWindow):
 
     def _fix(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.fix(finding), "Fix")
+
+    def _update(self, page: FilePage) -> None:
+        """Follow a change of a file, in front or not."""
+        self.tabs.rename(page)
+        if page is self.page:
+            self.enable()
 
     # -- state of the window ---------------------------------------------------
 
@@ -249,6 +163,7 @@ class MainWindow(StudioWindow):
                 action.setEnabled(can[needs])
         self.edits.show_state(workspace)
         self.control.enable()
+        self.view.check(workspace)
         if workspace is None:
             self.setWindowTitle("AMP Studio")
             self.setWindowModified(False)
@@ -270,16 +185,40 @@ class MainWindow(StudioWindow):
     # -- leaving ---------------------------------------------------------------
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        if (self.table_view is not None and not self.table_view.finish()) or not self.may_leave():
+        if not all(self.may_leave(page) for page in self.tabs.pages()):
             event.ignore()
             return
         self.settings.keep_place(self)
+        self.docks.keep()
+        self.files.keep_session()
         self.control.close()
-        self._clear()
-        self.workspace = None
+        for page in self.tabs.pages():
+            self.close_page(page)
         Task.end_all()
         event.accept()
 
     def open_first(self, path: Path) -> None:
-        """Open a file from the command line or the welcome page."""
+        """Open a file from the command line, the welcome page or a drop; an error is shown."""
         self.guarded(lambda: self.files.open_path(path), "Open")
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files and folders of this machine."""
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open what was dropped: parameter files, projects by their folder, and texts of controls by an import."""
+        event.acceptProposedAction()
+        for url in event.mimeData().urls():
+            if url.isLocalFile():
+                path = Path(url.toLocalFile())
+                self.guarded(partial(self._open_anything, path), f"Open {path.name}")
+
+    def _open_anything(self, path: Path) -> None:
+        """Open a parameter file, or a project by its folder; import the text of a control. Raises ValueError, OSError."""
+        if path.is_dir():
+            self.projects.open_folder(path)
+        elif path.suffix.lower() in ("", ENDING):
+            self.files.open_path(path)
+        else:
+            self.files.formats.read_from(path)

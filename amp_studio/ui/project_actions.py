@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import ParameterFileError, Project, same_file
+from amp_studio.files import ParameterFileError, Project
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 
@@ -50,7 +50,6 @@ class ProjectActions:
                 ParameterFileError
             ):  # an unreadable project file does not prevent work on the parameters
                 self.window.project = Project.open(folder)
-                self.window.enable()
 
     def name_of(self, path: Path) -> str:
         """Return the name of the project a file belongs to."""
@@ -67,7 +66,6 @@ class ProjectActions:
 
     def _show(self, project: Project) -> None:
         self.window.project = project
-        self.window.enable()
         files = len(project.files())
         self.window.show_status(
             f"Project {project.info.name}: {counted(files, 'file', none='no')} in {project.folder}"
@@ -87,12 +85,16 @@ class ProjectActions:
                 self._show(Project.create(Path(folder), info))
 
     def open(self) -> None:
-        """Open a project folder and choose one of its files."""
+        """Ask for a project folder and choose one of its files."""
         folder = QFileDialog.getExistingDirectory(self.window, "Open project")
         if folder:
-            self._show(Project.open(Path(folder)))
-            if self._the_project().files():
-                self.open_file()
+            self.open_folder(Path(folder))
+
+    def open_folder(self, folder: Path) -> None:
+        """Open a project and choose one of its files. Raises ParameterFileError."""
+        self._show(Project.open(folder))
+        if self._the_project().files():
+            self.open_file()
 
     def change(self) -> None:
         """Change the project information."""
@@ -104,7 +106,7 @@ class ProjectActions:
             info = dialog.info()
             keys = ("name", "application", "machine", "control", "control_name", "revision", "notes")
             project.change(**{key: getattr(info, key) for key in keys})
-            self.window.enable()
+            self.window.project = project
 
     # -- its files -------------------------------------------------------------
 
@@ -122,12 +124,12 @@ class ProjectActions:
 
     def _let_go(self, path: Path) -> bool:
         """Close a file if it is open, asking about unsaved work; returns whether it may be moved."""
-        workspace = self.window.workspace
-        if workspace is None or not same_file(workspace.path, path) or not workspace.may_edit:
+        page = self.window.page_of(path)
+        if page is None or not page.workspace.may_edit:
             return True
-        if not self.window.may_leave():
+        if not self.window.may_leave(page):
             return False
-        self.window.show_nothing()
+        self.window.close_page(page)
         return True
 
     def open_file(self) -> None:
@@ -154,12 +156,10 @@ class ProjectActions:
         """Select an address in a file of the project; opens the file if necessary."""
 
         def show() -> None:
-            workspace = self.window.workspace
-            if workspace is None or not same_file(workspace.path, path):
-                self._open_path(path)
-            workspace = self.window.workspace
-            if address is not None and workspace is not None and same_file(workspace.path, path):
-                self.window.go_to(address)
+            self._open_path(path)
+            page = self.window.page_of(path)
+            if address is not None and page is not None:
+                page.go_to(address)
 
         self.window.guarded(show, "Open")
 
@@ -187,7 +187,7 @@ class ProjectActions:
         name = self._ask_name("Rename", path.stem) if path else ""
         if path is None or not name:
             return
-        was_open = self.window.workspace is not None and self.window.workspace.path == path
+        was_open = self.window.page_of(path) is not None
         if self._let_go(path):
             try:
                 path = project.rename(path, name)

@@ -39,6 +39,15 @@ class Settings:
         """Store the recent files, the newest first."""
         self._stored.setValue("recent", [str(path) for path in paths])
 
+    def session(self) -> list[Path]:
+        """Return the files that were open when the program was left, the one in front last."""
+        kept = self._value("session")
+        return [Path(p) for p in (kept if isinstance(kept, list) else [kept]) if isinstance(p, str) and p]
+
+    def keep_session(self, paths: Iterable[Path]) -> None:
+        """Store the open files, the one in front last."""
+        self._stored.setValue("session", [str(path) for path in paths])
+
     def control(self) -> str:
         """Return the address of the last control, or an empty text."""
         kept = self._value("control")
@@ -63,19 +72,21 @@ class Settings:
         """Store position and size of the window."""
         self._stored.setValue("geometry", window.saveGeometry())
 
-    def arrange(self, window: QMainWindow) -> None:
-        """Restore the arrangement of the panels; a floating panel outside all screens is docked again."""
+    def arrangement(self) -> QByteArray | None:
+        """Return the arrangement of the docks."""
         kept = self._value("layout")
-        if not isinstance(kept, QByteArray) or not window.restoreState(kept):
-            return
-        for panel in window.findChildren(QDockWidget):
-            place = panel.geometry()
-            if panel.isFloating() and on_screen(place, _screens()) != place:
-                panel.setFloating(False)
+        return kept if isinstance(kept, QByteArray) else None
 
-    def keep_arrangement(self, window: QMainWindow) -> None:
-        """Store the arrangement of the panels."""
-        self._stored.setValue("layout", window.saveState())
+    def keep_arrangement(self, kept: QByteArray) -> None:
+        """Store the arrangement of the docks."""
+        self._stored.setValue("layout", kept)
+
+    def bring_back(self, docks: Iterable[QDockWidget]) -> None:
+        """Dock a floating panel that is outside of all screens again."""
+        for dock in docks:
+            place = dock.geometry()
+            if dock.isFloating() and on_screen(place, _screens()) != place:
+                dock.setFloating(False)
 
     def _value(self, key: str) -> object:
         try:

@@ -1,24 +1,26 @@
-"""The window as its parts see it: the open file, the panels, and what a menu action can ask for.
+"""The window as its parts see it: the open files, the panels, and what a menu action can ask for.
 
-The action classes and the watch of the disk take this class; ``MainWindow`` is one, builds them all and has the methods
-that are abstract here. So nothing that is part of the window imports it. Qt's metaclass leaves no place for ``ABCMeta``:
-mypy alone, as part of ``make check``, refuses a window without one of these methods.
+The action classes and the watch of the disk take this class; ``MainWindow`` is one and builds them all. So nothing that
+is part of the window imports it.
 """
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QStyle
 
-from amp_studio.files import ChangedOnDiskError, Project
+from amp_studio.files import ChangedOnDiskError, Project, same_file
 from amp_studio.schema import Address
 
 from .detail_panel import DetailPanel
+from .docks import Docks
+from .file_page import FilePage
+from .file_tabs import FileTabs
 from .findings_panel import FindingsPanel
 from .group_list import GroupList
 from .parameter_table import ParameterTable
@@ -34,18 +36,17 @@ Needs = Literal["", "file", "edit", "axes", "project", "units"]
 
 
 class StudioWindow(QMainWindow):
-    """One window, one open file, its panels and its actions."""
+    """The open files in tabs, their panels and the actions. What is asked for without naming a file means the one in front."""
+
+    project_changed = Signal()
+    """Another project is open, or its information has changed."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.workspace: Workspace | None = None
-        self.project: Project | None = None
-        self.table: ParameterTable | None = None
-        self.table_view: ValueTable | None = None
-        self.groups: GroupList | None = None
-        self.detail: DetailPanel | None = None
-        self.findings: FindingsPanel | None = None
+        self._project: Project | None = None
+        self.tabs = FileTabs()
         self.settings = Settings()
+        self.docks = Docks(self, self.settings)
         self.actions_needing: dict[Needs, list[QAction]] = {
             "": [],
             "file": [],
@@ -54,6 +55,65 @@ class StudioWindow(QMainWindow):
             "units": [],
             "project": [],
         }
+
+    # -- the project and the files -----------------------------------------------
+
+    @property
+    def project(self) -> Project | None:
+        """The project whose files the project menu means."""
+        return self._project
+
+    @project.setter
+    def project(self, project: Project | None) -> None:
+        self._project = project
+        self.project_changed.emit()
+
+    def close_page(self, page: FilePage) -> None:
+        """Close a file without a question."""
+        page.blockSignals(True)  # nobody follows it any more
+        self.tabs.remove(page)
+        self.docks.remove(page)
+        page.workspace.close()
+        page.deleteLater()
+
+    @property
+    def page(self) -> FilePage | None:
+        """The page of the file in front; None while no file is open."""
+        return self.tabs.current
+
+    @property
+    def workspace(self) -> Workspace | None:
+        """The file in front."""
+        return self.page.workspace if self.page else None
+
+    @property
+    def table(self) -> ParameterTable | None:
+        """The table model of the file in front."""
+        return self.page.table if self.page else None
+
+    @property
+    def table_view(self) -> ValueTable | None:
+        """The table of the file in front."""
+        return self.page.table_view if self.page else None
+
+    @property
+    def groups(self) -> GroupList | None:
+        """The groups of the file in front."""
+        return self.page.groups if self.page else None
+
+    @property
+    def detail(self) -> DetailPanel | None:
+        """The parameter panel of the file in front."""
+        return self.page.detail if self.page else None
+
+    @property
+    def findings(self) -> FindingsPanel | None:
+        """The findings of the file in front."""
+        return self.page.findings if self.page else None
+
+    def page_of(self, path: Path) -> FilePage | None:
+        """Return the page of a file that is open here, by whatever name of it."""
+        return next((p for p in self.tabs.pages() if same_file(p.workspace.path, path)), None)
 
     # -- actions ---------------------------------------------------------------
 
@@ -95,22 +155,6 @@ class StudioWindow(QMainWindow):
 
     # -- what is shown ---------------------------------------------------------
 
-    @abstractmethod
-    def show_nothing(self) -> None:
-        """Show the welcome page in place of a file."""
-
-    @abstractmethod
-    def show_workspace(self, workspace: Workspace) -> None:
-        """Close the present file and show another one."""
-
-    @abstractmethod
-    def open_first(self, path: Path) -> None:
-        """Open a file; an error is shown."""
-
-    @abstractmethod
-    def enable(self, *_: object) -> None:
-        """Update actions, title and status bar."""
-
     def show_status(self, text: str) -> None:
         """Show a short message in the status bar."""
         self.statusBar().showMessage(text, 10_000)
@@ -129,45 +173,46 @@ class StudioWindow(QMainWindow):
         """Return the address of the current cell."""
         return self.table_view.address() if self.table_view is not None else None
 
-    @abstractmethod
     def go_to(self, address: Address) -> None:
-        """Select an address; shows its group when the table does not contain it."""
+        """Select an address of the file in front; shows its group when the table does not contain it."""
+        if self.page is not None:
+            self.page.go_to(address)
 
     def follow(self, parameter_id: str) -> None:
-        """Go to a parameter, in the selected axis if it exists there."""
-        assert self.workspace is not None
-        file, here = self.workspace.file, self.selected()
-        instances = file.machine_schema.instances(file.schema.parameters[parameter_id])
-        if instances:
-            self.go_to((parameter_id, here[1] if here and here[1] in instances else instances[0]))
-        else:
-            self.show_status(
-                f"{file.schema.parameters[parameter_id].name} is not available on this machine type"
-            )
+        """Go to a parameter of the file in front, in the selected axis if it exists there."""
+        if self.page is not None:
+            self.page.follow(parameter_id)
 
     # -- leaving ---------------------------------------------------------------
 
-    def save(self) -> bool:
-        """Save and return whether it was saved; an error is shown, and the work stays open."""
-        assert self.workspace is not None
+    def save(self, page: FilePage | None = None) -> bool:
+        """Save a file, the one in front by default; an error is shown, and the work stays open.
+
+        Returns whether it was saved. Where another program has changed the file, its page offers the comparison.
+        """
+        page = page or self.page
+        assert page is not None
+        workspace = page.workspace
         try:
-            self.workspace.save(lambda work: in_background(self, "Saving", work))
-        except ChangedOnDiskError as error:
-            show_message(
-                self, "Not saved", f"{error}.\n\nSave your work under a new name, or reload the file."
-            )
+            workspace.save(lambda work: in_background(self, "Saving", work))
+        except ChangedOnDiskError:
+            page.conflict.emit()
             return False
         except OSError as error:
             show_message(self, "Not saved", f"{error}.\n\nYour work is still open.")
             return False
-        if self.workspace.document.notes:
-            self.show_status("; ".join(self.workspace.document.notes))
+        if workspace.document.notes:
+            self.show_status("; ".join(workspace.document.notes))
         return True
 
-    def may_leave(self) -> bool:
-        """Ask about unsaved work; returns whether the file may be closed."""
-        if self.workspace is None or not self.workspace.is_dirty or not self.workspace.may_edit:
+    def may_leave(self, page: FilePage | None = None) -> bool:
+        """Ask about unsaved work of a file; returns whether it may be closed."""
+        page = page or self.page
+        if page is None or not page.table_view.finish():
+            return page is None
+        if not page.workspace.is_dirty or not page.workspace.may_edit:
             return True
-        question = f"Save the changes to {self.workspace.path.name}?"
+        self.tabs.bring(page)
+        question = f"Save the changes to {page.workspace.path.name}?"
         answer = ask(self, "Unsaved changes", question, "&Save", "&Discard", "Cancel")
-        return self.save() if answer == "&Save" else answer == "&Discard"
+        return self.save(page) if answer == "&Save" else answer == "&Discard"

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QMenu, QStyle
 
 from amp_studio.schema import Value
 
+from .file_page import FilePage
 from .studio_window import StudioWindow
 from .workspace import Workspace
 
@@ -36,12 +37,19 @@ class ViewActions:
         menu.addMenu(self.machine_menu)
         menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too, self.secrets])
         menu.addSeparator()
-        panels = menu.addMenu("&Go To")
+        self.panels = panels = menu.addMenu("&Go To")
         for n, (title, panel) in enumerate(
             (("&Groups", "Groups"), ("&Parameter Help", "Parameter"), ("&Findings", "Findings")), 2
         ):
             panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
         panels.insertAction(panels.actions()[0], act("&Table", self._to_table, "Ctrl+1"))
+        menu.addSeparator()
+        tabs = window.tabs
+        menu.addActions([
+            act("Ne&xt File", partial(tabs.turn, 1), "Ctrl+Tab"),
+            act("Pre&vious File", partial(tabs.turn, -1), "Ctrl+Shift+Tab"),
+            act("Show File &Beside", tabs.move_across, "Ctrl+\\"),
+        ])  # fmt: skip
         menu.addSeparator()
         menu.addAction(self.motion_action)
         self.toolbar: list[QAction] = [self.switch, self.motion_action]
@@ -51,8 +59,14 @@ class ViewActions:
         action.setCheckable(True)
         return action
 
+    def apply_options(self, page: FilePage) -> None:
+        """Show a newly opened file as the options want it."""
+        if self.as_entered.isChecked():
+            page.workspace.show_in(None)
+        page.show_columns(self.all_axes.isChecked(), self.hidden_too.isChecked())
+
     def follow(self, workspace: Workspace) -> None:
-        """Fill the menus for a newly opened file, and apply the options to it."""
+        """Fill the menus for the file that comes to the front."""
         for group in self._groups:
             group.deleteLater()  # with its actions
         family, file = workspace.file.schema.family, workspace.file
@@ -64,12 +78,8 @@ class ViewActions:
         ]
         self.machine_menu.setEnabled(workspace.may_edit)
         self._groups[1].setEnabled(workspace.may_edit)
-        workspace.changed.connect(self._check)
         self.secrets.setVisible(any(p.secret for p in file.schema.parameters.values()))
-        self.secrets.setChecked(workspace.secrets)  # off again for each file
-        if self.as_entered.isChecked():
-            workspace.show_in(None)
-        self._show_columns()
+        self.check(workspace)
 
     def _fill(
         self, menu: QMenu, entries: list[tuple[str, str]], present: str, choose: Callable[[str], None]
@@ -87,10 +97,10 @@ class ViewActions:
             menu.addAction(action)
         return group
 
-    def _check(self, *_: object) -> None:
-        """Check the present options; an undo may have changed them."""
-        workspace = self.window.workspace
-        if workspace is None:
+    def check(self, workspace: Workspace | None) -> None:
+        """Check the present options; an undo may have changed them, and another file has its own."""
+        table = self.window.table
+        if workspace is None or table is None or not self._groups:
             return
         for group, present in zip(
             self._groups, (workspace.file.header.units, workspace.file.machine), strict=True
@@ -98,6 +108,9 @@ class ViewActions:
             for action in group.actions():
                 action.setChecked(action.data() == present)
         self.as_entered.setChecked(workspace.as_entered)
+        self.secrets.setChecked(workspace.secrets)
+        self.all_axes.setChecked(table.all_axes)
+        self.hidden_too.setChecked(table.hidden_too)
 
     def _workspace(self) -> Workspace:
         workspace = self.window.workspace
@@ -125,15 +138,13 @@ class ViewActions:
             workspace.edit("Control type", {(parameter, ""): Value(machine)})
         else:
             workspace.do("Control type", partial(workspace.file.set_machine, machine))
-        self._check()
+        self.check(workspace)
 
     # -- what is shown ---------------------------------------------------------
 
     def _show_columns(self) -> None:
-        table = self.window.table
-        if table is not None:
-            table.all_axes, table.hidden_too = self.all_axes.isChecked(), self.hidden_too.isChecked()
-            table.show_again()
+        if self.window.page is not None:
+            self.window.page.show_columns(self.all_axes.isChecked(), self.hidden_too.isChecked())
 
     def _show_secrets(self) -> None:
         self._workspace().show_secrets(self.secrets.isChecked())
@@ -145,4 +156,6 @@ class ViewActions:
     def _motion(self) -> None:
         from .motion_view import MotionView
 
-        MotionView(self._workspace(), self.window.selected(), self.window.go_to, self.window).show()
+        page = self.window.page
+        assert page is not None
+        MotionView(page.workspace, self.window.selected(), page.go_to, self.window).show()

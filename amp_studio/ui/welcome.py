@@ -23,9 +23,7 @@ from .theme import program_icon
 class WelcomePage(QWidget):
     """The first commands as buttons, and the recent files."""
 
-    def __init__(
-        self, actions: Iterable[QAction], recent: list[Path], show: Callable[[Path], object]
-    ) -> None:
+    def __init__(self, actions: Iterable[QAction], show: Callable[[Path], object]) -> None:
         super().__init__()
         icon, title = QLabel(), QLabel("<h1>AMP Studio</h1>")
         icon.setPixmap(program_icon().pixmap(64, 64))
@@ -40,21 +38,16 @@ class WelcomePage(QWidget):
             buttons.addWidget(button)
         buttons.addStretch()
         self.list = QListWidget()
-        for path in recent:
-            item = QListWidgetItem(f"{path.name}\n{path.parent}")
-            item.setData(Qt.ItemDataRole.UserRole, path)
-            self.list.addItem(item)
         self.list.itemActivated.connect(lambda item: show(item.data(Qt.ItemDataRole.UserRole)))
-        self.list.setCurrentRow(0)
         self.list.setAccessibleName("Recent files")
         column = QVBoxLayout()
         column.setSpacing(12)
         column.addStretch(1)
         column.addLayout(head)
         column.addLayout(buttons)
-        if recent:
-            column.addWidget(QLabel("Recent files (Enter opens)"))
-            column.addWidget(self.list, 3)
+        self.title = QLabel("Recent files (Enter opens)")
+        column.addWidget(self.title)
+        column.addWidget(self.list, 3)
         column.addWidget(QLabel("Press Ctrl+Shift+P to find any command by its name."))
         column.addStretch(1)
         inner = QWidget()
@@ -65,3 +58,15 @@ class WelcomePage(QWidget):
         outer.addWidget(inner, 4)
         outer.addStretch(1)
         self.setFocusProxy(self.list)
+
+    def show_recent(self, recent: list[Path]) -> None:
+        """List the recent files, the newest first."""
+        self.list.clear()
+        for path in recent:
+            item = QListWidgetItem(f"{path.name}\n{path.parent}")
+            item.setData(Qt.ItemDataRole.UserRole, path)
+            self.list.addItem(item)
+        self.list.setCurrentRow(0)
+        self.title.setVisible(bool(recent))
+        self.list.setVisible(bool(recent))
+        self.setFocus()

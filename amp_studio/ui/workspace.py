@@ -11,7 +11,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from amp_studio.files import Change, Comparison, Document, ParameterFile, compare, digest_of
+from amp_studio.files import Change, Comparison, Document, Opened, ParameterFile, compare, digest_of
 from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address, Value, read_value
 from amp_studio.validate import Finding, Validator, rules_beside
@@ -161,6 +161,11 @@ class Workspace(QObject):
             self.is_saving = False
         self._saved = (Marks.of(self.file), self.file.header.units)
         self.saved.emit()
+
+    def acknowledge(self, on_disk: Opened) -> None:
+        """Take the file on disk, which another program has changed, for known: a save may replace it, and it becomes the backup."""
+        self.document.acknowledge(on_disk)
+        self.changed.emit([])
 
     def disk_state(self) -> str | None:
         """Return None while the file on disk is unchanged, else ``removed`` or its present digest."""

@@ -174,7 +174,7 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
 
     yield show
     for window in windows:
-        window.may_leave = lambda: True  # type: ignore[method-assign]  # every question has been asked by now
+        window.may_leave = lambda *_: True  # type: ignore[method-assign]  # every question has been asked by now
         window.close()
         window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

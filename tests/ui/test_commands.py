@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QMenu
+from PySide6.QtWidgets import QDockWidget, QMenu
 
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.palette import CommandPalette, commands
@@ -127,7 +127,7 @@ def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> Non
     ):
         action(window, name).trigger()
         assert part.hasFocus(), name
-    dock = window.findings.parent()
+    dock = window.findChild(QDockWidget, "Findings")
     dock.close()
     assert not window.findings.isVisible()
     action(window, "Findings").trigger()

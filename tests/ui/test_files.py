@@ -6,10 +6,12 @@ import os
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
 
 from amp_studio.files import Document, backup_path, content_of, open_file
 from amp_studio.schema import Value
 from amp_studio.ui import file_dialogs
+from amp_studio.ui.compare_dialog import CompareDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, Person, action, on_disk
@@ -21,6 +23,12 @@ EDITED = Value(3.0, "mm")
 def edit(window: MainWindow) -> None:
     """Make one unsaved change."""
     window.edits.commit(EXCESS, "3 mm")
+
+
+def click(window: MainWindow, name: str) -> None:
+    """Click a button of the message bar."""
+    (button,) = [b for b in window.page.bar.buttons if b.text().replace("&", "") == name]
+    button.click()
 
 
 # -- saving --------------------------------------------------------------------
@@ -53,14 +61,52 @@ def test_a_file_changed_on_disk_is_not_overwritten(
     window: MainWindow, path: Path, person: Person, qtbot
 ) -> None:
     edit(window)
-    window.watch.follow(None)  # save before the watch has told
     path.write_bytes(path.read_bytes() + b"# touched\n")
     touched = path.read_bytes()
 
-    assert not window.save()
+    assert not window.save()  # before the watch has noticed
 
-    assert "has been changed by another program" in person.reads()
+    assert "changed by another program" in window.page.bar.text.text()
     assert path.read_bytes() == touched
+    assert window.workspace.file.get(EXCESS) == EDITED
+
+
+def test_after_a_comparison_with_the_file_on_disk_the_work_can_be_saved_and_neither_is_lost(
+    window: MainWindow, path: Path, qtbot
+) -> None:
+    edit(window)
+    other = open_file(path).file
+    other.set(("home.calibration", "2"), Value(7.0, "mm"))
+    path.write_bytes(content_of(other))
+    theirs = path.read_bytes()
+    qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
+
+    click(window, "Compare…")
+    shown = window.findChild(CompareDialog)
+    assert {item.data(0, Qt.ItemDataRole.UserRole).address for item in shown.list.items} == {
+        EXCESS,
+        ("home.calibration", "2"),
+    }
+    shown.list.tick([("home.calibration", "2")])
+    shown.take()
+    assert window.save()
+
+    saved = on_disk(path)
+    assert (saved.get(EXCESS), saved.get(("home.calibration", "2"))) == (EDITED, Value(7.0, "mm"))
+    assert backup_path(path).read_bytes() == theirs
+
+
+def test_a_reload_asks_before_unsaved_changes_are_lost(
+    window: MainWindow, path: Path, person: Person, qtbot
+) -> None:
+    edit(window)
+    path.write_bytes(path.read_bytes() + b"# touched\n")
+    qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
+    person.answers("Cancel")
+
+    click(window, "Reload")
+
+    assert "unsaved changes will be lost" in person.asked[0]
     assert window.workspace.file.get(EXCESS) == EDITED
 
 
@@ -69,7 +115,6 @@ def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
     window: MainWindow, path: Path, person: Person, qtbot, replace: bool
 ) -> None:
     window.go_to(("home.calibration", "2"))
-    person.answers("Reload")
     changed = open_file(path).file
     changed.set(EXCESS, EDITED)
     if replace:
@@ -79,11 +124,10 @@ def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
     else:
         path.write_bytes(content_of(changed))
 
-    qtbot.waitUntil(
-        lambda: bool(window.workspace) and window.workspace.file.get(EXCESS) == EDITED, timeout=WAIT_MS
-    )
+    qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
+    click(window, "Reload")
 
-    assert len(person.asked) == 1
+    assert window.workspace.file.get(EXCESS) == EDITED
     assert window.selected() == ("home.calibration", "2")
     assert window.workspace.may_edit
 
@@ -92,10 +136,11 @@ def test_a_file_that_was_broken_on_disk_leaves_the_work_open(
     window: MainWindow, path: Path, person: Person, qtbot
 ) -> None:
     edit(window)
-    person.answers("Reload")
     path.write_bytes(b"amp_studio: 1\n")
+    qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
+    person.answers("Reload")
 
-    qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
+    click(window, "Reload")
 
     person.reads()
     assert window.workspace.file.get(EXCESS) == EDITED
@@ -106,8 +151,8 @@ def test_a_removed_file_is_told_and_can_be_saved_elsewhere(
     window: MainWindow, path: Path, person: Person, qtbot
 ) -> None:
     path.unlink()
-    qtbot.waitUntil(lambda: person.told != [], timeout=WAIT_MS)
-    assert "was removed" in person.reads()
+    qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
+    assert "was removed" in window.page.bar.text.text()
     person.chooses(path.with_name("again"))
     window.files.save_as()
     assert on_disk(path.with_name("again.amp")).get(EXCESS) == Value(11.0, "mm")
@@ -117,7 +162,7 @@ def test_our_own_save_is_no_change_by_another_program(window: MainWindow, person
     edit(window)
     assert window.save()
     qtbot.wait(600)
-    assert person.asked == []
+    assert not window.page.bar.isVisible()
 
 
 def test_a_full_disk_leaves_the_work_open(
@@ -261,7 +306,8 @@ def test_close_shows_the_welcome_page_with_the_file(window: MainWindow, path: Pa
     assert window.workspace is None
     assert window.windowTitle() == "AMP Studio"
     assert window.files.recent() == [path]
-    page = window.centralWidget()
+    page = window.welcome
+    assert page.isVisible()
     page.list.itemActivated.emit(page.list.item(0))
     assert window.workspace.path == path
 

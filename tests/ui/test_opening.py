@@ -73,18 +73,16 @@ def test_a_file_that_is_none_is_told_and_the_open_one_stays(
     assert window.workspace.may_edit
 
 
-def test_unsaved_changes_are_asked_about_before_another_file(
+def test_unsaved_changes_are_asked_about_before_a_file_is_closed(
     window: MainWindow, path: Path, person: Person
 ) -> None:
-    other = path.with_name("other.amp")
-    other.write_bytes(path.read_bytes())
     edit(window)
     person.answers("Cancel", "Discard")
 
-    window.files.open_path(other)
+    window.files.close()
     assert window.workspace.path == path
-    window.files.open_path(other)
-    assert window.workspace.path == other
+    window.files.close()
+    assert window.workspace is None
     assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
 
 

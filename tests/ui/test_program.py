@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import pytest
 from PySide6.QtCore import QEvent, QTimer
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QWidget
 
 from amp_studio.schema import Value
 from amp_studio.ui import garbage
@@ -110,15 +110,14 @@ def test_a_save_that_fails_at_the_end_keeps_the_program_open(
     window: MainWindow, path: Path, person: Person
 ) -> None:
     window.edits.commit(EXCESS, "3 mm")
-    window.watch.follow(None)
     path.write_bytes(path.read_bytes() + b"# touched\n")
     person.answers("Save")
     assert not window.close()
-    person.reads()
+    assert window.page.bar.isVisible()
 
 
 def test_the_layout_is_remembered(window: MainWindow, path: Path) -> None:
-    window.findings.parent().close()
+    window.findChild(QDockWidget, "Findings").close()
     window.files.close()
     window.files.open_path(path)
     assert not window.findings.isVisible()

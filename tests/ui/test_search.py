@@ -52,15 +52,15 @@ def test_an_id_and_a_choice_are_found(groups: GroupList) -> None:
 
 def test_searching_shows_what_is_found_and_clearing_the_group_again(window: MainWindow) -> None:
     window.groups.search.setText("excess error")
-    assert window.list_title.text().startswith("<b>Search: excess error</b>")
+    assert window.page.list_title.text().startswith("<b>Search: excess error</b>")
     assert window.table.rows[0].parameter.id == "servo.excess_error"
 
     window.groups.search.setText("marzipan")
     assert window.table.rowCount() == 0
-    assert "no parameters" in window.list_title.text()
+    assert "no parameters" in window.page.list_title.text()
 
     window.groups.search.clear()
-    assert window.list_title.text().startswith("<b>Axis Configuration</b>")
+    assert window.page.list_title.text().startswith("<b>Axis Configuration</b>")
 
 
 def test_enter_in_the_search_goes_to_the_table(window: MainWindow, qtbot) -> None:

@@ -93,9 +93,7 @@ def test_a_panel_that_floats_where_no_screen_is_comes_back(open_window, path: Pa
     panel = window.findChild(QDockWidget, "Parameter")
     panel.setFloating(True)
     panel.setGeometry(9000, 9000, 300, 300)
-    window.settings.keep_arrangement(window)
-    window.settings.arrange(window)
-    panel = window.findChild(QDockWidget, "Parameter")
+    window.settings.bring_back([panel])
     screen = window.screen().availableGeometry()
     assert not panel.isFloating() or screen.contains(panel.geometry())
 

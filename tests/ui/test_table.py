@@ -77,14 +77,14 @@ def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> 
     assert "8" not in table.columns
     hidden, rows = table.hidden_rows, table.rowCount()
     assert hidden > 0
-    assert f"{hidden} hidden" in window.list_title.text()
+    assert f"{hidden} hidden" in window.page.list_title.text()
 
     window.view.all_axes.trigger()
     window.view.hidden_too.trigger()
 
     assert "8" in table.columns
     assert table.rowCount() == rows + hidden
-    assert "hidden" not in window.list_title.text()
+    assert "hidden" not in window.page.list_title.text()
 
 
 def test_a_row_comes_and_goes_with_what_makes_it_exist(window: MainWindow, workspace: Workspace) -> None:

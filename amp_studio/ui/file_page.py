@@ -1,0 +1,149 @@
+"""One open file in the window: its table in the middle, and the panels that the docks show while it is in front."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import partial
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from amp_studio.files import describe
+from amp_studio.report.wording import counted
+from amp_studio.schema import Address, Parameter
+from amp_studio.validate import Finding
+
+from .detail_panel import DetailPanel
+from .findings_panel import FindingsPanel
+from .group_list import GroupList
+from .message_bar import MessageBar
+from .parameter_table import ParameterTable
+from .value_table import ValueTable
+from .workspace import Workspace
+
+Commit = Callable[[Workspace, Address, str], bool]
+"""Sets a value of a file from typed text; returns whether it was set."""
+
+
+class FilePage(QWidget):
+    """The views of one workspace. Values go to that workspace alone, whichever page is in front."""
+
+    front_wanted = Signal(object)
+    """Something in this page was asked for: bring it to the front."""
+    changed = Signal(object)
+    """Values, findings or the state on disk of this page's file are new."""
+    selected = Signal(object)
+    """The address of the current cell."""
+    noted = Signal(str)
+    """A short text for the status bar."""
+    conflict = Signal()
+    """A save was refused because another program has changed the file on disk."""
+
+    def __init__(self, workspace: Workspace, commit: Commit, cell_actions: Iterable[QAction] = ()) -> None:
+        super().__init__()
+        self.workspace = workspace
+        commit_here = partial(commit, workspace)
+        self.table = ParameterTable(workspace)
+        self.table_view = ValueTable(self.table, commit_here, cell_actions)
+        self.groups = GroupList(workspace)
+        self.detail = DetailPanel(workspace, commit_here)
+        self.findings = FindingsPanel(workspace)
+        self.bar = MessageBar()
+        self._title = ""
+        self.list_title = QLabel()
+        self.list_title.setContentsMargins(6, 4, 6, 4)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        for widget in (self.bar, self.list_title, self.table_view):
+            layout.addWidget(widget)
+        self.setFocusProxy(self.table_view)
+        self.groups.chosen.connect(self._show_parameters)
+        self.groups.left.connect(self.table_view.setFocus)
+        self.table_view.selected.connect(self.detail.show_address)
+        self.table_view.selected.connect(self.selected)
+        self.table.modelReset.connect(self._update_title)
+        self.detail.linked.connect(self.follow)
+        self.findings.activated.connect(self._show_finding)
+        workspace.changed.connect(self._tell)
+        workspace.saved.connect(self._tell)
+        workspace.undo_stack.indexChanged.connect(self._tell)  # a step is on the stack only after it was made
+        self.groups.choose()
+
+    def _tell(self, *_: object) -> None:
+        self.changed.emit(self)
+
+    @property
+    def panels(self) -> dict[str, QWidget]:
+        """Name of a dock -> what it shows while this page is in front."""
+        return {"Groups": self.groups, "Parameter": self.detail, "Findings": self.findings}
+
+    @property
+    def title(self) -> str:
+        """The name on the tab, with a star while there are unsaved changes."""
+        return self.workspace.path.name + ("*" if self.workspace.is_dirty else "")
+
+    # -- what the table shows ----------------------------------------------------
+
+    def _show_parameters(self, title: str, parameters: list[Parameter]) -> None:
+        self._title = title
+        if parameters == self.table.asked:
+            self._update_title()
+        else:
+            self.table.show_parameters(parameters)
+
+    def _update_title(self) -> None:
+        count, hidden = len(self.table.rows), self.table.hidden_rows
+        more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
+        what = counted(count, "parameter", none="no")
+        self.list_title.setText(f"<b>{self._title}</b> — {what}{more}")
+
+    def show_columns(self, all_axes: bool, hidden_too: bool) -> None:
+        """Show unfitted axes and hidden parameters, or leave them out."""
+        if (self.table.all_axes, self.table.hidden_too) != (all_axes, hidden_too):
+            self.table.all_axes, self.table.hidden_too = all_axes, hidden_too
+            self.table.show_again()
+            self.changed.emit(self)
+
+    # -- selection -------------------------------------------------------------
+
+    def address_text(self) -> str:
+        """Return the selected value for the status bar: what it is, where, and the id."""
+        address, file = self.table_view.address(), self.workspace.file
+        if address is None:
+            return ""
+        place = file.machine_schema.instance_label(address)
+        return "   ".join(text for text in (describe(file, address), place, address[0]) if text)
+
+    def go_to(self, address: Address) -> None:
+        """Select an address and come to the front; shows its group when the table does not contain it."""
+        self.front_wanted.emit(self)
+        if not self.table.index_of(address).isValid():
+            self.groups.choose_group_of(address[0])
+        hidden = self.workspace.file.evaluation.state(address).state == "hidden"
+        if hidden and not self.table.index_of(address).isValid():
+            self.show_columns(self.table.all_axes, hidden_too=True)
+        if not self.table.index_of(address).isValid():
+            self.show_columns(True, self.table.hidden_too)
+        index = self.table.index_of(address)
+        if index.isValid():
+            self.table_view.setCurrentIndex(index)
+            self.table_view.scrollTo(index)
+        else:
+            self.noted.emit(f"{describe(self.workspace.file, address)} is not available on this machine type")
+
+    def follow(self, parameter_id: str) -> None:
+        """Go to a parameter, in the selected axis if it exists there."""
+        file, here = self.workspace.file, self.table_view.address()
+        instances = file.machine_schema.instances(file.schema.parameters[parameter_id])
+        if instances:
+            self.go_to((parameter_id, here[1] if here and here[1] in instances else instances[0]))
+        else:
+            name = file.schema.parameters[parameter_id].name
+            self.noted.emit(f"{name} is not available on this machine type")
+
+    def _show_finding(self, finding: Finding) -> None:
+        if finding.addresses:
+            self.go_to(finding.addresses[0])
+            self.table_view.setFocus()

@@ -1,0 +1,176 @@
+"""The open files as tabs, on one side or on two beside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from PySide6.QtCore import QPoint, Qt, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QTabWidget, QWidget
+
+from .file_page import FilePage
+
+
+class FileTabs(QSplitter):
+    """Two rows of tabs, of which the second is there only while it has a file. One page of all is in front: the current one."""
+
+    current_changed = Signal(object)
+    """The page that is now in front, or None."""
+    close_wanted = Signal(object)
+    """A page is to be closed, after the question about its unsaved work."""
+
+    def __init__(self) -> None:
+        super().__init__(Qt.Orientation.Horizontal)
+        self.setChildrenCollapsible(False)
+        self.sides = [self._side("Open files"), self._side("Open files beside")]
+        self._active = self.sides[0]
+        self._shown: FilePage | None = None
+        self.sides[1].hide()
+        QApplication.instance().focusChanged.connect(self._follow_focus)
+
+    def _side(self, name: str) -> QTabWidget:
+        side = QTabWidget()
+        side.setDocumentMode(True)
+        side.setMovable(True)
+        side.setTabsClosable(True)
+        side.setElideMode(Qt.TextElideMode.ElideMiddle)
+        side.setUsesScrollButtons(True)
+        side.setAccessibleName(name)
+        bar = side.tabBar()
+        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        bar.customContextMenuRequested.connect(partial(self._menu, side))
+        side.tabCloseRequested.connect(lambda n: self.close_wanted.emit(side.widget(n)))
+        side.currentChanged.connect(partial(self._turn, side))
+        self.addWidget(side)
+        return side
+
+    # -- pages -----------------------------------------------------------------
+
+    def pages(self) -> list[FilePage]:
+        """Return the pages, those of the left side first."""
+        return [page for side in self.sides for page in _pages(side)]
+
+    @property
+    def current(self) -> FilePage | None:
+        """The page in front."""
+        found = self._active.currentWidget()
+        return found if isinstance(found, FilePage) else None
+
+    def add(self, page: FilePage, before: FilePage | None = None) -> None:
+        """Show a page in a new tab, at the place of another one where that is given."""
+        side = self._side_of(before) if before else self._active
+        place = side.indexOf(before) if before else side.count()
+        self._insert(side, place, page)
+
+    def _insert(self, side: QTabWidget, place: int, page: FilePage) -> None:
+        side.insertTab(place, page, "")
+        self.rename(page)
+        self._active = side
+        side.setCurrentWidget(page)
+        self._tell()
+
+    def remove(self, page: FilePage) -> None:
+        """Take a page out; the one beside it comes to the front."""
+        side = self._side_of(page)
+        side.removeTab(side.indexOf(page))
+        self._settle()
+
+    def bring(self, page: FilePage) -> None:
+        """Bring a page to the front."""
+        self._active = self._side_of(page)
+        self._active.setCurrentWidget(page)
+        self._tell()
+
+    def rename(self, page: FilePage) -> None:
+        """Update the name on a tab."""
+        side = self._side_of(page)
+        place = side.indexOf(page)
+        if side.tabText(place) != page.title:
+            side.setTabText(place, page.title.replace("&", "&&"))
+        side.setTabToolTip(place, f"{page.workspace.path}\n{page.workspace.file.schema.family.name}")
+
+    def turn(self, step: int) -> None:
+        """Bring the next tab to the front, or the one before."""
+        pages = self.pages()
+        if self.current is not None and len(pages) > 1:
+            self.bring(pages[(pages.index(self.current) + step) % len(pages)])
+
+    def move_across(self, page: FilePage | None = None) -> None:
+        """Show a page on the other side, so that two files are seen at once."""
+        page = page or self.current
+        if page is None:
+            return
+        here = self._side_of(page)
+        there = self.sides[1 - self.sides.index(here)]
+        here.removeTab(here.indexOf(page))
+        there.show()
+        self._insert(there, there.count(), page)
+        self._settle()
+        self.setSizes([1, 1])
+
+    def _side_of(self, page: FilePage) -> QTabWidget:
+        return next(side for side in self.sides if side.indexOf(page) >= 0)
+
+    def _settle(self) -> None:
+        """Leave the second side only while it has a page, and the first never empty."""
+        left, right = self.sides
+        if not left.count() and right.count():
+            for page in _pages(right):
+                right.removeTab(right.indexOf(page))
+                left.addTab(page, page.title)
+                self.rename(page)
+        right.setVisible(right.count() > 0)
+        if not self._active.count():
+            self._active = left if left.count() else right
+        if not self._active.isVisibleTo(self):
+            self._active = left
+        self._tell()
+
+    # -- which one is in front ---------------------------------------------------
+
+    def _turn(self, side: QTabWidget, _: int) -> None:
+        if side is self._active or self._shown is None:
+            self._tell()
+
+    def _follow_focus(self, _: QWidget | None, now: QWidget | None) -> None:
+        if now is None:
+            return
+        for side in self.sides:
+            if side is not self._active and side.count() and side.isAncestorOf(now):
+                self._active = side
+                self._tell()
+
+    def _tell(self) -> None:
+        page = self.current
+        if page is not self._shown:
+            self._shown = page
+            self.current_changed.emit(page)
+
+    def _menu(self, side: QTabWidget, place: QPoint) -> None:
+        index = side.tabBar().tabAt(place)
+        page = side.widget(index)
+        if not isinstance(page, FilePage):
+            return
+        menu = QMenu(self)
+        menu.addAction("&Close", partial(self.close_wanted.emit, page))
+        others = menu.addAction("Close &Others", partial(self._close_others, page))
+        others.setEnabled(len(self.pages()) > 1)
+        menu.addSeparator()
+        beside = menu.addAction("Show &Beside", partial(self.move_across, page))
+        beside.setEnabled(len(self.pages()) > 1)
+        menu.addAction("Copy &Path", partial(QGuiApplication.clipboard().setText, str(page.workspace.path)))
+        menu.exec(side.tabBar().mapToGlobal(place))
+        menu.deleteLater()
+
+    def _close_others(self, page: FilePage) -> None:
+        for other in self.pages():
+            if other is not page:
+                self.close_wanted.emit(other)
+
+
+def _pages(side: QTabWidget) -> Iterator[FilePage]:
+    for n in range(side.count()):
+        page = side.widget(n)
+        if isinstance(page, FilePage):
+            yield page
