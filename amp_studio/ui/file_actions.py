@@ -48,7 +48,7 @@ CheckedDocument = tuple[Document, Validator]
 
 
 Show = Callable[[Workspace, FilePage | None], FilePage]
-"""Shows a workspace in a tab of its own, or in the place of a page."""
+"""Shows a workspace in a new tab, or in the place of a page."""
 
 
 class FileActions:

@@ -58,7 +58,7 @@ class FileTabs(QSplitter):
         return found if isinstance(found, FilePage) else None
 
     def add(self, page: FilePage, before: FilePage | None = None) -> None:
-        """Show a page in a new tab, at the place of another one where that is given."""
+        """Show a page in a new tab, at the place of another page if one is given."""
         side = self._side_of(before) if before else self._active
         place = side.indexOf(before) if before else side.count()
         self._insert(side, place, page)

@@ -98,7 +98,7 @@ class MainWindow(StudioWindow):
     # -- the open files ----------------------------------------------------------
 
     def show_workspace(self, workspace: Workspace, instead: FilePage | None = None) -> FilePage:
-        """Show a file in a tab of its own, or in the place of another one, which is closed."""
+        """Show a file in a new tab, or in the place of another one, which is closed."""
         page = FilePage(workspace, self.edits.commit_to, self.edits.of_a_cell)
         page.front_wanted.connect(self.tabs.bring)
         page.selected.connect(self._show_value)
