@@ -23,8 +23,11 @@ OpenLink = Callable[[Callable[[], None]], Link]
 class Waiting:
     """Whose progress and cancel event are obeyed just now, and how long nothing has been heard."""
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, clock: Callable[[], float] = time.monotonic, sleep: Callable[[float], None] = time.sleep
+    ) -> None:
         self.now = clock
+        self.sleep = sleep
         self.shows_silence = True
         """Whether silence is shown; not while a person knows what is waited for."""
         self._progress: Progress = quiet
@@ -36,9 +39,14 @@ class Waiting:
         self._progress, self._cancel = progress, cancel
         self._heard_at = self._notified_at = self.now()
 
+    @property
+    def is_stopped(self) -> bool:
+        """Whether somebody has asked to stop."""
+        return self._cancel is not None and self._cancel.is_set()
+
     def look(self) -> None:
         """Notify of silence; raises CancelledError where somebody has asked to stop."""
-        if self._cancel is not None and self._cancel.is_set():
+        if self.is_stopped:
             raise CancelledError("stopped")
         now = self.now()
         silent = now - self._heard_at

@@ -32,6 +32,7 @@ class DeviceLine:
         if not self._is_open:
             raise LinkError("device line", "the line is closed")
         self.sent += data
+        self.clock.sleep(len(data) / (self.bytes_per_second or 1e6))
         self.device.receive(data)
 
     def close(self) -> None:

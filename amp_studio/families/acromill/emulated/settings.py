@@ -21,9 +21,9 @@ LARGEST_P = 16_383  # assumed; the guide shows P09984 and P12345
 MOST_POSITIONS = 1_000  # of a ballscrew table (assumed)
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]{1,3})?"
-_BY_AXIS = {"PPU": "1", "MULT": "1", "TLM": "10", "PGAIN": "0.002441406", "IGAIN": "0", "IDELAY": "0", "ILIMIT": "0",
+_BY_AXIS = {"PPU": "10000", "MULT": "4", "TLM": "10", "PGAIN": "0.00244", "IGAIN": "0", "IDELAY": "0", "ILIMIT": "0",
             "DGAIN": "0", "DWIDTH": "0", "FFVEL": "0", "FFACC": "0", "FBVEL": "0", "LOPASS": ""}  # fmt: skip
-"""Commands of an axis -> what a card without saved settings begins with (assumed); "" for a filter that is off."""
+"""Commands of an axis -> what a card without saved settings begins with: the defaults of pages 59 to 62; "" for a filter that is off."""
 _LISTED = """
 ? ABS ACC ADC ALL ALM AS ATTACH AUT AXIS BASE BKL BLK BLM BRESET CAM CLEAR CLOCK CLOSE CLR COM1 COM2 CONFIG
 CPU DEC DETACH DIAG DIM DST DWL END F FIFO FLASH FLZ FOV FREQ FWD GAIN GEAR GOSUB GOTO HALT HDW HSINT IF IHPOS

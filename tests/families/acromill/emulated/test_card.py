@@ -55,7 +55,7 @@ def terminal(tmp_path: Path) -> Terminal:
         ("BSC X0E.00325", "BSC X", "X0E.00325\r\n"),
         ("P12341=5", "PRINT P12341", "5\r\n"),
         ("P12341=P12336", "? P12341", "0\r\n"),
-        ("REM This sets up one of the BiQuads", "PPU X", "1\r\n"),
+        ("REM This sets up one of the BiQuads", "PPU X", "10000\r\n"),
     ],
 )
 def test_a_command_sets_and_its_word_without_a_figure_shows(
@@ -134,7 +134,7 @@ def test_a_save_that_is_cut_off_keeps_the_settings_it_came_to(terminal: Terminal
     with pytest.raises(KeyboardInterrupt):
         terminal.type("ESAVE\r")
     after = Terminal(tmp_path)
-    assert [after.obey(f"PPU {axis}") for axis in "XYZ"] == ["4096\r\n", "4096\r\n", "1\r\n"]
+    assert [after.obey(f"PPU {axis}") for axis in "XYZ"] == ["4096\r\n", "4096\r\n", "10000\r\n"]
 
 
 def test_a_full_memory_is_told(terminal: Terminal) -> None:

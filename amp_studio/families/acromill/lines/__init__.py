@@ -1,0 +1,1 @@
+"""Speaking to an ACR card: its terminal, a line at a time."""

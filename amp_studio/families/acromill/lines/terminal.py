@@ -1,0 +1,202 @@
+"""The terminal of an ACR card as a line to it: a command is typed, its echo compared, and only then obeyed (page 91).
+
+A line that was damaged on its way is therefore never obeyed, and half a line that somebody has left is taken away first.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Callable, Iterator
+
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ControlSilentError,
+    NoConnectionError,
+    ProtocolMismatchError,
+)
+from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.waiting import OpenLink, Waiting
+
+LONGEST = 160  # signs of half a line that somebody may have left
+TRIES = 5  # of one line
+ECHO_WAIT = 2.0  # seconds until the echo of a line is whole
+PROMPT_WAIT = 3.0  # seconds until the prompt comes back
+QUIET = 0.06  # seconds without a sign after which a line that was cleared is quiet
+MOST_LATE = 100  # pieces that may come behind the prompt of a line that was cleared
+PATIENCE = 20.0  # seconds for which a line that is cut is made again
+PAUSE = 0.3
+GRACE = 0.2  # seconds a setting that is under way may take on after somebody has asked to stop
+LARGEST = 1 << 15  # bytes of an answer
+
+BACKSPACE = b"\b"
+SPOIL = b"Q)"
+"""No figure ends so, and no command has a bracket that was not opened: what is left of a line is not obeyed with it."""
+_PROMPT = re.compile(rb"(?:^|\r\n)P([0-9]{2})>$")
+
+
+class _DamagedError(Exception):
+    """What came is not what a card sends: the line is tried again."""
+
+
+class Terminal:
+    """One terminal; ``obey`` types a line and returns what the card shows before its next prompt."""
+
+    def __init__(self, open_link: OpenLink, waiting: Waiting) -> None:
+        self._open_link = open_link
+        self._waiting = waiting
+        self._link: Link | None = None
+        self._is_clear = False
+        self._sees_through = False
+        self._stopped_at: float | None = None
+        self.cuts = 0
+        """How often the line has broken and was made again: a card may have lost its power then."""
+        self.program = ""
+        """Of the last prompt: ``00``."""
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+        self._is_clear = False
+
+    def obey(
+        self, line: str, seconds: float = PROMPT_WAIT, sent: Callable[[], None] = lambda: None
+    ) -> list[str]:
+        """Have the card obey a line, in at most so many seconds; raises TransferError.
+
+        ``sent`` is called before the sign that has the line obeyed goes out. It may go out again after a fault, so that
+        only commands are sent whose repetition changes nothing.
+        """
+        self.look()
+        fault = ""
+        for _ in range(TRIES):
+            try:
+                link = self._line()
+                rows = self._typed(link, line.encode("ascii"), seconds, sent)
+            except LinkError as error:
+                self._make_again()
+                fault = error.what
+                continue
+            except _DamagedError as error:
+                self._is_clear, fault = False, str(error)
+                continue
+            self._waiting.heard()
+            return rows
+        raise ControlSilentError(f"the card does not take '{line}': {fault or 'the line breaks each time'}")
+
+    @contextlib.contextmanager
+    def seen_through(self) -> Iterator[None]:
+        """See commands through, if they do not take long, before somebody who asked to stop is obeyed."""
+        self._sees_through, self._stopped_at = True, None
+        try:
+            yield
+        finally:
+            self._sees_through = False
+
+    def look(self) -> None:
+        """Be called while something waits; raises CancelledError where somebody has asked to stop."""
+        if self._sees_through and self._waiting.is_stopped:
+            self._stopped_at = self._stopped_at or self._waiting.now()
+            if self._waiting.now() - self._stopped_at <= GRACE:
+                return
+        self._waiting.look()
+
+    # -- one try ----------------------------------------------------------------------------------
+
+    def _typed(self, link: Link, line: bytes, seconds: float, sent: Callable[[], None]) -> list[str]:
+        if not self._is_clear:
+            self._clear(link)
+        try:
+            link.write(line)
+            echo = self._read_until(link, lambda got: len(got) >= len(line), ECHO_WAIT)
+            if echo != line:
+                raise _DamagedError("its echo is another" if echo else "there is no echo")
+        except CancelledError:
+            self._is_clear = False
+            with contextlib.suppress(LinkError):
+                link.write(BACKSPACE * len(line))  # nobody else's line is to be glued to this one
+            raise
+        except BaseException:
+            self._is_clear = False  # the next one takes away what is there of the line
+            raise
+        sent()
+        self._is_clear = False
+        link.write(b"\r")
+        answer = self._read_until(link, lambda got: _PROMPT.search(got) is not None, seconds)
+        found = _PROMPT.search(answer)
+        if found is None or not answer.startswith(b"\r\n"):
+            raise _DamagedError("there is no prompt behind its answer")
+        self._is_clear = True
+        self.program = found[1].decode()
+        rows = answer[2 : found.start()].decode("latin-1")
+        if re.search(r"[^\r\n -~]", rows):
+            raise _DamagedError("its answer is damaged")
+        return [row.strip() for row in rows.split("\r\n") if row.strip()]
+
+    def _clear(self, link: Link) -> None:
+        """Take half a line away, or spoil it where the card knows no backspace, and wait for a prompt of its own."""
+        link.write(BACKSPACE * LONGEST + SPOIL + b"\r")
+        got = self._read_until(link, lambda got: _PROMPT.search(got) is not None, PROMPT_WAIT, keep=64)
+        if not got:
+            raise _DamagedError("the card does not answer")
+        if all(self._read_until(link, bool, QUIET, keep=1) for _ in range(MOST_LATE)):
+            raise ProtocolMismatchError("this is no ACR card: it sends without an end")
+        if not re.search(rb"P[0-9]{2}>", got):
+            raise _DamagedError("there is no prompt as an ACR card has")
+        self._is_clear = True
+
+    def _read_until(
+        self, link: Link, is_enough: Callable[[bytes], bool], seconds: float, keep: int = 0
+    ) -> bytes:
+        """Return what has come once it is enough or the time is over; of what is only looked through the last bytes."""
+        got, count = b"", 0
+        end = self._waiting.now() + seconds
+        while not is_enough(got):
+            left = end - self._waiting.now()
+            if left <= 0:
+                break
+            self.look()
+            data = link.read(min(left, QUIET))
+            got, count = got + data, count + len(data)
+            if count > LARGEST:
+                raise ProtocolMismatchError("this is no ACR card: it sends without an end")
+            if keep:
+                got = got[-keep:]
+        return got
+
+    # -- the line ---------------------------------------------------------------------------------
+
+    def _line(self) -> Link:
+        if self._link is None:
+            try:
+                self._link = self._open_link(self.look)
+            except LinkError as error:
+                if self.cuts:
+                    raise
+                raise NoConnectionError(f"no connection to the card: {error}") from None
+            self._is_clear = False
+        return self._link
+
+    def _make_again(self) -> None:
+        """Make a line again that has broken, within PATIENCE; raises ConnectionCutError."""
+        self.close()
+        self.cuts += 1
+        began = self._waiting.now()
+        while True:
+            self._pause(PAUSE)
+            try:
+                self._line()
+            except LinkError as again:
+                if self._waiting.now() - began > PATIENCE:
+                    raise ConnectionCutError(f"the line broke: {again.what}") from None
+            else:
+                return
+
+    def _pause(self, seconds: float) -> None:
+        end = self._waiting.now() + seconds
+        while (left := end - self._waiting.now()) > 0:
+            self.look()
+            self._waiting.sleep(min(left, 0.1))

@@ -1,0 +1,354 @@
+"""An ACR card is set over its terminal: each line's echo compared, each setting read back, saved; nothing is half obeyed."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from amp_studio.families.acromill.emulated.card import AcrCard
+from amp_studio.families.acromill.lines.driver import TerminalDriver
+from amp_studio.files import ParameterFile
+from amp_studio.schema import load_schema
+from amp_studio.schema.values import read_value
+from amp_studio.transfer.client.exchange import Outcome, download, upload
+from amp_studio.transfer.emulated.faults import Faults, FaultyLink
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ControlFullError,
+    ControlSilentError,
+    ImageDamagedError,
+    ImageRejectedError,
+    ProtocolMismatchError,
+    TransferError,
+    WrongFamilyError,
+)
+from amp_studio.transfer.image import ImageError
+from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.links.link import Link
+
+from .bench import CardBench
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> CardBench:
+    return CardBench(tmp_path)
+
+
+def small_file(**settings: str) -> ParameterFile:
+    """Return a file that sets nothing but these; ``X`` of gains, scales and tables."""
+    ids = {"ppu": "axes.pulses_per_unit", "pgain": "servo.p_gain", "exc": "axes.excess_error_band",
+           "notch": "tuning.notch_frequency", "width": "tuning.notch_width", "lopass": "tuning.lopass_frequency",
+           "table": "ballscrew.table", "units": "control.default_units"}  # fmt: skip
+    file = ParameterFile(load_schema("acromill"))
+    for name, text in settings.items():
+        parameter = file.schema.parameters[ids[name]]
+        unit = {"ppu": "counts/in", "exc": "in"}.get(name, next(iter(file.schema.units_of(parameter)), ""))
+        file.take({(ids[name], "" if name == "units" else "X"): read_value(parameter, text, unit)})
+    return file
+
+
+def send(bench: CardBench, file: ParameterFile, kept: list[bytes], cancel: threading.Event | None = None,
+         progress: Callable[[str, int, int], None] = lambda *_: None) -> Outcome:  # fmt: skip
+    def keep(old: bytes) -> str:
+        kept.append(old)
+        return "kept"
+
+    return download(bench.driver, partial(bench.driver.encode, file), keep, signature=file.schema.signature,
+                    progress=progress, cancel=cancel)  # fmt: skip
+
+
+def test_what_differs_is_sent_line_by_line_read_back_and_saved(bench: CardBench) -> None:
+    kept: list[bytes] = []
+    before = upload(bench.driver)
+    bench.lines[0].sent.clear()
+    outcome = send(bench, small_file(pgain="0.08", ppu="4096", exc="0.25"), kept)
+    assert outcome.text == (
+        "Download complete and read back equal. The card has saved it (ESAVE). What it contained before is kept in kept."
+    )
+    commands = bytes(bench.lines[0].sent).decode().split("\r")
+    sets = commands[commands.index("PPU X4096") :][:10]
+    assert sets == ["PPU X4096", "PPU X", "PPU X", "EXC AXIS0 0.25", "EXC AXIS0", "EXC AXIS0", "PGAIN X0.08", "PGAIN X",
+                    "PGAIN X", "ESAVE"]  # fmt: skip
+    assert kept == [before]
+    assert bench.switch_on().settings.values["PGAIN X"] == "0.08"
+
+
+def test_a_copy_that_was_kept_goes_back(bench: CardBench) -> None:
+    kept: list[bytes] = []
+    send(bench, small_file(pgain="0.08", table="X0E.00325 X1E-.00100"), kept)
+    bench.obey("PGAIN X0.09")
+    now = upload(bench.driver)
+    outcome = download(bench.driver, partial(bench.driver.refit, now.replace(b"PGAIN X0.09", b"PGAIN X0.000000199")),
+                       lambda _: "kept", signature=load_schema("acromill").signature)  # fmt: skip
+    assert outcome.verified
+    assert bench.card.settings.values["PGAIN X"] == "1.99E-07"
+    with pytest.raises(
+        ImageError, match=r"the card has BSC X0, BSC X1 too, and how positions are taken out is not printed"
+    ):
+        bench.driver.refit(kept[0], upload(bench.driver))
+
+
+def test_ballscrew_words_are_sent_behind_their_command_and_listed(bench: CardBench) -> None:
+    assert send(bench, small_file(table="X0E.00325 X1E-.00250"), []).verified
+    assert b"BSC X0E.00325\r" in bench.lines[0].sent
+    assert upload(bench.driver).endswith(b"BSC X0E.00325\nBSC X1E-.00250\nend 130\n")
+    assert send(bench, small_file(table="X0E.00325 X1E-.00250 X2E.00001"), []).verified
+
+
+def test_a_filter_is_switched_on_and_not_off(bench: CardBench) -> None:
+    kept: list[bytes] = []
+    assert send(bench, small_file(notch="500", width="50", lopass="1000"), kept).verified
+    assert bench.card.settings.values["NOTCH X"] == "500, 50"
+    assert b"LOPASS X\n" in kept[0]
+    with pytest.raises(ImageError, match="LOPASS X, NOTCH X is off in the copy and on at the card"):
+        bench.driver.refit(kept[0], upload(bench.driver))
+    assert send(bench, small_file(notch="400"), []).verified, "the width stays as the card has it"
+    assert bench.card.settings.values["NOTCH X"] == "400, 50"
+    with pytest.raises(ImageError, match="NOTCH X has several figures"):
+        bench.driver.encode(small_file(notch="400"), kept[0])
+
+
+def test_more_digits_than_the_card_shows_are_no_difference(bench: CardBench) -> None:
+    assert send(bench, small_file(pgain="0.00244140625"), []).verified
+    assert bench.card.settings.values["PGAIN X"] == "0.002441406"
+    again = send(bench, small_file(pgain="0.00244140625"), [])
+    assert not again.written
+
+
+def test_the_unit_of_the_figures_is_the_persons_word(bench: CardBench, tmp_path: Path) -> None:
+    held = upload(bench.driver)
+    with pytest.raises(ImageError, match="the figures of the file are metric, and the card was read as inch"):
+        bench.driver.encode(small_file(units="metric", ppu="100"), held)
+    metric = CardBench(tmp_path / "metric", "metric")
+    assert send(metric, small_file(units="metric", ppu="100 counts/mm"), []).verified
+    assert metric.card.settings.values["PPU X"] == "100"
+    assert (
+        str(metric.driver.decode(upload(metric.driver)).values["axes.pulses_per_unit", "X"].unit)
+        == "counts/mm"
+    )
+
+
+def refuse(bench: CardBench, line: str, rows: list[str]) -> None:
+    """Have the card answer a line with words instead of obeying it."""
+    obey = bench.card.settings.obey
+    bench.card.settings.obey = lambda text: rows if text == line else obey(text)  # type: ignore[method-assign]
+
+
+def test_a_command_that_the_card_refuses_is_named_with_its_line_and_all_is_read_again(
+    bench: CardBench,
+) -> None:
+    refuse(bench, "PGAIN X0.08", ["Number out of range"])
+    with pytest.raises(ImageRejectedError) as caught:
+        send(bench, small_file(pgain="0.08", ppu="4096"), [])
+    assert str(caught.value) == (
+        "line 83 of the script, 'PGAIN X0.08': the card answers 'Number out of range'; the control contains the new PPU X "
+        "and the old values of the rest (what it contained before is kept in kept)"
+    )
+    assert bench.switch_on().settings.values["PPU X"] == "10000", "nothing was saved"
+
+
+def test_a_setting_that_the_card_takes_otherwise_is_named(bench: CardBench) -> None:
+    refuse(bench, "PPU X4096", [])
+    with pytest.raises(
+        ImageRejectedError, match="line 3 of the script, 'PPU X4096': the card takes it and shows 10000; noth"
+    ):
+        send(bench, small_file(ppu="4096"), [])
+
+
+def test_a_save_that_fails_is_told(bench: CardBench) -> None:
+    bench.card.settings._memory.full_at = 0
+    with pytest.raises(ControlFullError, match="the card answers ESAVE with 'EEPROM failure") as caught:
+        send(bench, small_file(ppu="4096"), [])
+    assert caught.value.at_control == "new"
+
+
+def test_a_card_without_some_settings_is_read_and_what_it_does_not_have_is_named(bench: CardBench) -> None:
+    for n, axis in enumerate("ZABCUV", 2):
+        del bench.card.settings.values[f"PGAIN {axis}"], n
+    obey = bench.card.settings.obey
+
+    def missing(text: str) -> list[str]:
+        return ["Axis not attached"] if text.startswith(("PGAIN X", "BSC")) else obey(text)
+
+    bench.card.settings.values.update({f"PGAIN {axis}": "0" for axis in "ZABCUV"})
+    bench.card.settings.obey = missing  # type: ignore[method-assign]
+    held = upload(bench.driver)
+    assert b"PGAIN X" not in held
+    assert b"PGAIN Y0.00244" in held
+    with pytest.raises(ImageError, match="the card does not have PGAIN X, which the file sets"):
+        bench.driver.encode(small_file(pgain="0.08"), held)
+
+
+@pytest.mark.parametrize("program", [0, 3])
+def test_half_a_line_that_somebody_left_is_taken_away(bench: CardBench, program: int) -> None:
+    bench.card.receive(b"PROG%d\rPPU X40" % program)
+    assert bench.driver.identify().revision == "1.17.08"
+    assert bench.card.settings.values["PPU X"] == "10000"
+    bench.driver.fetch()
+    assert bench.card._program == 0
+
+
+def test_half_a_line_is_spoiled_where_the_card_knows_no_backspace(bench: CardBench) -> None:
+    bench.card.receive(b"PPU X40")
+    receive = bench.card.receive
+    bench.card.receive = lambda data: receive(data.replace(b"\b", b""))  # type: ignore[method-assign]
+    bench.driver.identify()
+    assert bench.card.settings.values["PPU X"] == "10000"
+
+
+class Changing(FaultyLink):
+    """A line on which every so-many-th byte of one way has a bit changed."""
+
+    def __init__(self, link: Link, to_card: int = 0, to_client: int = 0) -> None:
+        super().__init__(link, Faults(), cut=False)
+        self._every, self._count = {"in": to_client, "out": to_card}, {"in": 0, "out": 0}
+
+    def _pass(self, way: str, data: bytes) -> bytes:
+        changed = bytearray(data)
+        for n in range(len(data)):
+            self._count[way] += 1
+            if self._every[way] and self._count[way] % self._every[way] == 0:
+                changed[n] ^= 1 << self._count[way] % 7
+        return bytes(changed)
+
+
+@pytest.mark.parametrize(("to_card", "to_client"), [(97, 0), (0, 97), (151, 173)])
+def test_a_line_that_changes_signs_changes_no_setting(bench: CardBench, to_card: int, to_client: int) -> None:
+    bench.wrap = lambda link: Changing(link, to_card, to_client)
+    values = dict(bench.card.settings.values)
+    assert send(bench, small_file(pgain="0.08", ppu="4096", exc="0.25"), []).verified
+    assert bench.card.settings.values == values | {"PGAIN X": "0.08", "PPU X": "4096", "EXC AXIS0": "0.25"}
+
+
+def test_a_line_that_is_cut_is_made_again(bench: CardBench) -> None:
+    bench.wrap = lambda link: FaultyLink(link, Faults(drop_after_bytes=3_001), cut=True)
+    assert send(bench, small_file(pgain="0.08"), []).verified
+    assert len(bench.lines) > 2
+
+
+def test_a_card_that_loses_its_power_between_two_settings_is_set_again_before_it_saves(
+    bench: CardBench,
+) -> None:
+    def progress(stage: str, done: int, total: int) -> None:
+        if (stage, done) == ("download", 1):
+            bench.switch_on()
+            bench.lines[-1].close()
+
+    assert send(bench, small_file(pgain="0.08", ppu="4096"), [], progress=progress).verified
+    assert bench.switch_on().settings.values["PPU X"] == "4096"
+
+
+def test_a_card_that_does_not_come_back_is_not_known(bench: CardBench) -> None:
+    def progress(stage: str, done: int, total: int) -> None:
+        if (stage, done) == ("download", 1):
+            bench.is_up = False
+            bench.lines[-1].close()
+
+    with pytest.raises(ConnectionCutError) as caught:
+        send(bench, small_file(pgain="0.08", ppu="4096"), [], progress=progress)
+    assert caught.value.at_control == "unknown"
+    assert bench.clock.now < 60
+
+
+@pytest.mark.parametrize(("done", "state", "new"), [(0, "old", ()), (1, "mixed", ("PPU X",)), (2, "new", ())])
+def test_ctrl_c_stops_between_two_settings_and_says_which_are_new(
+    bench: CardBench, done: int, state: str, new: tuple[str, ...]
+) -> None:
+    cancel = threading.Event()
+
+    def progress(stage: str, at: int, total: int) -> None:
+        if (stage, at) == ("download", done) or (done == 0 and stage == "keep" and at == total):
+            cancel.set()
+
+    with pytest.raises(CancelledError) as caught:
+        send(bench, small_file(pgain="0.08", ppu="4096"), [], cancel, progress)
+    assert (caught.value.at_control, caught.value.new) == (state, new)
+    assert "loses it with its power" in str(caught.value) or state == "old"
+    assert not bench.card._line, "no half line is left"
+
+
+def test_ctrl_c_while_the_card_is_silent_ends_at_once(bench: CardBench) -> None:
+    upload(bench.driver)
+    cancel, began = threading.Event(), bench.clock.now
+    bench.card.receive = lambda _: cancel.set()  # type: ignore[method-assign]
+    with pytest.raises(CancelledError):
+        bench.driver.fetch(cancel=cancel)
+    assert bench.clock.now - began < 0.3
+
+
+class Hostile:
+    bytes_per_second = None
+
+    def __init__(self, bench: CardBench, answer: Callable[[int, bytes], bytes]) -> None:
+        self._bench, self._answer, self._count, self._last = bench, answer, 0, b""
+
+    def read(self, timeout: float) -> bytes:
+        self._count += 1
+        data = self._answer(self._count, self._last)
+        self._last = b""
+        self._bench.clock.sleep(0.001 if data else timeout)
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._last = data
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.mark.parametrize(
+    ("answer", "kind"),
+    [
+        (lambda _n, _last: b"", ControlSilentError),
+        (lambda _n, _last: b"\xff" * 1_000, ProtocolMismatchError),
+        (lambda _n, _last: b"\r\nP00>", ProtocolMismatchError),
+        (lambda _n, _last: b"P00>" if _n % 3 == 0 else b"", ControlSilentError),
+        (lambda _n, last: last, ControlSilentError),
+        (lambda _n, last: b"\r\nP00>" if b"\r" in last else last, ProtocolMismatchError),
+        (lambda n, last: b"\r\n%d\r\nP00>" % n if b"\r" in last else last, ImageDamagedError),
+        (lambda n, last: b"\r\n\x1b[2J\r\nP00>" if last == b"\r" else b"\r\nP00>" if last else b"", ControlSilentError),
+    ],
+)  # fmt: skip
+def test_a_hostile_other_end_is_bounded(
+    bench: CardBench, answer: Callable[[int, bytes], bytes], kind: type[TransferError]
+) -> None:
+    driver = TerminalDriver(lambda _: Hostile(bench, answer), "inch", bench.clock, bench.clock.sleep)
+    with pytest.raises(kind):
+        upload(driver)
+    assert bench.clock.now < 120
+
+
+def test_silence_is_told_each_second_and_ends(bench: CardBench) -> None:
+    bench.card.receive = lambda _: None  # type: ignore[method-assign]
+    told: list[tuple[str, int]] = []
+    with pytest.raises(ControlSilentError, match="the card does not take 'VER': the card does not answer"):
+        bench.driver.identify(lambda stage, done, _: told.append((stage, done)))
+    assert told[:2] == [("silent", 2), ("silent", 3)]
+
+
+def test_a_content_that_was_cut_off_or_is_no_script_is_refused(bench: CardBench) -> None:
+    held = upload(bench.driver)
+    for damaged in (b"", b"ACR script 1\n", held[:-1], held[:-9], held.replace(b"PPU X10000\n", b""),
+                    held.replace(b"PPU X10000", b"PPU X10000 Y5"), held.replace(b"PPU Y", b"PPU X"), held + b"\n",
+                    held.replace(b"inch", b"ells"), held.replace(b"PPU X10000", b"X4\nPPU X10000")):  # fmt: skip
+        with pytest.raises(ImageError):
+            bench.driver.decode(damaged)
+
+
+def test_the_driver_is_for_acr_cards() -> None:
+    with pytest.raises(WrongFamilyError):
+        TerminalDriver.at(parse_endpoint("tcp://127.0.0.1:1?protocol=terminal"), "num")
+
+
+def test_the_emulated_card_is_delivered_with_the_printed_defaults(bench: CardBench) -> None:
+    assert isinstance(bench.card, AcrCard)
+    file = bench.driver.decode(upload(bench.driver))
+    assert [str(file.values[key, "X"].value) for key in ("axes.pulses_per_unit", "servo.p_gain")] == [
+        "10000.0",
+        "0.00244",
+    ]
