@@ -137,7 +137,7 @@ class Terminal:
         return [row.strip() for row in rows.split("\r\n") if row.strip()]
 
     def _clear(self, link: Link) -> None:
-        """Take half a line away, or spoil it where the card knows no backspace, and wait for a prompt of its own."""
+        """Take half a line away, or spoil it where the card knows no backspace, and wait for a prompt."""
         link.write(BACKSPACE * LONGEST + SPOIL + b"\r")
         got = self._read_until(link, lambda got: _PROMPT.search(got) is not None, PROMPT_WAIT, keep=64)
         if not got:
