@@ -249,7 +249,7 @@ def print_comparison(file: ParameterFile, found: Comparison, secrets: bool) -> N
 def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:
     """Print one difference."""
     parameter = file.schema.parameters[difference.address[0]]
-    sides = (show_value(parameter, v, secrets=secrets) for v in (difference.a, difference.b))
+    sides = (show_value(parameter, v, secrets=secrets) for v in difference.in_one_unit())
     print(f"{file.machine_schema.named(difference.address):52} {'  |  '.join(sides)}")
 
 

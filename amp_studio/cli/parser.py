@@ -95,7 +95,7 @@ def parser() -> argparse.ArgumentParser:
     """Return the parser of every verb; ``module`` and ``verb`` name the function that runs."""
     top = _Parser(
         prog="amp-studio",
-        description="Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program.",
+        description="Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program, on the files that are named.",
     )
     top.add_argument("--version", action="version", version=f"amp-studio {__version__}")
     verbs = top.add_subparsers(metavar="VERB", required=True, parser_class=_Parser)

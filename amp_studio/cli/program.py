@@ -25,6 +25,8 @@ BEGINNING, END = 1500, 1500
 AT_CONTROL = {"old": FAULT, "new": CHANGED, "mixed": CHANGED, "defaults": CHANGED, "unknown": UNKNOWN}
 """The exit code of an exchange by what the control contains after it."""
 
+_PARAMETER_FILE = ".amp"
+
 _OBJECTS = 300_000
 """New objects before Python looks for unreachable ones: facts and values are many and stay, a fifth of a check's time."""
 
@@ -53,10 +55,12 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
 
 def run_verb(arguments: Sequence[str]) -> int:
     """Run one verb and return its exit code."""
-    if not arguments:
+    if all(
+        argument.lower().endswith(_PARAMETER_FILE) for argument in arguments
+    ):  # none, or a double click on some
         from amp_studio.ui import main as desktop
 
-        return desktop([])
+        return desktop(arguments)
     if arguments[0] == "__complete":  # a shell asks while somebody types
         return _complete(arguments[1:])
     replaced: list[Target] = []

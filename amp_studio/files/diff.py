@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from amp_studio.schema import Address, Schema, Value, read_address, same_value
+from amp_studio.schema import Address, Schema, UnitError, Value, convert, read_address, same_value
 
 from .parameter_file import ParameterFile
 
@@ -17,6 +17,17 @@ class Difference:
     address: Address
     a: Value | None
     b: Value | None
+
+    def in_one_unit(self) -> tuple[Value | None, Value | None]:
+        """Return both sides in the unit of ``a``, to nine digits; as they are where that would make them look alike."""
+        a, b = self.a, self.b
+        if a is None or b is None or a.unit == b.unit or isinstance(b.value, (str, bool)):
+            return a, b
+        try:
+            other = Value(float(f"{convert(float(b.value), b.unit, a.unit):.9g}"), a.unit)
+        except UnitError:
+            return a, b
+        return (a, b) if other.value == a.value else (a, other)
 
 
 @dataclass(frozen=True)

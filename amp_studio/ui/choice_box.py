@@ -1,20 +1,29 @@
-"""The list of a parameter's choices: by letter, as the old editor had it, or by the beginning of a name."""
+"""The list of a parameter's choices: by the beginning of a name, or by letter, as the old editor had it."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+import re
+
+from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QComboBox, QWidget
+from PySide6.QtWidgets import QComboBox, QListView, QToolTip, QWidget
 
 from amp_studio.schema import Address
 
 from .workspace import Workspace
 
 _CODE = Qt.ItemDataRole.UserRole + 1
+_WORDS = re.compile(r"[\W_]+")
+PAUSE_MS = 1_000
+"""Milliseconds after which a typed letter begins a new word."""
 
 
 class ChoiceBox(QComboBox):
-    """The choices of one address with their letters; ``currentData`` is the label. Typing a letter selects."""
+    """The choices of one address with their letters; ``currentData`` is the label.
+
+    Typing selects and leaves in the open list only what fits: letters add up while one follows the other; the same
+    letter again goes to the next one that fits.
+    """
 
     left = Signal()
     """The open list was closed, with or without a choice."""
@@ -42,24 +51,67 @@ class ChoiceBox(QComboBox):
         self.setPlaceholderText(key or "not set")
         self.setCurrentIndex(keys.index(key) if key in keys else -1)
         self.setMaxVisibleItems(20)
+        self._typed, self._since = "", QElapsedTimer()
         self.view().installEventFilter(self)
 
-    def row_of(self, typed: str) -> int:
-        """Return the row of the next choice with this letter or beginning, -1 when there is none."""
-        typed, rows, here = typed.casefold(), range(self.count()), self.currentIndex()
-        letters = [n for n in rows if str(self.itemData(n, _CODE)).casefold() == typed]
-        names = [n for n in rows if str(self.itemData(n)).casefold().startswith(typed)]
-        found = letters or names
-        return next((n for n in found if n > here), found[0] if found else -1)
+    def rows_of(self, typed: str) -> list[int]:
+        """Return the rows that fit a typed text, best first: beginning of a label, of a word in it, letter, part of a label."""
+        typed, rows = typed.casefold(), range(self.count())
+        labels = [str(self.itemData(n)).casefold() for n in rows]
+        ranks = (
+            [n for n in rows if labels[n].startswith(typed)],
+            [n for n in rows if any(word.startswith(typed) for word in _WORDS.split(labels[n]))],
+            [n for n in rows if str(self.itemData(n, _CODE)).casefold() == typed],
+            [n for n in rows if typed in labels[n]] if len(typed) > 1 else [],
+        )
+        return list(dict.fromkeys(n for rank in ranks for n in rank))
+
+    def _type(self, letter: str) -> None:
+        again = self._since.isValid() and self._since.elapsed() < PAUSE_MS
+        typed = self._typed + letter if again else letter
+        found = self.rows_of(typed)
+        if not found and again:  # nothing begins so; the letter may begin something else, or ask for the next
+            typed, found = letter, self.rows_of(letter)
+            later = [n for n in found if n > self.currentIndex()]
+            found = later + [n for n in found if n not in later]
+        self._typed = typed
+        self._since.start()
+        if found:
+            self.setCurrentIndex(found[0])
+        self._show_only(set(found) if found else None)
+        if self.view().isVisible():
+            QToolTip.showText(
+                self.mapToGlobal(QPoint(0, -30)), typed if found else f"{typed}: no choice", self
+            )
+
+    def _show_only(self, rows: set[int] | None) -> None:
+        """Leave these rows in the open list; None for all."""
+        view = self.view()
+        if isinstance(view, QListView):
+            for n in range(self.count()):
+                view.setRowHidden(n, rows is not None and n not in rows)
+        view.setCurrentIndex(self.model().index(self.currentIndex(), 0))
 
     def _select(self, event: QEvent) -> bool:
-        if not isinstance(event, QKeyEvent) or not event.text().strip() or not event.text().isprintable():
+        if not isinstance(event, QKeyEvent):
             return False
-        row = self.row_of(event.text())
-        if row >= 0:
-            self.setCurrentIndex(row)
-            self.view().setCurrentIndex(self.model().index(row, 0))
+        if event.key() == Qt.Key.Key_Backspace and self._typed:
+            typed, self._typed = self._typed[:-1], ""
+            self._since.invalidate()
+            self._show_only(None)
+            for letter in typed:
+                self._type(letter)
+            return True
+        if not event.text().isprintable() or not event.text() or (event.text() == " " and not self._typed):
+            return False
+        self._type(event.text())
         return True
+
+    def showPopup(self) -> None:
+        """Open the list with what fits the letters that were typed just now."""
+        super().showPopup()
+        if self._typed and self._since.isValid() and self._since.elapsed() < PAUSE_MS:
+            self._show_only(set(self.rows_of(self._typed)) or None)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Select by letter; Enter is left to the form."""

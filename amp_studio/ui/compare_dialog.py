@@ -45,7 +45,7 @@ class DifferenceList(QTreeWidget):
                 schema.on(machine).instance_label(difference.address),
                 "not in this file" if difference.a is None else "only in this file" if difference.b is None else "different",
                 *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
-                  for v in (difference.a, difference.b)),
+                  for v in difference.in_one_unit()),
             ])  # fmt: skip
             item.setData(0, _DIFFERENCE, difference)
             if tick:

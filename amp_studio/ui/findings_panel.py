@@ -136,6 +136,7 @@ class FindingsPanel(QWidget):
         super().__init__()
         self._workspace = workspace
         self._selected: Finding | None = None
+        self._row = 0
         self.model = FindingsTable(workspace)
         self.view = _View()
         self.view.setModel(self.model)
@@ -183,7 +184,7 @@ class FindingsPanel(QWidget):
         self._after_reset()
 
     def _after_reset(self) -> None:
-        """Select the same finding again, or the first one."""
+        """Select the same finding again, or the one that took its place."""
         counts = [counted(self._workspace.count(s), s, none="no") for s in SEVERITIES]
         left = self._workspace.validator.suppressed
         if left:
@@ -198,11 +199,12 @@ class FindingsPanel(QWidget):
         findings = self.model.findings
         if findings:
             same = [n for n, f in enumerate(findings) if self._selected and f.key == self._selected.key]
-            self.view.selectRow(same[0] if same else 0)
+            self.view.selectRow(same[0] if same else min(self._row, len(findings) - 1))
         self._update_buttons()
 
     def _select(self, *_: object) -> None:
         self._selected = self.current() or self._selected
+        self._row = max(self.view.currentIndex().row(), 0)
         self._update_buttons()
 
     def current(self) -> Finding | None:

@@ -160,6 +160,8 @@ class GroupList(QWidget):
         """Emit the present choice again."""
         words = self.search.text().casefold().split()
         item = self.tree.currentItem()
+        if item is not None:  # while a search is shown no group is
+            item.setSelected(not words)
         if words:
             self.chosen.emit(f"Search: {self.search.text()}", self.found(words))
         elif item is not None:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QUrl
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtGui import QCloseEvent, QShortcut
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -68,6 +68,7 @@ class MotionView(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(f"Motion — {workspace.path.name}")
         self.resize(1220, 800)
+        QShortcut(Qt.Key.Key_Escape, self, self.close)
         self._workspace, self._show_parameter = workspace, show
         self._task: Task | None = None
         self._again = False

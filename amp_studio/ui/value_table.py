@@ -29,7 +29,7 @@ class ValueTable(QTableView):
     """Shows a ``ParameterTable``; the selected cell stays selected when the model changes."""
 
     selected = Signal(object)
-    """The address of the current cell."""
+    """The address of the current cell; None where the list is empty."""
 
     def __init__(
         self,
@@ -118,6 +118,8 @@ class ValueTable(QTableView):
                 index,
             )
         self.setCurrentIndex(index)
+        if not index.isValid():
+            self.selected.emit(None)
 
     def _fit_columns(self) -> None:
         """Make each column as wide as its values and head; when they do not all fit, long choices are cut off."""

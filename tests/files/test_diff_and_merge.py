@@ -53,6 +53,26 @@ def test_values_are_compared_exactly_and_whatever_their_unit(
     assert int(same) == found.same
 
 
+def test_both_sides_of_a_difference_are_shown_in_one_unit() -> None:
+    address = ("feedrate.rapid", "1")
+    different = Difference(address, Value(600.0, "mm/min"), Value(4.0, "mm/s"))
+    assert different.in_one_unit() == (Value(600.0, "mm/min"), Value(240.0, "mm/min"))
+
+
+@pytest.mark.parametrize(
+    ("a", "b"),
+    [
+        (Value(600.0, "mm/min"), Value(10.000000000000002, "mm/s")),
+        (Value(1.0, "mm"), Value(1.0, "deg")),
+        (Value(1.0, "mm"), None),
+        (Value("linear"), Value("rotary")),
+    ],
+    ids=["alike in nine digits", "of two dimensions", "not set", "no numbers"],
+)
+def test_sides_that_have_no_one_unit_stay_as_they_are(a: Value, b: Value | None) -> None:
+    assert Difference(("x", ""), a, b).in_one_unit() == (a, b)
+
+
 def test_what_is_absent_on_one_side_is_counted_apart(mill: ParameterFile) -> None:
     a = {CALIBRATION: Value(1.0, "mm"), POSITION: Value(1.0, "mm"), USED: Value(True)}
     b = {

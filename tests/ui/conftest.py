@@ -239,7 +239,7 @@ def editor(window: MainWindow) -> QWidget:
     """Return the editor that is open in the table."""
     assert window.table_view is not None
     fields = [w for w in window.table_view.viewport().findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
-              if w.isVisible() and (isinstance(w, QLineEdit) or hasattr(w, "row_of"))]  # fmt: skip
+              if w.isVisible() and (isinstance(w, QLineEdit) or hasattr(w, "rows_of"))]  # fmt: skip
     assert len(fields) == 1, fields
     return fields[0]
 

@@ -45,6 +45,18 @@ def test_the_selected_finding_stays_selected(wrong: MainWindow) -> None:
     assert wrong.findings.current().addresses == finding.addresses
 
 
+def test_when_a_finding_has_ended_the_next_one_is_selected(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    panel = open_window(path).findings
+    place = next(n for n, f in enumerate(panel.model.findings) if f.fix and n)
+    panel.view.selectRow(place)
+    ended = panel.model.findings[place]
+    panel.fix()
+    left = panel.model.findings
+    assert ended not in left
+    assert panel.view.currentIndex().row() == min(place, len(left) - 1) > 0
+
+
 def test_enter_shows_the_parameter_of_a_finding(wrong: MainWindow) -> None:
     finding = next(f for f in wrong.workspace.findings if f.addresses[0] == ("servo.excess_error", "2"))
     wrong.findings.view.selectRow(wrong.workspace.findings.index(finding))

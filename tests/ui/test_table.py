@@ -275,6 +275,30 @@ def test_typing_a_letter_on_a_choice_opens_the_list_at_it(window: MainWindow, qt
     box.hidePopup()
 
 
+def typed(window: MainWindow, qtbot, text: str):
+    """Type on a choice that shows SERCOS among others; returns the open list."""
+    window.go_to(("servo.loop_type", "1"))
+    QTest.keyClick(window.table_view, text[0])
+    box = editor(window)
+    qtbot.waitUntil(lambda: box.view().isVisible(), timeout=WAIT_MS)
+    for letter in text[1:]:
+        QTest.keyClick(box.view(), letter)
+    return box
+
+
+def test_letters_add_up_and_a_label_goes_before_a_code(window: MainWindow, qtbot) -> None:
+    """The code letter of another choice is not meant by the beginning of a word."""
+    labels = [c.label for c in window.workspace.file.schema.parameters["servo.loop_type"].choices]
+    wanted = next(label for label in labels if label.lower().startswith("dig"))
+    box = typed(window, qtbot, "dig")
+    assert box.currentData() == wanted
+    shown = [box.itemData(n) for n in range(box.count()) if not box.view().isRowHidden(n)]
+    assert shown == [label for label in labels if "dig" in label.lower()]
+    QTest.keyClick(box.view(), KEY.Key_Backspace)
+    assert box.currentData() == next(label for label in labels if label.lower().startswith("di"))
+    box.hidePopup()
+
+
 def test_a_click_on_a_name_selects_the_row(window: MainWindow) -> None:
     window.go_to(EXCESS)
     row = window.table.index_of(("servo.lead_screw_pitch", "1")).row()
