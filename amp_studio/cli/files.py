@@ -19,7 +19,7 @@ from amp_studio.files import (
     open_file,
 )
 from amp_studio.files.lock import now
-from amp_studio.report.wording import counted
+from amp_studio.report.wording import counted, state_name
 from amp_studio.schema import (
     MASKED,
     Address,
@@ -42,9 +42,6 @@ from amp_studio.schema.storage import stored_number
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
 from .output import check_new, note_all, write_new
-
-STATES = {"ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
-"""What a person reads for the state of an inactive parameter."""
 
 NOT_SET = "not-set"
 """The value of an assignment that clears a parameter."""
@@ -83,8 +80,8 @@ def set_verb(options: argparse.Namespace) -> int:
             name = file.machine_schema.named(change.address)
             print(f"{name}: {show_value(parameter, change.old)} -> {show_value(parameter, change.new)}")
             state = file.evaluation.state(change.address)
-            if state.state != "in-force":
-                note(f"{name} is inactive ({STATES[state.state]}): {state.why}")
+            if not state.is_active:
+                note(f"{name} is inactive ({state_name(state.state)}): {state.why}")
     return 0
 
 
@@ -194,7 +191,9 @@ def get_verb(options: argparse.Namespace) -> int:
         rows.append(_row(file, address, options.secrets))
         if not options.json:
             mark = "" if rows[-1]["default"] else " *"
-            state = "" if rows[-1]["state"] == "in-force" else f"  (inactive: {STATES[rows[-1]['state']]})"
+            state = (
+                "" if rows[-1]["state"] == "in-force" else f"  (inactive: {state_name(rows[-1]['state'])})"
+            )
             parameter = file.schema.parameters[address[0]]
             shown = show_value(parameter, file.get(address), secrets=options.secrets)
             if file.get(address) is None and rows[-1]["unit"]:

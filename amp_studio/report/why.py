@@ -9,7 +9,7 @@ from amp_studio.schema import Address
 from amp_studio.validate import Explanation, Finding
 
 from .manual_page import erratum_text
-from .wording import severity_name
+from .wording import severity_name, state_name
 
 _MANY = 24
 """Most parameters that an explanation lists; a rule over all tools reads hundreds."""
@@ -29,7 +29,7 @@ def why_parts(
         yield "Result", f"{side} = {worth}", None
     for seen in why.seen[:_MANY]:
         name = f"{seen.name} = " if seen.name else ""
-        state = f" ({seen.state})" if seen.state else ""
+        state = "" if seen.state.is_active else f" ({state_name(seen.state.state)}: {seen.state.why})"
         label, place = (
             file.machine_schema.label(seen.address),
             file.machine_schema.instance_label(seen.address),

@@ -39,6 +39,11 @@ class StateInfo:
     why: str = ""
     page: str | None = None
 
+    @property
+    def is_active(self) -> bool:
+        """Whether the parameter takes effect on this machine as configured."""
+        return self.state == "in-force"
+
 
 ACTIVE = StateInfo("in-force")
 READ_ONLY = StateInfo("unusable", "it can only be read: the control writes it itself")

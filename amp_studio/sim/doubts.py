@@ -38,9 +38,9 @@ def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
         name = _named(file, address)
         state = file.evaluation.state(address)
         if address not in file.values:
-            if state.state == "in-force" and not file.schema.parameters[address[0]].optional:
+            if state.is_active and not file.schema.parameters[address[0]].optional:
                 unset.append(name)
-        elif state.state != "in-force":
+        elif not state.is_active:
             why = f": {state.why}" if state.why else ""
             yield f"{name} is inactive, and the simulation used it{why}"
     if unset:

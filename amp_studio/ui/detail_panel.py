@@ -111,7 +111,7 @@ class DetailPanel(QWidget):
         lines += [f"<br>{line}" for line in self._elsewhere(address)]
         lines.append("</p>")
         state = file.evaluation.state(address)
-        if state.state != "in-force":
+        if not state.is_active:
             page = f" (page {state.page})" if state.page else ""
             lines.append(
                 f"<p><i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i></p>"

@@ -293,7 +293,7 @@ class ParameterTable(QAbstractTableModel):
             worst = self._worst.get(address)
             return QBrush(severity_colour(worst)) if worst in ("error", "warning") else None
         if role == Qt.ItemDataRole.ForegroundRole:
-            return None if file.evaluation.state(address).state == "in-force" else QBrush(state_colour())
+            return None if file.evaluation.state(address).is_active else QBrush(state_colour())
         if role == Qt.ItemDataRole.FontRole:
             return self._font_of(address)
         if role == Qt.ItemDataRole.ToolTipRole:
@@ -312,7 +312,7 @@ class ParameterTable(QAbstractTableModel):
         shown = self.shown_value(address)
         lines = [shown] if len(shown) > _LONG else []
         lines += [f.message for f in self.workspace.findings_of(address) if f.rule != "schema.unset"]
-        if state.state != "in-force":
+        if not state.is_active:
             lines.append(
                 f"{state_name(state.state).capitalize()}: {state.why}"
                 + (f" (page {state.page})" if state.page else "")

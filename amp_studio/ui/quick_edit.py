@@ -66,9 +66,7 @@ class QuickEdit(QDialog):
         file = self._workspace.file
         place = file.machine_schema.instance_label(address) or "Control"
         state = file.evaluation.state(address)
-        inactive = (
-            "" if state.state == "in-force" else f"\n{state_name(state.state).capitalize()}: {state.why}"
-        )
+        inactive = "" if state.is_active else f"\n{state_name(state.state).capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)
         bounds = f"\nAllowed here: {allowed}" if allowed else ""
         self.name.setText(

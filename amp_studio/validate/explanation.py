@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from amp_studio.schema import MASKED, Address, Rule, program, show_value, shown, write_number
 from amp_studio.schema.cel_engine import Context
+from amp_studio.schema.conditions import StateInfo
 from amp_studio.schema.expression import EVALUATION_ERRORS
 from amp_studio.schema.units import canonical_unit
 
@@ -27,8 +28,7 @@ class Seen:
     """What the rule calls it; empty where no rule names it."""
     address: Address
     value: str
-    state: str
-    """Why it is inactive; empty where it is active."""
+    state: StateInfo
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,9 +121,8 @@ def _is_secret(validator: Validator, address: Address) -> bool:
 
 def _seen(validator: Validator, address: Address, name: str) -> Seen:
     file = validator.file
-    state = file.evaluation.state(address)
-    why = "" if state.state == "in-force" else f"{state.state}: {state.why}"
-    return Seen(name, address, show_value(file.schema.parameters[address[0]], file.values.get(address)), why)
+    value = show_value(file.schema.parameters[address[0]], file.values.get(address))
+    return Seen(name, address, value, file.evaluation.state(address))
 
 
 def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:

@@ -131,7 +131,7 @@ class Validator:
 
     def _all_not_set(self) -> set[Address]:
         evaluation, values = self.file.evaluation, self.file.values.keys()
-        active = (alike for alike in self._plan.alike if evaluation.state(alike[0]).state == "in-force")
+        active = (alike for alike in self._plan.alike if evaluation.state(alike[0]).is_active)
         missing = (address for alike in active for address in alike if address not in values)
         parameters = self.file.schema.parameters
         return {address for address in missing if not parameters[address[0]].optional}
@@ -140,7 +140,7 @@ class Validator:
         asked = (
             address not in self.file.values
             and not self.file.schema.parameters[address[0]].optional
-            and self.file.evaluation.state(address).state == "in-force"
+            and self.file.evaluation.state(address).is_active
         )
         if asked != (address in self._not_set):
             self._not_set ^= {address}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from amp_studio.files import ParameterFile
@@ -69,6 +71,15 @@ def test_a_range_is_explained_by_what_bounds_it(mill) -> None:
 def test_values_that_are_not_set_are_listed(mill) -> None:
     mill.set(RAPID, None)
     assert ("not set", RAPID) in [(s.value, s.address) for s in why(mill, "schema.unset").seen]
+
+
+def test_an_inactive_value_is_shown_with_the_word_for_its_state_and_the_reason(mill) -> None:
+    """Axis 3 has a linear scale and so no reversal error; the code of the state is 'unusable', which nobody reads."""
+    own = rule(reads={"reversal": "servo.reversal_error"}, check="reversal < 0.0", any_state=["reversal"])
+    validator = Validator(mill, BuilderRules((own,)))
+    (finding,) = (f for f in validator.run() if (f.rule, f.instance) == ("own.rule", "3"))
+    text = why_text(mill, finding, explain(validator, finding))
+    assert re.search(r"Reads +reversal = \S+ mm \(not available: .+\): 3340 Reversal", text), text
 
 
 @pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill"])
