@@ -58,7 +58,7 @@ man: setup ## write build/amp-studio.1, the man page
 wheel: setup ## build dist/*.whl and the source archive, without the network
 	@$(BIN)/python -m build --no-isolation --outdir dist
 
-lock: ## write requirements/*.lock anew; UPGRADE=1 takes the newest versions
+lock: ## write requirements/*.lock again; UPGRADE=1 takes the newest versions
 	@test -x build/lock/bin/uv || { $(or $(PYTHON),python3) -m venv build/lock && build/lock/bin/pip install --quiet $(LOCK_TOOL); }
 	@$(LOCK) --group dev --output-file requirements/dev.lock
 	@$(LOCK) --group build --constraint requirements/dev.lock --output-file requirements/run.lock

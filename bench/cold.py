@@ -57,7 +57,7 @@ def _run(command: tuple[str, ...], settings: Mapping[str, str]) -> float:
 
 
 def _until_painted(example: Path, settings: Mapping[str, str]) -> float:
-    """Return the time from the start of the process until it says that it has painted the table of the example."""
+    """Return the time from the start of the process until it reports that it has painted the table of the example."""
     command = (sys.executable, str(BENCH / "first_paint.py"), str(example))
     begin = time.perf_counter()
     with subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:

@@ -23,7 +23,7 @@ def measures(folder: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield upload and download over every line there is."""
     file, values = open_file(example).file, cycle([Value(12.0, "mm"), Value(11.0, "mm")])
 
-    def change() -> None:  # a control that holds the same already is sent nothing
+    def change() -> None:  # a control that contains the same already is sent nothing
         file.set(("servo.excess_error", "1"), next(values))
 
     for name, listen in LINES.items():

@@ -28,7 +28,7 @@ def example_path() -> Path:
 
 
 def full_file() -> ParameterFile:
-    """Return the file; raises AssertionError when it is not what this module says it is."""
+    """Return the file; raises AssertionError when it is not as this module describes it."""
     mill, file = open_file(example_path()).file, new_file("9pc", "mill", AXES, name="FULL")
     for address in file.addresses():
         if address[0] in ("axis.type", "axis.name"):
@@ -57,7 +57,7 @@ def full_file() -> ParameterFile:
 
 
 def _any_value(file: ParameterFile, address: Address) -> Value:
-    """Return some value for a parameter that this machine does not have in force."""
+    """Return some value for a parameter that is inactive on this machine."""
     parameter = file.schema.parameters[address[0]]
     if parameter.choices:
         key = parameter.choices[0].key

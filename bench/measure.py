@@ -1,7 +1,7 @@
 """How something is timed, and the one table of all results.
 
 A measure is a list of seconds, or of megabytes. Targets are medians on the machine
-it runs on; the table says "over" and nothing fails, because a time is not a test.
+it runs on; the table shows "over" and nothing fails, because a time is not a test.
 """
 
 from __future__ import annotations

@@ -157,7 +157,7 @@ class Relation:
 def _peers(full: Path, times: int) -> Iterator[Measure]:
     """Yield the rules that compare two values: here, in Python written by hand, and in jsonschema.
 
-    The peers are given the values in force as numbers in canonical units, which is most of the work.
+    The peers are given the active values as numbers in canonical units, which is most of the work.
     """
     file = _disordered(open_file(full).file)
     rules = tuple(r for r in file.schema.rules if _is_relation(file.schema, r))
@@ -195,7 +195,7 @@ def _peers(full: Path, times: int) -> Iterator[Measure]:
 
 
 def _is_relation(schema: Schema, rule: Rule) -> bool:
-    """Tell whether a rule compares two numbers, whatever else there is."""
+    """Return whether a rule compares two numbers, whatever else there is."""
     kinds = {schema.parameters[read_address(text)[0]].type for text in rule.reads.values()}
     return rule.when == "true" and bool(RELATION.fullmatch(rule.check)) and kinds <= {"integer", "real"}
 

@@ -55,7 +55,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
 
 
 def processor() -> str:
-    """Return the name of the processor, where the system tells it."""
+    """Return the name of the processor, where the system shows it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
         return next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
@@ -64,7 +64,7 @@ def processor() -> str:
 
 
 def load() -> str:
-    """Say how busy the machine is with other things, where it tells; a busy machine measures too much."""
+    """Report how busy the machine is with other things, if it can; a busy machine measures too much."""
     return f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
 
 

@@ -4,7 +4,7 @@
 
 MANUAL.txt is the scanned manual as plain text. Written are the registers of the headings and of the text (``11,12`` is
 one value of two registers, ``68/69`` are two alike, ``99-103`` a span), bits, names of commands, bounds, units and
-defaults, each with its section and line. Bit layouts stand in figures, which the text has not.
+defaults, each with its section and line. Bit layouts are in figures, which the text has not.
 """
 
 from __future__ import annotations
@@ -181,7 +181,7 @@ class Part:
 
 
 def headline(lines: Sequence[str], n: int, title: str) -> str:
-    """Return a heading with the words of it that stand on the next line."""
+    """Return a heading with its words on the next line."""
     following = lines[n].strip() if n < len(lines) else ""
     broken = re.fullmatch(r"[A-Z]\w+(?: [A-Z]\w+){0,2}", following)
     return f"{title.strip()} {following}" if broken else title.strip()

@@ -3,8 +3,8 @@
     python scripts/extract_9pc.py MANUAL.txt -o tests/manual/9pc.yaml
 
 MANUAL.txt is the scanned manual as plain text, the cells of its tables separated by tabs. Written are parameter
-numbers, ranges, choices and the rows of the Patch AMP table, each with the section and the line it stands in. What
-looks like a fact and is not understood is told on stderr; ``tests/manual`` holds the database against the rest.
+numbers, ranges, choices and the rows of the Patch AMP table, each with its section and line. What
+looks like a fact and is not understood is reported on stderr; ``tests/manual`` compares the database with the rest.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Draft:
     lines: list[tuple[int, str]] = field(default_factory=list)
 
     def describes(self) -> bool:
-        """Tell whether the heading is that of a parameter: "Function" stands under or behind it."""
+        """Return whether the heading is that of a parameter: "Function" is below it or follows it."""
         return any(text.replace("*", "").endswith("Function") for _, text in self.lines[:4])
 
     def facts(self) -> Section:
@@ -112,7 +112,7 @@ def sections(lines: Sequence[str], missed: list[str]) -> Iterator[Section]:
 
 
 def is_heading(lines: Sequence[str], n: int, title: str) -> bool:
-    """Tell whether line ``n`` is the heading ``title``, alone or broken over two lines."""
+    """Return whether line ``n`` is the heading ``title``, alone or broken over two lines."""
     line = lines[n - 1].strip()
     if not line or "\t" in line or line.startswith("- ") or lines[n - 2].strip():
         return False
@@ -179,7 +179,7 @@ def row_numbers(
 
 
 def loose_numbers(lines: Sequence[tuple[int, str]]) -> Iterator[PrintedNumber]:
-    """Yield the numbers that stand alone under "Parameter Number", and those only mentioned: "[777]", "# 86"."""
+    """Yield the numbers alone under "Parameter Number", and those only mentioned: "[777]", "# 86"."""
     headed = False
     for n, text in lines:
         line = text.strip()
@@ -209,7 +209,7 @@ def screen_numbers(lines: Sequence[tuple[int, str]]) -> Iterator[PrintedNumber]:
 
 
 def screen_choices(lines: Sequence[tuple[int, str]]) -> Iterator[PrintedChoice]:
-    """Yield the choices of the screens; the one the cursor stands on shows no letter."""
+    """Yield the choices of the screens; the one the cursor is on shows no letter."""
     texts = dict(lines)
     for n, _, number in screens(lines):
         at = n + 1
@@ -262,7 +262,7 @@ def clauses(body: str) -> list[tuple[str, str]]:
 
 
 def range_of(part: str) -> Iterator[PrintedRange]:
-    """Yield ``LOW to HIGH`` once for each unit that stands at either bound."""
+    """Yield ``LOW to HIGH`` once for each unit that is at either bound."""
     low, to, high = part.partition(" to ")
     lows, highs = bound(low), bound(high)
     words = not NUMBER.match(low) and not NUMBER.match(high)

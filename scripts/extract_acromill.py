@@ -130,7 +130,7 @@ def sections(lines: Sequence[str], missed: list[str]) -> Iterator[Section]:
 
 
 def _heads(text: str, title: str) -> bool:
-    """Tell whether a line is the heading of an entry of the contents; the menu behind one stands in its line."""
+    """Return whether a line is the heading of an entry of the contents; the menu after one is in its line."""
     return text.startswith(title) if title == BEHIND else text.rstrip(".") == title
 
 

@@ -4,7 +4,7 @@
 
 MANUAL.txt is the scanned manual as plain text, the cells of its tables separated by tabs. Written are the list of
 chapter 2 and, of every section, the words and bits it names, their codes, bounds and defaults, each with its line.
-Sections whose heading the scan lost, and lines that look like facts and gave none, are told on stderr.
+Sections whose heading the scan lost, and lines that look like facts and gave none, are reported on stderr.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ RUN = r"N?(?:\d+|o\b)(?!\.\d)(?:\s*(?:-|to|and|,|or|or word|, [Ww]ord)\s*N?\d+\b
 WORDS = re.compile(rf"\b(?:[Ww]ords?|WORDS?)(?: \}})? ({RUN})|(?<![\w.])(N\d+(?:\s*(?:-|to)\s*N?\d+)?)\b")
 OF = re.compile(r"[^.;]{0,12}?\b(?:of|in) (?:machine )?(?:parameter )?P(\d+)\b")
 GAP = 25
-"""So many letters stand at most between a parameter and its word ("P7, word 0")."""
+"""At most so many letters are between a parameter and its word ("P7, word 0")."""
 WORD_HEADING = re.compile(r"(?:#+ |\*\*)?(?:Words?|WORD) N?[\do][^\t]*")
 CODE = re.compile(r"((?:[01]\t)+):? ?([^\t]*[a-zA-Z][^\t]*)")
 BITS = re.compile(r"\b[Bb]its? (\d+)(?:\s*(?:-|to|à|et|and)\s*(\d+))?")
@@ -227,7 +227,7 @@ def owners(
 
 
 def read_words(draft: Draft, n: int, text: str, named: list[re.Match[str]], about: str) -> None:
-    """Add the words that a line names; a line that begins with one opens what is said of it."""
+    """Add the words that a line names; a line that begins with one begins what belongs to it."""
     for match in WORDS.finditer(text):
         if match[2] and not draft.parameter:
             continue  # a block of a part programme

@@ -112,7 +112,7 @@ class Slide:
             self._values(n, told, number)
 
     def _below(self, n: int, text: str) -> None:
-        """Take what stands below the number that it is about."""
+        """Take what is below the number that it is about."""
         said = text.lstrip("-•✓ ").strip()
         row = StoredRow(line=n, numbers=(self.described,), name=self.name)
         if found := re.search(r"\b[Uu]nit\s?:\s?(\S+)", said):

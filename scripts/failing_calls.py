@@ -70,7 +70,7 @@ class _Calls:
             if n != self._at and not (self._for_ever and n > self._at):
                 return original(*arguments, **options)
             if name == "close":
-                original(*arguments, **options)  # a close that fails has closed all the same
+                original(*arguments, **options)  # a close that fails has closed anyway
             if self._failure == "interrupt":
                 raise KeyboardInterrupt
             number = getattr(errno, self._failure)
@@ -86,7 +86,7 @@ def each_failure(
     """Yield how an act ends for each call that fails and each way to fail, and last of each how it ends untouched.
 
     ``prepare`` brings the disk back to where the act begins; ``which`` takes a sample of the calls (seeded, say) where
-    all of them take too long. Ctrl-C comes once: whoever stops a program stops it once.
+    all of them take too long. Ctrl-C comes once: a person stops a program once.
     """
     prepare()
     act()

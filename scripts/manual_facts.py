@@ -1,6 +1,6 @@
-"""The bare facts a manual prints, and the file that holds them: what every ``extract_*.py`` beside this one gives.
+"""The bare facts a manual prints, and the file that contains them: what every ``extract_*.py`` beside this one gives.
 
-A fact is numbers, names, letters and units, with the line it stands in, never a sentence. One fact is one line of
+A fact is numbers, names, letters and units, with its line, never a sentence. One fact is one line of
 the file, so that a diff shows which fact has changed. An extractor reads a manual's text and nothing else: it knows
 neither ``amp_studio`` nor ``parameter_db``, because what it finds is there to judge them.
 """
@@ -55,7 +55,7 @@ class PrintedRange:
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedChoice:
-    """A letter and its text; ``number`` where it stands on a screen of one parameter."""
+    """A letter and its text; ``number`` where it is on a screen of one parameter."""
 
     line: int
     letter: str
@@ -66,7 +66,7 @@ class PrintedChoice:
 
 @dataclass(frozen=True, kw_only=True)
 class StoredRow:
-    """A row of a table of stored values: bounds or codes, as the control itself holds them."""
+    """A row of a table of stored values: bounds or codes, as they are in the control itself."""
 
     line: int
     numbers: tuple[str, ...]
@@ -112,7 +112,7 @@ class PrintedWord:
     number: str
     word: str = ""
     bits: str = ""
-    """``5``, or ``31-27``: the first one printed stands first."""
+    """``5``, or ``31-27``: the first one printed is first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +130,7 @@ class PrintedDefault:
 
 @dataclass(frozen=True, kw_only=True)
 class Section:
-    """A heading with the facts that stand under it."""
+    """A heading with the facts that are under it."""
 
     heading: str
     page: str
@@ -140,7 +140,7 @@ class Section:
     """The heading above, where this one only divides the description of that parameter."""
     within_page: str = ""
     parameter: str = ""
-    """The number of the parameter it describes, where a list of parameters tells its page."""
+    """The number of the parameter it describes, where a list of parameters shows its page."""
     numbers: tuple[PrintedNumber, ...] = ()
     ranges: tuple[PrintedRange, ...] = ()
     choices: tuple[PrintedChoice, ...] = ()

@@ -1,6 +1,6 @@
 """Writes the JSON Schemas by which an editor completes and checks fact files, a builder's rules.yaml and project.yaml.
 
-They come from the models that read those files, with their docstrings as descriptions, and stand in
+They come from the models that read those files, with their docstrings as descriptions, and are in
 ``parameter_db/schemas``, so that they travel with the package. ``make schema`` writes them; a test sees that they are fresh.
 """
 
@@ -137,7 +137,7 @@ def _of_project() -> dict[str, Any]:
 
 
 def _docstrings(kind: type[Any]) -> dict[str, str]:
-    """Return what stands in a text below each field of a class."""
+    """Return what is in a text below each field of a class."""
     if kind.__module__.partition(".")[0] not in ("amp_studio", __name__):
         return {}
     body = ast.parse(dedent(inspect.getsource(kind))).body[0]

@@ -27,7 +27,7 @@ CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "m
 
 
 def check_contracts(folder: Path) -> subprocess.CompletedProcess[str]:
-    """Run import-linter on the package that stands in ``folder``, with the contracts of its pyproject.toml."""
+    """Run import-linter on the package that is in ``folder``, with the contracts of its pyproject.toml."""
     lint = (
         "import sys; sys.path.insert(0, '.'); from importlinter.cli import lint_imports_command as run; run()"
     )
@@ -102,7 +102,7 @@ def test_no_file_is_named_for_everything_and_nothing(checkout: Path) -> None:
 
 
 def imported_libraries(package: Path) -> Iterator[tuple[str, Path]]:
-    """Yield the top name of every absolute import of the package, wherever it stands in a file."""
+    """Yield the top name of every absolute import of the package, wherever it is in a file."""
     for path in sorted(package.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):

@@ -18,7 +18,7 @@ import pytest
 
 @dataclass(frozen=True)
 class Installed:
-    """An environment that holds the wheel and reaches the libraries, but not the checkout."""
+    """An environment that contains the wheel and reaches the libraries, but not the checkout."""
 
     folder: Path
 

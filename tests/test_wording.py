@@ -1,7 +1,8 @@
 """The words of messages, help, docstrings, comments and documents: the terms of the field, no private idiom.
 
-Every room of the program is checked, and every document listed here. Code identifiers, names in backquotes
-and the values in braces of a message are not looked at, and neither is a text of a single word (a key).
+Every room of the program is checked, every document listed here, the docstrings and comments of the tests, and the
+texts of ``parameter_db``. Code identifiers, names in backquotes and the values in braces of a message are not checked,
+and neither is a text of a single word (a key).
 """
 
 from __future__ import annotations
@@ -13,6 +14,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from amp_studio.schema import family_ids
+from amp_studio.schema.load import load_compiled
 
 ROOT = Path(__file__).parent.parent
 
@@ -44,11 +48,21 @@ FORBIDDEN = {
     "stand": "are",
     "stood": "was",
     "speaks of": "names",
+    "anew": "again",
+    "whoever": "the person who",
+    "is none of": "is not one of",
 }
 """Word or phrase -> what to write instead."""
 
-ALLOWED: dict[tuple[str, str], str] = {}
-"""(file, word) -> why it may stay there."""
+ALLOWED: dict[tuple[str, str], str] = {
+    ("e-201-status", "unset"): "as the control's screen has it",
+    ("resolution.encoder_type", "unset"): "as the control's screen has it",
+    ("tests/validate/test_builder_rules.py", "advice"): "the key of a rule in a file",
+}
+"""(file or id of a fact, word) -> why it may stay there."""
+
+OF_A_MACHINE = {"says", "stands", "stand", "holds", "held", "of its own"}
+"""Not in a message or a title; in help and errata, for what manuals, axes and brakes do."""
 
 ROOMS = sorted(
     p.name
@@ -75,6 +89,10 @@ _NAMES = re.compile(r"``.*?``|`[^`\n]*`|\{[^{}]*\}|[\w-]+\.[\w.-]+|\"[^\"\n]*\""
 
 _PART_OF_A_MESSAGE = getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING)
 """From Python 3.12 on an f-string is several tokens."""
+
+
+_CODE = re.compile(r"^```.*?^```|(?<=\n\n)(?:    [^\n]*\n|\n)+", re.MULTILINE | re.DOTALL)
+"""Blocks of a document that are no text. Lines that go on with an entry of a list are indented, too, but follow a line."""
 
 
 def texts_of(path: Path) -> Iterator[tuple[int, str]]:
@@ -110,9 +128,7 @@ def test_a_room_uses_the_words_of_the_field(room: str) -> None:
 
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_a_document_uses_the_words_of_the_field(document: str) -> None:
-    text = re.sub(
-        r"^    .*$|^```.*?^```", "", (ROOT / document).read_text("utf-8"), flags=re.MULTILINE | re.DOTALL
-    )
+    text = _CODE.sub("", (ROOT / document).read_text("utf-8"))
     found = [
         f"{document}:{n}: '{word}' ({FORBIDDEN[word]}) in: {line.strip()[:90]}"
         for n, line in enumerate(text.splitlines(), 1)
@@ -122,12 +138,60 @@ def test_a_document_uses_the_words_of_the_field(document: str) -> None:
     assert not found, "\n".join(found)
 
 
+def prose_of(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield line and text of every docstring and comment of a module."""
+    with path.open(encoding="utf-8") as source:
+        for token in tokenize.generate_tokens(io.StringIO(source.read()).readline):
+            is_docstring = token.type == tokenize.STRING and token.line.lstrip().startswith('"""')
+            if token.type == tokenize.COMMENT or is_docstring:
+                yield token.start[0], token.string.strip('"')
+
+
+@pytest.mark.parametrize("folder", ["tests", "bench", "scripts"])
+def test_the_prose_of_tests_and_scripts_uses_the_words_of_the_field(folder: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{line}: '{word}' ({FORBIDDEN[word]}) in: {text.strip()[:90]}"
+        for path in modules_of(ROOT / folder)
+        for line, text in prose_of(path)
+        for word in words_in(text)
+        if (path.relative_to(ROOT).as_posix(), word) not in ALLOWED
+    ]
+    assert not found, "\n".join(found)
+
+
+def facts_of(node: object, key: str = "", place: str = "") -> Iterator[tuple[str, str, str]]:
+    """Yield the texts of some facts, each with the id of its entry and the key that it is under."""
+    if isinstance(node, dict):
+        place = str(node.get("id", place))
+        for name, value in node.items():
+            yield from facts_of(value, str(name), place)
+    elif isinstance(node, (list, tuple)):
+        for value in node:
+            yield from facts_of(value, key, place)
+    elif isinstance(node, str) and " " in node:
+        yield place, key, node
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_the_facts_use_the_words_of_the_field(family: str) -> None:
+    """A message and a title are the program's own text; other texts may describe what a machine does."""
+    found = [
+        f"{family}: {place}: {key}: '{word}' ({FORBIDDEN[word]}) in: {text[:120]}"
+        for place, key, text in facts_of(load_compiled(family).model_dump())
+        for word in words_in(text)
+        if key in ("message", "title") or word not in OF_A_MACHINE
+        if (place, word) not in ALLOWED
+    ]
+    assert not found, "\n".join(found)
+
+
 def test_an_exception_is_still_needed() -> None:
+    facts: dict[str, list[str]] = {}
+    for family in family_ids():
+        for place, _, text in facts_of(load_compiled(family).model_dump()):
+            facts.setdefault(place, []).append(text)
     for name, word in ALLOWED:
-        path = ROOT / name
-        texts = (
-            [t for _, t in texts_of(path)] if path.suffix == ".py" else path.read_text("utf-8").splitlines()
-        )
+        texts = [text for _, text in texts_of(ROOT / name)] if name.endswith(".py") else facts[name]
         assert any(word in words_in(text) for text in texts), f"{name} has no '{word}' any more"
 
 

@@ -139,7 +139,7 @@ def _each(
 
 
 def _start() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever waits for the processes ends them
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the code that waits for the processes ends them
     gc.freeze()
 
 

@@ -46,7 +46,7 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
     no_more()
     if was_asked():
         # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to exec(), a
-        # dataclass for one, whoever caught the exception; the exit code would be lost.
+        # dataclass for one, or whatever else caught the exception; the exit code would be lost.
         end_results()
         os._exit(code)
     gc.freeze()  # the end of Python would look through all objects for cycles: a third of the time of a check

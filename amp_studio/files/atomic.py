@@ -104,7 +104,7 @@ def write_atomic(
             stack.enter_context(_put_back_unless_saved(kept, temporary))
             os.replace(kept_temporary, kept)
         os.replace(temporary, real)
-    with contextlib.suppress(OSError):  # the file is the new one already: a fault here is none of the save
+    with contextlib.suppress(OSError):  # the file is the new one already: a fault here is not one of the save
         sync_folder(real.parent)
     for message in notes:
         notify(f"{path.name}: {message}")

@@ -34,7 +34,10 @@ def keep_attributes(old: Path, handle: int) -> list[str]:
 
 def _with_owner_of(was: os.stat_result, handle: int) -> os.stat_result:
     """Give a file the owner and group of another as far as this user may; return what it has then."""
-    for user in (was.st_uid, -1):  # whoever may not give it to another user may give it to a group of his own
+    for user in (
+        was.st_uid,
+        -1,
+    ):  # a user who may not give it to another one may give it to a group of his own
         now = os.fstat(handle)
         if (now.st_uid, now.st_gid) == (was.st_uid, was.st_gid):
             break

@@ -91,7 +91,9 @@ class EditLock:
             return
         with contextlib.suppress(OSError):
             self._holder_path().unlink(missing_ok=True)
-        if os.name == "posix":  # while it is locked: whoever waits for it looks whether it still has its name
+        if (
+            os.name == "posix"
+        ):  # while it is locked: a program that waits for it looks whether it still has its name
             with contextlib.suppress(OSError):
                 if _still_named(handle, self._place):
                     self._place.unlink()

@@ -1,7 +1,7 @@
 """Cells of a CSV file that a spreadsheet takes for the text they are.
 
 A spreadsheet takes a cell that begins with ``=``, ``+``, ``-`` or ``@`` for a formula, which may start programs or call
-addresses (OWASP, "CSV Injection"). An apostrophe before it makes it a text; whoever reads the file back takes it off.
+addresses (OWASP, "CSV Injection"). An apostrophe before it makes it a text; reading the file back takes it off.
 """
 
 from __future__ import annotations

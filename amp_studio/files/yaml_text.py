@@ -117,7 +117,7 @@ def amended(
 def with_item(document: YamlDocument, key: str, item: Mapping[str, Any]) -> str | None:
     """Return the text of a document with one more mapping at the end of a list; None as ``amended``.
 
-    A list that is not there is made; one in brackets or without entries is written anew.
+    A list that is not there is made; one in brackets or without entries is written again.
     """
     data = {} if document.data is None else document.data
     editor = _Editor(document, ())

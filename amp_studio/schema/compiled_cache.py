@@ -38,7 +38,7 @@ def read_cached(path: Path) -> bytes | None:
 
 def report_unusable(path: Path, why: str) -> None:
     """Name a cache file that cannot be used."""
-    _log.warning("%s cannot be used and is made anew: %s", path, why)
+    _log.warning("%s cannot be used and is made again: %s", path, why)
 
 
 def write_cached(path: Path, kept: bytes, family: str) -> None:

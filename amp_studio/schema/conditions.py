@@ -1,6 +1,6 @@
 """What the conditions of a family read on one machine type: worked out once, for all its files.
 
-Nothing here depends on a value. Whoever has to know what an expression reads asks here: an edit, to forget what hung on
+Nothing here depends on a value. What needs to know what an expression reads asks here: an edit, to forget what hung on
 it, and the plan of all checks.
 """
 

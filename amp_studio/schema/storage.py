@@ -68,7 +68,7 @@ def _factor(unit: str, stored: str, scale: float) -> Fraction:
 def from_stored(parameter: Parameter, number: Fraction | float, unit: str) -> Value:
     """Return the value that a stored number means where numbers are kept in ``unit``; raises StorageError.
 
-    A code that is none of the parameter's is kept as it is.
+    A code that is not one of the parameter's is kept as it is.
     """
     if parameter.type in ("text", "format"):
         raise StorageError(f"{parameter.name} is a text, which the control does not store as a number")
@@ -135,7 +135,7 @@ def code_of(parameter: Parameter, value: Value) -> int:
 
 
 def choice_of(parameter: Parameter, number: int) -> Value:
-    """Return the choice of a code; one that is none of the parameter's is kept as it is."""
+    """Return the choice of a code; one that is not one of the parameter's is kept as it is."""
     for choice in parameter.choices or ():
         if choice.raw == number:
             return choice_value(parameter, choice)

@@ -279,7 +279,7 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
 
 
 def _read_raw(parameter: Parameter, text: str) -> Value:
-    """Read a choice by what the control stores, ``raw:-1``; a code that is none of the parameter's is kept."""
+    """Read a choice by what the control stores, ``raw:-1``; a code that is not one of the parameter's is kept."""
     if not _RAW.fullmatch(digits := text[4:].strip()) or abs(raw := int(digits)) > EXACT:
         raise InvalidValueError(f"{quoted(text)} is not 'raw:' and a whole number")
     for choice in parameter.choices or ():

@@ -12,7 +12,7 @@ from .law import AxisLaw
 
 
 def address_of(file: ParameterFile, parameter: str, axis: str) -> Address | None:
-    """Return the address of a parameter that a result for an axis names; None if it is none of the file's."""
+    """Return the address of a parameter that a result for an axis names; None if it is not one of the file's."""
     found = file.schema.parameters.get(parameter)
     if found is None:
         return None

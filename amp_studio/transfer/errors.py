@@ -7,7 +7,7 @@ from typing import Literal
 from amp_studio.schema.visible import visible
 
 # "old": what it contained before this exchange; "new": the content that was sent; "mixed": some of both; "defaults": it has
-# lost its memory and begins anew; "": nothing was to be sent.
+# lost its memory and starts again; "": nothing was to be sent.
 AtControl = Literal["", "old", "new", "mixed", "defaults", "unknown"]
 
 AT_CONTROL_TEXT: dict[AtControl, str] = {

@@ -19,7 +19,7 @@ def quiet(stage: str, done: int, total: int) -> None:
 
 
 class Stop(threading.Event):
-    """A cancel event that can be set twice: whoever does so does not want to wait for a commit either."""
+    """A cancel event that can be set twice: a person who does so does not want to wait for a commit either."""
 
     def __init__(self) -> None:
         super().__init__()

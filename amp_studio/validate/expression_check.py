@@ -3,7 +3,7 @@
 The language has no loops but those over lists, so the largest size of every value and the most steps it takes follow
 from the text and from how many instances the parameters have. The engine itself has no bounds: an expression that
 doubles a list thirty times would take all memory. The same walk finds what can never be meant: a choice compared with a
-text that is none of its keys, a number with a text, a whole number added to a decimal one.
+text that is not one of its keys, a number with a text, a whole number added to a decimal one.
 """
 
 from __future__ import annotations

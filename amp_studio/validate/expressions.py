@@ -260,7 +260,7 @@ def _check_names(rule: Rule) -> set[str]:
             raise RuleError(rule.id, f"it sets {quoted(assignment.set)}, which is no single value it reads")
     for name, unit in rule.units.items():
         if name not in rule.values:
-            raise RuleError(rule.id, f"units names {quoted(name)}, which is none of its values")
+            raise RuleError(rule.id, f"units names {quoted(name)}, which is not one of its values")
         if unit not in UNITS:
             raise RuleError(rule.id, f"{quoted(unit)} is no unit")
     known = {*rule.reads, *rule.values, *ALWAYS_THERE}

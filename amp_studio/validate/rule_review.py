@@ -147,7 +147,7 @@ def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
             yield ("values", name), f"{shown(name)} is the name of something else already"
     for name, unit in rule.units.items():
         if name not in rule.values:
-            yield ("units", name), f"{shown(name)} is none of its values{did_you_mean(name, rule.values)}"
+            yield ("units", name), f"{shown(name)} is not one of its values{did_you_mean(name, rule.values)}"
         if unit not in UNITS:
             yield ("units", name), f"{shown(unit)} is no unit{did_you_mean(unit, UNITS)}"
 

@@ -2,7 +2,7 @@
 
 It is offered only if with it its finding is gone and whatever comes up instead is less severe: never an error, a
 warning only for an error, a recommendation for either. So each fix that is made leaves fewer findings or lesser ones, and
-whoever makes one after the other comes to an end. Values that nobody gave (``schema.unset``) do not count.
+making one after the other comes to an end. Values that nobody gave (``schema.unset``) do not count.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The command line, run in process: what it says, where, and with which exit code."""
+"""The command line, run in process: what it prints, where, and with which exit code."""
 
 from __future__ import annotations
 
@@ -64,5 +64,5 @@ def mill(new_mill: bytes, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Callable[[], dict[str, bytes]]:
-    """Return what tells the files of the test's folder with their contents."""
+    """Return what lists the files of the test's folder with their contents."""
     return lambda: {str(p.relative_to(tmp_path)): p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()}

@@ -1,4 +1,4 @@
-"""Stops the program at moments that chance chooses, and holds its exit code against the disk."""
+"""Stops the program at moments that chance chooses, and compares its exit code with the disk."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ os.close(int(sys.argv.pop(1)))
 from amp_studio.cli import main
 main()
 """
-"""The program from its first statement on: what Python says of a Ctrl-C while it starts itself is not the program's."""
+"""The program from its first statement on: what Python prints about a Ctrl-C while it starts itself is not the program's."""
 
 
 @contextlib.contextmanager
 def started(*arguments: object, shell: str = "") -> Iterator[subprocess.Popen[str]]:
     """Start the program and give it as soon as its first statement has run, however busy the machine is.
 
-    It says so by closing a pipe. ``shell`` is a script that becomes the program with its ``exec "$@"``.
+    It shows this by closing a pipe. ``shell`` is a script that becomes the program with its ``exec "$@"``.
     """
     reading, writing = os.pipe()
     command: Sequence[str] = [sys.executable, "-c", PROGRAM, str(writing), *map(str, arguments)]

@@ -1,4 +1,4 @@
-"""Stops downloads and emulated controls at moments that chance chooses, and holds the exit code against the truth.
+"""Stops downloads and emulated controls at moments that chance chooses, and compares the exit code with the truth.
 
 The programs are real ones and so are the signals; a campaign can run many seeds.
 """

@@ -1,4 +1,4 @@
-"""How the program ends: the exit code is the truth about the disk, whatever becomes of its streams and whoever stops it."""
+"""How the program ends: the exit code is the truth about the disk, whatever becomes of its streams and however it is stopped."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NOBODY = "amp-studio: nobody reads the results any more"
 
 
 def start(*arguments: object, before: Callable[[], object] | None = None, **streams: int) -> tuple[int, str]:
-    """Run the program on given streams; return its exit code and what it says on standard error."""
+    """Run the program on given streams; return its exit code and what it prints on standard error."""
     ended = subprocess.run(
         [*PROGRAM, *map(str, arguments)],
         **({"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | streams),

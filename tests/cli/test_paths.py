@@ -150,7 +150,7 @@ def test_what_is_no_file_in_a_folder_is_told_and_the_rest_is_checked(amp, mill: 
 
 
 def test_a_folder_that_cannot_be_read_is_told_after_the_rest(mill: Path, tmp_path: Path, monkeypatch) -> None:
-    """As root reads every folder, the system says so here by itself."""
+    """As root reads every folder, the system reports it here by itself."""
     shut = tmp_path / "shut"
     shut.mkdir()
     scandir = os.scandir

@@ -1,4 +1,4 @@
-"""A file that cannot be used: every verb says so in one line, ends with 2, and writes nothing."""
+"""A file that cannot be used: every verb reports it in one line, ends with 2, and writes nothing."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ VERBS = {
     "report": lambda bad, good, out: ("report", bad, "-o", out.with_suffix(".txt")),
     "simulate": lambda bad, good, out: ("simulate", bad, "step", "-o", out.with_suffix(".csv")),
 }
-"""Every verb that reads a file, with the bad file in each place it can stand."""
+"""Every verb that reads a file, with the bad file in each place it can be."""
 
 HEAD = b"amp_studio: 1\nfamily: 9pc\n"
 GOOD = (

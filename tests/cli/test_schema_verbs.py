@@ -272,7 +272,7 @@ def test_a_finding_names_what_has_no_number_by_its_address(amp, tmp_path) -> Non
     assert all(f"({p})" in said for p in ids if "@" in p)
 
 
-# -- what a definition says ------------------------------------------------------------------------------------------
+# -- what a definition has -------------------------------------------------------------------------------------------
 
 
 def test_defaults_of_instances_are_whole_where_the_parameter_is(amp, definitions) -> None:

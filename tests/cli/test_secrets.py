@@ -35,7 +35,7 @@ def with_password(path: Path, password: str) -> Path:
 
 @pytest.fixture(params=WITH_SECRETS)
 def machine(request: pytest.FixtureRequest, amp, tmp_path: Path) -> Path:
-    """Return a file of a family that has secrets, with a builder's rule that tries to tell them."""
+    """Return a file of a family that has secrets, with a builder's rule that tries to show them."""
     path = tmp_path / "machine.amp"
     assert amp("new", request.param, path).code == 0
     secret = next(p.id for p in load_schema(request.param).parameters.values() if p.secret)
@@ -186,7 +186,7 @@ def test_the_printed_password_is_warned_of_and_not_written(amp, tmp_path: Path) 
     assert "AB-D4" not in said
     assert "[65" not in said
     assert all(row["default"] for row in amp("get", path, "101", "106", "--json").json["values"])
-    amp("set", path, "103=46")  # which five signs are the printed ones is not told
+    amp("set", path, "103=46")  # which five signs are the printed ones is hidden
     rows = amp("get", path, *(str(n) for n in range(101, 107)), "--json").json["values"]
     assert [row["default"] for row in rows] == [False] * 6
 

@@ -22,7 +22,7 @@ for number, arguments in enumerate(json.load(sys.stdin)):
     except SystemExit:
         sys.stdout.flush()
 """
-"""One start of the program after the other on the streams of one process, each told by its number."""
+"""One start of the program after the other on the streams of one process, each named by its number."""
 
 
 def outputs_of(*runs: tuple[object, ...]) -> list[str]:

@@ -12,7 +12,7 @@ from amp_studio.cli.screen import Screen, print_notice
 
 
 class Terminal(io.BytesIO):
-    """Remembers what was written; ``shown`` is what stands on its lines."""
+    """Remembers what was written; ``shown`` is the text of its lines."""
 
     def isatty(self) -> bool:
         return True

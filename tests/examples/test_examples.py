@@ -21,9 +21,9 @@ SOURCE = re.compile(
 
 
 def entries(path: Path) -> list[tuple[str, str]]:
-    """Return (key, comment) of every value as it stands: the comment beside it, else that above its parameter's block.
+    """Return (key, comment) of every value as it is written: the comment beside it, else that above its parameter's block.
 
-    A block is the lines of one parameter; what stands between two blocks belongs to the one below.
+    A block is the lines of one parameter; what is between two blocks belongs to the one below.
     """
     found: list[tuple[str, str]] = []
     above, parameter = "", ""
@@ -49,7 +49,7 @@ def in_force(file: ParameterFile) -> list[Address]:
 
 
 def test_nothing_is_found_wrong(example: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    # The advice an example keeps on purpose would stand in its README; at present there is none.
+    # A recommendation that an example keeps on purpose would be in its README; at present there is none.
     assert run(["validate", str(example)]) == 0
     assert capsys.readouterr().out == f"{example}: 0 errors, 0 warnings, 0 recommendations\n"
 

@@ -29,7 +29,7 @@ def _faults(chance: random.Random) -> dict[str, Any]:
 
 
 def download_over_bad_lines(seed: int, runs: int, folder: Path) -> list[str]:
-    """Download to a control behind a bad line; returns what was not true of what the program said."""
+    """Download to a control behind a bad line; returns what was not true in the program's reports."""
     found = []
     for number in range(runs):
         chance = random.Random(f"{seed} {number}")

@@ -36,7 +36,7 @@ FACTS = REPOSITORY / "tests" / "families" / "steps" / "facts"
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """Return what a folder holds."""
+    """Return the content of a folder."""
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
@@ -110,7 +110,7 @@ def _begin(memory: Path, identity: Identity, image: bytes, staged: int) -> None:
 
 
 def fuzz_copies(folder: Path, seed: int, count: int) -> list[str]:
-    """Open damaged copies of what a control held: the image, its digest and the parameter file beside it."""
+    """Open damaged copies of a control's content: the image, its digest and the parameter file beside it."""
     file = new_file("57c422b", "module")
     for address in list(file.values)[12:]:
         del file.values[address]
@@ -257,7 +257,7 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
         assert window.width() >= 1
 
     path = folder / "settings.conf"
-    before = qInstallMessageHandler(lambda *_: None)  # what Qt says of each entry that it cannot read
+    before = qInstallMessageHandler(lambda *_: None)  # what Qt prints about each entry that it cannot read
     found = violations(mutants([SETTINGS], seed, count), look, ())
     qInstallMessageHandler(before)
     window.deleteLater()

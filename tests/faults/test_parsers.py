@@ -62,7 +62,7 @@ READERS = {
     "transfer/links/endpoint.py": "damaged addresses of controls",
     "transfer/links/pseudo_terminal.py": "damaged frames",
     "transfer/links/rfc2217.py": "damaged telnet",
-    "transfer/links/serial_ports.py": "",  # what the system says of its ports is only shown
+    "transfer/links/serial_ports.py": "",  # the system's text about its ports is only shown
     "transfer/links/tcp.py": "hostile clients",
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
     "ui/control_actions.py": "damaged control image",

@@ -105,7 +105,7 @@ def _line(text: str, chance: random.Random, _texts: Sequence[str]) -> str:
 def violations(
     texts: Iterator[Case], look: Callable[[Case], None], allowed: tuple[type[BaseException], ...]
 ) -> list[str]:
-    """Return what goes wrong when each text is looked at: any error that is not allowed, and whatever takes long."""
+    """Return what goes wrong when each text is checked: any error that is not allowed, and whatever takes long."""
     with mock.patch("os.fsync", return_value=None):  # it is about what is read, not about the disk
         return [violation for text in texts for violation in _looked(text, look, allowed)]
 

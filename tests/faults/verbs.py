@@ -116,7 +116,7 @@ def _contents(work: Path) -> dict[str, bytes]:
 
 
 def _wanted(verb: tuple[str, ...], work: Path) -> dict[str, bytes]:
-    """Return what the folder holds after the verb when nothing fails."""
+    """Return what the folder contains after the verb when nothing fails."""
     _lay_out(work)
     code, said = _run(verb, work, {})
     assert code in (0, 1), said
@@ -140,7 +140,7 @@ def _violations(
     if "Traceback" in said or "ignored" in said:
         yield said
     changed = after.get(target) != before.get(target)
-    # A report says so where the rules of the builder, or for the checksum the file once more, cannot be read.
+    # A report has a note where the rules of the builder, or for the checksum the file once more, cannot be read.
     said_so = any(
         words in after.get(target, b"") for words in (b"rules.yaml", b"the file on disk cannot be read")
     )

@@ -1,4 +1,4 @@
-"""A file of the 9/PC on disk, and a disk that fails when it is told to."""
+"""A file of the 9/PC on disk, and a disk that fails on demand."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class FailingDisk:
             n = len(self.made)
             if n == self.fails_at or (self.for_ever and n > self.fails_at):
                 if name == "close":
-                    original(*args, **options)  # a close that fails has closed all the same
+                    original(*args, **options)  # a close that fails has closed anyway
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             return original(*args, **options)
 
@@ -102,13 +102,13 @@ class FailingDisk:
 
 @pytest.fixture
 def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[FailingDisk]:
-    """Return a disk that can be told to fail."""
+    """Return a disk that can be made to fail."""
     with monkeypatch.context() as patch:
         yield FailingDisk(patch)
 
 
 class Other:
-    """Another program: a Python process that runs a script, says what it has done, and waits to be told or killed."""
+    """Another program: a Python process that runs a script, reports what it has done, and waits for a command or its end."""
 
     def __init__(self, script: str, *arguments: object) -> None:
         self.process = subprocess.Popen(

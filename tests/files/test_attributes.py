@@ -1,4 +1,4 @@
-"""What else a file has than its content survives a save, or the save says what does not."""
+"""What else a file has than its content survives a save, or the save reports what does not."""
 
 from __future__ import annotations
 

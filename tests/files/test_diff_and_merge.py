@@ -18,7 +18,7 @@ USED, TYPE = ("zone.overtravel_used", "1"), ("axis.type", "1")
 
 
 def a_file(values: dict[Address, Value], unknown: dict[str, str] | None = None) -> ParameterFile:
-    """Return a file that holds these values only."""
+    """Return a file that contains these values only."""
     file = ParameterFile(load_schema("9pc"))
     file.values.update(values)
     file.unknown.update(unknown or {})
@@ -192,7 +192,7 @@ files = st.builds(a_file, values, unknowns)
 
 
 def content(file: ParameterFile) -> tuple:
-    """Return what a file holds."""
+    """Return the content of a file."""
     return file.values, file.unknown
 
 

@@ -107,7 +107,7 @@ def test_a_file_deleted_behind_its_link_is_recovered_where_it_was(on_disk: Path,
 
 
 def test_planted_links_in_the_place_of_companions_are_not_followed(on_disk: Path) -> None:
-    """Whoever may write to the folder must not reach files elsewhere through the program of another user."""
+    """Anybody who may write to the folder must not reach files elsewhere through the program of another user."""
     victim = on_disk.with_name("victim")
     victim.write_bytes(b"precious")
     for name in (".bench.amp.holder", ".bench.amp.unsaved", "bench.amp.history", "bench.amp.bak"):

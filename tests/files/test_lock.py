@@ -1,4 +1,4 @@
-"""The lock where a file system has none, where another user holds it, and where something else has its name."""
+"""The lock where a file system has none, where another user has it, and where something else has its name."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ UNSUPPORTED = [errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL, errno
 
 @pytest.fixture(params=UNSUPPORTED, ids=lambda number: errno.errorcode[number])
 def no_locks(request: pytest.FixtureRequest, monkeypatch) -> int:
-    """Let the file system have no locks; return how it says so."""
+    """Let the file system have no locks; return its error."""
 
     def refused(_handle: int, _operation: int) -> None:
         raise OSError(request.param, os.strerror(request.param))

@@ -28,7 +28,7 @@ CALIBRATION = ("home.calibration", "1")
 
 @pytest.fixture
 def old(tmp_path: Path) -> Path:
-    """Return the path of a file that holds the old content."""
+    """Return the path of a file that contains the old content."""
     path = tmp_path / "machine.amp"
     path.write_bytes(OLD)
     return path
@@ -212,7 +212,7 @@ def test_a_first_save_that_fails_leaves_no_file_at_all(tmp_path: Path, disk, for
 
 
 def test_a_save_that_only_fails_to_sync_the_folder_has_been_made(old: Path, monkeypatch) -> None:
-    """The rename has happened: to tell the user that his file is still the old one would be wrong."""
+    """The rename has happened: to report that the file is still the old one would be wrong."""
     sync = os.fsync
 
     def folders_fail(handle: int) -> None:

@@ -1,4 +1,4 @@
-"""What docs/formats.md says of the formats is what they do."""
+"""What docs/formats.md describes is what the formats do."""
 
 from __future__ import annotations
 

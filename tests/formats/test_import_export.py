@@ -1,4 +1,4 @@
-"""Text formats: what is written reads back, and what cannot be meant is told with line and column."""
+"""Text formats: what is written reads back, and what cannot be meant is reported with line and column."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ TEXTS = {
 
 
 def taken(path: Path, family: str, key: str | None, keep: bool) -> ParameterFile | None:
-    """Return what a text holds, None where it is refused."""
+    """Return the content of a text, None where it is refused."""
     try:
         return import_file(path, family, format_key=key, keep_unknown=keep)
     except FormatError:

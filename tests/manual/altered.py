@@ -1,4 +1,4 @@
-"""Facts and parameters with one thing altered, which a check has to tell."""
+"""Facts and parameters with one thing altered, which a check has to report."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import load_compiled
 
 OUT_OF_THE_WAY = "87654.3"
-"""A figure that nothing holds and no erratum mentions."""
+"""A figure that is nowhere in the database and in no erratum."""
 
 Fact = Any
-"""A fact of the kind that an alteration is for: each kind has fields of its own."""
+"""A fact of the kind that an alteration is for: each kind has separate fields."""
 Alter = Callable[[Fact], Iterable[tuple[str, Fact | None]]]
-"""What gives a fact altered, once for each way, or None for it left out, and says what is altered."""
+"""What gives a fact altered, once for each way, or None for it left out, and names what is altered."""
 
 
 def each(**wrong: tuple[object, ...]) -> Alter:

@@ -1,4 +1,4 @@
-"""The printed 9/PC manual beside the database: which parameter a printed fact speaks of."""
+"""The printed 9/PC manual beside the database: which parameter a printed fact is about."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PATCH_PAGE = "37-3"
 
 @dataclass(frozen=True)
 class Home:
-    """A parameter in the section that describes it, with the names of the rows its numbers stand in."""
+    """A parameter in the section that describes it, with the names of the rows its numbers are in."""
 
     parameter: Parameter
     rows: tuple[str, ...]
@@ -24,7 +24,7 @@ class Home:
 
 
 class Reference(Book):
-    """The facts of the AMP reference manual and the database they are held against."""
+    """The facts of the AMP reference manual and the database they are compared with."""
 
     @cached_property
     def described_in(self) -> dict[str, str]:
@@ -75,7 +75,7 @@ class Reference(Book):
 
 
 def headings(section: Section) -> tuple[str, ...]:
-    """Return the headings a section stands under."""
+    """Return the headings above a section."""
     return (section.heading, section.within) if section.within else (section.heading,)
 
 
@@ -91,7 +91,7 @@ WORDS = {"max": "maximum", "min": "minimum", "acc": "acceleration", "dev": "devi
 COUNTING = re.compile(
     r"(?:\d+|st|nd|rd|th|to|and|or|for|gears?|spindles?|spn|skip|set|mill|only|that|g|p|#)*"
 )
-"""What a heading or a row says beyond the name when one parameter has many instances."""
+"""What a heading or a row has beyond the name when one parameter has many instances."""
 
 
 def spelled(text: str) -> str:
@@ -101,7 +101,7 @@ def spelled(text: str) -> str:
 
 
 def same_name(name: str, *labels: str, instance: str = "") -> bool:
-    """Tell whether a name is one of the labels; a label may count instances, or say which one it is."""
+    """Return whether a name is one of the labels; a label may count instances, or say which one it is."""
     own, uncounted = spelled(name), spelled(re.sub(r"\d+ ?(?:-|to) ?\d+", "", name))
     for label in filter(None, labels):
         said = spelled(label)
@@ -116,7 +116,7 @@ def same_name(name: str, *labels: str, instance: str = "") -> bool:
 
 
 def last(instance: str) -> str:
-    """Return what tells an instance from its sisters: the gear of ``1.3``."""
+    """Return what distinguishes an instance from its sisters: the gear of ``1.3``."""
     return instance.rpartition(".")[2]
 
 
@@ -127,7 +127,7 @@ def words_of(text: str) -> set[str]:
 
 
 def fits(number: PrintedNumber, claim: Claim) -> bool:
-    """Tell whether the row and the column of a number are those of an instance."""
+    """Return whether the row and the column of a number are those of an instance."""
     if number.machine and number.machine not in claim.machines:
         return False
     whole, _, part = claim.instance.partition(".")

@@ -51,7 +51,7 @@ def own_of(schema: Schema) -> dict[str, frozenset[int]]:
 
 @cache
 def words_of(schema: Schema, name: str) -> str:
-    """Return all that is said of a parameter, squashed: name, bits, help and errata."""
+    """Return all texts of a parameter, squashed: name, bits, help and errata."""
     parameter = schema.parameters[name]
     labels = [bit.label for bit in parameter.bits or ()]
     said = [reading.says for key in parameter.errata for reading in schema.errata[key].readings]
@@ -60,11 +60,11 @@ def words_of(schema: Schema, name: str) -> str:
 
 
 class Module(Book):
-    """The facts of the manual and the database they are held against."""
+    """The facts of the manual and the database they are compared with."""
 
     @property
     def held(self) -> dict[int, set[tuple[str, str]]]:
-        """Register -> parameters that hold it, each with its axis; a value of two words holds two."""
+        """Register -> parameters that are in it, each with its axis; a value of two words is in two."""
         return held_by(self.schema)
 
     def owners(self, printed: str) -> list[Parameter]:
@@ -87,7 +87,7 @@ class Module(Book):
 
 
 def check_numbers(book: Module) -> Iterator[Disagreement]:
-    """Every printed register belongs to the parameters that hold it, and every held one is printed at its page."""
+    """Every printed register belongs to its parameters, and every register of the database is printed at its page."""
     described: dict[int, str] = {}
     for section in book.sections:
         for fact in section.numbers:
@@ -109,7 +109,7 @@ def check_numbers(book: Module) -> Iterator[Disagreement]:
 
 
 def number_of(book: Module, section: Section, fact: PrintedNumber) -> Iterator[Disagreement]:
-    """Tell what is wrong with those who hold a printed register."""
+    """Yield what is wrong with the parameters of a printed register."""
 
     def differs(manual: str, database: str) -> Disagreement:
         return at_line("numbers", section, fact.line, fact.number, manual, database)
@@ -135,7 +135,7 @@ def number_of(book: Module, section: Section, fact: PrintedNumber) -> Iterator[D
 
 
 def check_choices(book: Module) -> Iterator[Disagreement]:
-    """Every bit that is printed with its number is held by that name, and every named command is told."""
+    """Every bit that is printed with its number is in the database by that name, and every named command too."""
     printed: dict[str, set[int]] = {}
     for section in book.sections:
         for fact in section.choices:
@@ -151,7 +151,7 @@ def check_choices(book: Module) -> Iterator[Disagreement]:
 
 
 def choice_of(book: Module, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:
-    """Tell the disagreements on a printed bit or on the name of one."""
+    """Yield the disagreements on a printed bit or on the name of one."""
     owners = book.owners(fact.number)
     here = [parameter.id for parameter in book.of_section(section)]
     if not owners:
@@ -198,7 +198,7 @@ def bounds_of(parameter: Parameter) -> list[tuple[int, float]]:
 
 
 def is_bound(parameter: Parameter, end: int, said: float) -> bool:
-    """Tell whether a printed figure is a bound, as it is shown or as the register holds it."""
+    """Return whether a printed figure is a bound, as shown or as in the register."""
     scale = parameter.storage.scale if parameter.storage else 1.0
     return any(
         at == end and any(abs(said - one) <= 1e-9 * abs(one) for one in (bound, bound * scale))
@@ -207,7 +207,7 @@ def is_bound(parameter: Parameter, end: int, said: float) -> bool:
 
 
 def check_ranges(book: Module) -> Iterator[Disagreement]:
-    """Every printed bound is held, and no other."""
+    """Every printed bound is in the database, and no other."""
     printed: list[tuple[Parameter, int, float]] = []
     for section in book.sections:
         for fact in section.ranges:
@@ -231,7 +231,7 @@ def ends(fact: PrintedRange) -> list[tuple[int, float]]:
 
 
 def range_of(book: Module, section: Section, fact: PrintedRange) -> Iterator[Disagreement]:
-    """Tell the disagreements on one printed range."""
+    """Yield the disagreements on one printed range."""
     owners = book.of_section(section)
     for end, said in ends(fact):
         if not any(is_bound(p, end, said) for p in owners):
@@ -257,7 +257,7 @@ UNITS = {
 
 
 def check_stored(book: Module) -> Iterator[Disagreement]:
-    """Every printed unit and default is held, and every default that is held is printed."""
+    """Every printed unit and default is in the database, and every default there is printed."""
     printed: set[str] = set()
     for section in book.sections:
         for row in section.stored:
@@ -269,7 +269,7 @@ def check_stored(book: Module) -> Iterator[Disagreement]:
 
 
 def row_of(book: Module, section: Section, row: StoredRow) -> Iterator[Disagreement]:
-    """Tell the disagreements on a printed unit or default."""
+    """Yield the disagreements on a printed unit or default."""
     if not book.owners(row.numbers[0]):
         yield at_line(
             "stored", section, row.line, row.numbers[0], f"{row.default} {row.unit}", "no parameter has it"

@@ -49,7 +49,7 @@ def check_numbers(book: Reference) -> Iterator[Disagreement]:
 
 
 def numbers_of(book: Reference, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the numbers of one section."""
+    """Yield the disagreements on the numbers of one section."""
     for number in section.numbers:
         if not book.claims.get(number.number):
             about, nobody = number.number, "no parameter has it"
@@ -61,7 +61,7 @@ def numbers_of(book: Reference, section: Section) -> Iterator[Disagreement]:
 def _at_home(
     book: Reference, section: Section, number: PrintedNumber, at_home: tuple[Claim, ...]
 ) -> Iterator[Disagreement]:
-    """Tell what is wrong with the claims that a printed number belongs to."""
+    """Yield what is wrong with the claims that a printed number belongs to."""
 
     def differs(manual: str, database: str) -> Disagreement:
         return at_line("numbers", section, number.line, number.number, manual, database)
@@ -82,7 +82,7 @@ def _at_home(
 def _printed_elsewhere(
     book: Reference, number: str, claim: Claim, row: StoredRow | None
 ) -> Iterator[Disagreement]:
-    """Tell of a claim that no section prints: it stands in the Patch AMP table under its name, or is invented."""
+    """Yield the disagreement on a claim that no section prints: it is in the Patch AMP table under its name, or is invented."""
     page, where = book.page(claim), _claim(book, claim)
     if row is None or number in book.described_in:
         yield Disagreement(
@@ -117,13 +117,13 @@ def _claim(book: Reference, claim: Claim) -> str:
 
 
 def check_ranges(book: Reference) -> Iterator[Disagreement]:
-    """Every printed range is what the database holds in that unit, and it holds no other."""
+    """Every printed range is what the database contains in that unit, and it contains no other."""
     for section in book.sections:
         yield from ranges_of(book, section)
 
 
 def ranges_of(book: Reference, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the ranges of one section."""
+    """Yield the disagreements on the ranges of one section."""
     homes = book.homes(section)
     for fact in section.ranges:
         if not any(applies(fact, home) for home in homes):
@@ -159,20 +159,20 @@ def _ranges(
 
 
 def neighbour_units(book: Reference, held: list[tuple[str, Range]]) -> set[str]:
-    """Return the units of the parameters that are bounds: a range printed in words only holds in all of them."""
+    """Return the units of the parameters that are bounds: a range printed in words is valid only in all of them."""
     bounds = [bound.param for _, both in held for bound in both if isinstance(bound, BoundRef)]
     return {unit for name in bounds for unit, _ in held_ranges(book.schema.parameters[name])}
 
 
 def range_is(book: Reference, fact: PrintedRange, held: tuple[str, Range]) -> bool:
-    """Tell whether a range is held as it is printed."""
+    """Return whether a range is in the database as printed."""
     return unit_agrees(fact, held[0]) and not list(wrong_bounds(book, fact, held[1]))
 
 
 def range_explained(
     book: Reference, section: Section, parameter: Parameter, fact: PrintedRange, held: tuple[str, Range]
 ) -> bool:
-    """Tell whether an erratum names both readings of all bounds that differ."""
+    """Return whether an erratum names both readings of all bounds that differ."""
     wrong = list(wrong_bounds(book, fact, held[1]))
     instead = [
         book.schema.parameters[bound.param].name if isinstance(bound, BoundRef) else bound
@@ -197,7 +197,7 @@ def held_ranges(parameter: Parameter) -> list[tuple[str, Range]]:
 
 
 def applies(fact: PrintedRange | PrintedChoice, home: Home) -> bool:
-    """Tell whether a fact is for this parameter, where a section says for what it is printed."""
+    """Return whether a fact is for this parameter, where a section restricts itself."""
     if isinstance(fact, PrintedChoice) and fact.number:
         return fact.number in home.numbers or not home.numbers
     if not fact.applies:
@@ -207,19 +207,19 @@ def applies(fact: PrintedRange | PrintedChoice, home: Home) -> bool:
 
 
 def unit_agrees(fact: PrintedRange, unit: str) -> bool:
-    """Tell whether a printed unit is that of the database; a bare figure may count or be a percentage there."""
+    """Return whether a printed unit is that of the database; a bare figure may count or be a percentage there."""
     if fact.unit:
         return unit_of(fact.unit) == unit
     return unit in {"", "counts", "%", "ms"} or is_worded(fact)
 
 
 def is_worded(fact: PrintedRange) -> bool:
-    """Tell whether both bounds are the names of other parameters, without a unit."""
+    """Return whether both bounds are the names of other parameters, without a unit."""
     return not fact.unit and not re.match(r"-?\d", fact.low) and not re.match(r"-?\d", fact.high)
 
 
 def bound_agrees(book: Reference, said: str, bound: Bound) -> bool:
-    """Tell whether a printed bound, a figure or the name of another parameter, is the one of the database."""
+    """Return whether a printed bound, a figure or the name of another parameter, is the one of the database."""
     if isinstance(bound, BoundRef):
         return same_name(book.schema.parameters[bound.param].name, said, said.removesuffix(" value"))
     try:
@@ -229,7 +229,7 @@ def bound_agrees(book: Reference, said: str, bound: Bound) -> bool:
 
 
 def choices_span(book: Reference, section: Section, parameter: Parameter, fact: PrintedRange) -> bool:
-    """Tell whether the codes of a choice fill a printed range, or an erratum names the bounds that no code has."""
+    """Return whether the codes of a choice fill a printed range, or an erratum names the bounds that no code has."""
     codes = [choice.raw for choice in parameter.choices or () if choice.raw is not None]
     ends = zip((fact.low, fact.high), (min(codes, default=None), max(codes, default=None)), strict=True)
     wrong = [said for said, code in ends if code is None or float(said) != code]
@@ -266,7 +266,7 @@ def check_choices(book: Reference) -> Iterator[Disagreement]:
 
 
 def choices_of(book: Reference, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the choices of one section."""
+    """Yield the disagreements on the choices of one section."""
     homes = book.homes(section)
     for fact in section.choices:
         if not any(applies(fact, home) for home in homes):
@@ -307,7 +307,7 @@ def _choices(
 def choice_agrees(
     book: Reference, section: Section, parameter: Parameter, fact: PrintedChoice, choice: Choice
 ) -> bool:
-    """Tell whether a choice has its letter and its label, or an erratum names both labels."""
+    """Return whether a choice has its letter and its label, or an erratum names both labels."""
     if fact.letter != choice.code:
         return False
     plain = re.sub(

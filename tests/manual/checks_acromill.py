@@ -13,7 +13,7 @@ from printed_book import Book, mentions, squashed
 from amp_studio.schema import Parameter
 
 KINDS = {"Boolean": "boolean", "Integer": "integer", "Float": "real", "Sign": "choice", "NA": ""}
-"""Words of the column of units that are no units, and the type they stand for."""
+"""Words of the column of units that are no units, and the type they mean."""
 UNITS = {
     "volts/pulses of following error": "V/count",
     "volts/second/pulses of following error": "V/count/s",
@@ -35,7 +35,7 @@ REPEATED = {"104": "61"}
 NOT_TYPICAL = {"", "NA", "Machine+", "Machine-", "User Choice", "User Defined", "X,Y...."}
 """Words of the column of typical values that name none."""
 NO_FIGURES = {"Disable": "-1"}
-"""What an integer without a figure is held as (erratum e-io-disable)."""
+"""What an integer without a figure is in the database (erratum e-io-disable)."""
 SHORT = {"spd": "speed", "mach": "machine", "for": "forward", "back": "backward", "upm": "", "reqd": "required",
          "src": "source", "mult": "multiplier", "tangen": "tangent", "compensat": "compensation", "pos": "position",
          "excesserr": "excesserror", "units": "", "per": "", "linear": "", "unit": "", "travel": "", "in": "", "sec": "",
@@ -48,14 +48,14 @@ def long(name: str) -> str:
 
 
 class Guide(Book):
-    """The facts of the tabs and the database they are held against."""
+    """The facts of the tabs and the database they are compared with."""
 
     def of_tab(self, section: Section) -> list[Parameter]:
         page = REPEATED.get(section.page, section.page)
         return [p for p in self.schema.parameters.values() if p.page == page]
 
     def called(self, section: Section, name: str) -> list[Parameter]:
-        """Return what a name of a tab means: the same name, a longer form of it, or one told by an erratum."""
+        """Return what a name of a tab means: the same name, a longer form of it, or one named by an erratum."""
         here = self.of_tab(section)
         if found := [p for p in here if squashed(p.name) == squashed(name)]:
             return found
@@ -67,7 +67,7 @@ class Guide(Book):
         return [p for p in here if self.told(p, name)]
 
     def told(self, parameter: Parameter, name: str) -> bool:
-        """Tell whether an erratum of the parameter names what is printed."""
+        """Return whether an erratum of the parameter names what is printed."""
         readings = [r.says for key in parameter.errata for r in self.schema.errata[key].readings]
         return any(mentions(says, name) for says in readings)
 
@@ -99,7 +99,7 @@ def check_names(book: Guide) -> Iterator[Disagreement]:
 
 
 def check_values(book: Guide) -> Iterator[Disagreement]:
-    """Every printed default and unit is held or explained, and every held default is printed."""
+    """Every printed default and unit is in the database or explained, and every default there is printed."""
     printed: set[str] = set()
     for section in book.sections:
         for row in section.stored:
@@ -113,7 +113,7 @@ def check_values(book: Guide) -> Iterator[Disagreement]:
 
 
 def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter) -> Iterator[Disagreement]:
-    """Tell the disagreements on a printed default, unit or value of a picture."""
+    """Yield the disagreements on a printed default, unit or value of a picture."""
     default = parameter.default
     labels = {choice.key: choice.label for choice in parameter.choices or ()}
     held = labels.get(str(default.value), str(default.value)) if default else "NA"
@@ -154,7 +154,7 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
 
 
 def check_typical(book: Guide) -> Iterator[Disagreement]:
-    """Every typical value that is not the default is told by the help."""
+    """Every typical value that is not the default is in the help."""
     for section in book.sections:
         for row in section.stored:
             typical = row.codes.get("typical", "")
@@ -185,7 +185,7 @@ def check_runs(book: Guide) -> Iterator[Disagreement]:
 
 
 def alike(printed: str, held: str) -> bool:
-    """Tell whether a printed value is the held one, as a figure or as a word."""
+    """Return whether a printed value is that of the database, as a figure or as a word."""
     try:
         return float(printed) == float(held)
     except ValueError:
@@ -193,7 +193,7 @@ def alike(printed: str, held: str) -> bool:
 
 
 def check_ranges(book: Guide) -> Iterator[Disagreement]:
-    """Every range in brackets is held."""
+    """Every range in brackets is in the database."""
     for section in book.sections:
         for fact in section.ranges:
             yield from range_of(book, section, fact)
@@ -209,7 +209,7 @@ def range_of(book: Guide, section: Section, fact: PrintedRange) -> Iterator[Disa
 
 
 def choice_of(book: Guide, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:
-    """Tell where a value that is explained in words is told by no help."""
+    """Yield where a value that is explained in words is in no help."""
     found = book.called(section, fact.number)
     told = " ".join(f"{p.help.what} {p.help.find}" for p in found)
     if not any(mentions(told, fact.letter) and p.type == "integer" for p in found):

@@ -24,7 +24,7 @@ class Claimant(NamedTuple):
 
 
 class Words(Book):
-    """The facts of the parameter manual and the database they are held against."""
+    """The facts of the parameter manual and the database they are compared with."""
 
     @cached_property
     def words(self) -> dict[str, dict[int, tuple[Claimant, ...]]]:
@@ -72,7 +72,7 @@ class Words(Book):
         return tuple(claim for n in (span(word) if word else held) for claim in held.get(n, ()))
 
     def has_erratum(self, number: str, said: str, held: Iterable[object] = ()) -> bool:
-        """Tell whether an erratum of this parameter names what is printed and takes what is held."""
+        """Return whether an erratum of this parameter names what is printed and takes what is in the database."""
         errata = {key for claim in self.claims_on(number) for key in claim.parameter.errata}
         return any(
             any(mentions(reading.says, said) for reading in self.schema.errata[key].readings)
@@ -82,7 +82,7 @@ class Words(Book):
 
 
 def span(word: str) -> list[int]:
-    """Return 0 to 31 for ``N0-N31``; several runs may stand in a row."""
+    """Return 0 to 31 for ``N0-N31``; several runs may be in a row."""
     found: list[int] = []
     for part in re.split(r",\s*", word):
         first, _, last = part.replace("N", "").partition("-")
@@ -120,13 +120,13 @@ def check_list(book: Words) -> Iterator[Disagreement]:
 
 
 def listed_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the rows of the list."""
+    """Yield the disagreements on the rows of the list."""
     for row in section.listed:
         yield from row_of(book, row)
 
 
 def row_of(book: Words, row: ListedParameter) -> Iterator[Disagreement]:
-    """Tell the disagreements on one row of the list."""
+    """Yield the disagreements on one row of the list."""
 
     def differs(manual: str, database: str) -> Disagreement:
         return Disagreement("list", row.line, row.number, "chapter 2", manual, database)
@@ -171,7 +171,7 @@ def check_words(book: Words) -> Iterator[Disagreement]:
 
 
 def words_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the words of one section."""
+    """Yield the disagreements on the words of one section."""
     for size in section.sizes:
         held = book.words.get(size.number, {})
         codes = {str(c.parameter.storage and c.parameter.storage.code) for c in book.claims_on(size.number)}
@@ -189,13 +189,13 @@ def words_of(book: Words, section: Section) -> Iterator[Disagreement]:
 
 
 def check_bits(book: Words) -> Iterator[Disagreement]:
-    """Every printed bit is one that its word has, and stands at the ends of a field there."""
+    """Every printed bit is one that its word has, and is at the ends of a field there."""
     for section in book.sections:
         yield from bits_of(book, section)
 
 
 def bits_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the bits of one section."""
+    """Yield the disagreements on the bits of one section."""
     for fact in section.bits:
         if not any(has_bits(claim.parameter, fact) for claim in book.claims_on(fact.number, fact.word)):
             about = f"{fact.number} {fact.word}".strip()
@@ -218,7 +218,7 @@ def fields(parameter: Parameter) -> list[tuple[int, int]]:
 
 
 def has_bits(parameter: Parameter, fact: PrintedWord) -> bool:
-    """Tell whether the printed bits are whole fields of a parameter."""
+    """Return whether the printed bits are whole fields of a parameter."""
     said = sorted(map(int, fact.bits.split("-")))
     return said[0] in {low for low, _ in fields(parameter)} and said[-1] in {
         high for _, high in fields(parameter)
@@ -235,7 +235,7 @@ def check_codes(book: Words) -> Iterator[Disagreement]:
 
 
 def codes_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the codes of one section, and the choices of its fields that no code prints."""
+    """Yield the disagreements on the codes of one section, and the choices of its fields that no code prints."""
     told: dict[tuple[str, str], list[int]] = {}
     for fact in section.choices:
         held = choices_of(book, fact)
@@ -268,7 +268,7 @@ def choices_of(book: Words, fact: PrintedChoice) -> list[Choice]:
 
 
 def same_text(label: str, said: str) -> bool:
-    """Tell whether a label is the printed one, without what stands before or behind it."""
+    """Return whether a label is the printed one, without what is before or after it."""
     short, whole = (re.sub(r"[^a-z0-9.µ]", "", text.lower()) for text in (label, said))
     return whole.startswith(short) if short[:1].isdigit() else short in whole
 
@@ -277,7 +277,7 @@ def same_text(label: str, said: str) -> bool:
 
 
 def check_defaults(book: Words) -> Iterator[Disagreement]:
-    """Every printed default is the one of its word, and no other is held."""
+    """Every printed default is the one of its word, and the database has no other."""
     printed: set[str] = set()
     for section in book.sections:
         yield from defaults_of(book, section)
@@ -293,7 +293,7 @@ def check_defaults(book: Words) -> Iterator[Disagreement]:
 
 
 def defaults_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the defaults of one section; without a word, one of its words must have it."""
+    """Yield the disagreements on the defaults of one section; without a word, one of its words must have it."""
     for fact in section.defaults:
         claims = book.claims_on(fact.number, fact.word)
         agreed = [default_is(claim, fact) for claim in claims]
@@ -316,7 +316,7 @@ def held_default(claim: Claimant) -> float | bool | str | None:
 
 
 def default_is(claim: Claimant, fact: PrintedDefault) -> bool:
-    """Tell whether an instance has the printed default, in the printed unit."""
+    """Return whether an instance has the printed default, in the printed unit."""
     held, default = held_default(claim), claim.parameter.default
     if held is None or default is None:
         return False
@@ -329,7 +329,7 @@ def default_is(claim: Claimant, fact: PrintedDefault) -> bool:
 
 
 def check_ranges(book: Words) -> Iterator[Disagreement]:
-    """Every printed bound is held, and what is held is either printed or the whole range of the type."""
+    """Every printed bound is in the database, and a bound there is either printed or the whole range of the type."""
     printed: set[str] = set()
     for section in book.sections:
         yield from ranges_of(book, section)
@@ -357,7 +357,7 @@ def place_of(fact: PrintedRange) -> tuple[str, str]:
 
 
 def ranges_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the bounds of one section."""
+    """Yield the disagreements on the bounds of one section."""
     for fact in section.ranges:
         number, word = place_of(fact)
         claims = book.claims_on(number, word)
@@ -379,7 +379,7 @@ def held_range(parameter: Parameter) -> str:
 
 
 def range_is(parameter: Parameter, fact: PrintedRange) -> bool:
-    """Tell whether printed bounds are held, or for a choice whether all their codes are choices."""
+    """Return whether printed bounds are in the database, or for a choice whether all their codes are choices."""
     low, high = (figure(said) if said else None for said in (fact.low, fact.high))
     codes = {choice.raw for choice in parameter.choices or ()}
     if codes:

@@ -20,7 +20,7 @@ def spanned(printed: str) -> range:
 
 
 class Slides(Book):
-    """The facts of the slides and the database they are held against."""
+    """The facts of the slides and the database they are compared with."""
 
     @cached_property
     def held(self) -> dict[int, tuple[Claim, ...]]:
@@ -42,7 +42,7 @@ class Slides(Book):
         return [self.schema.parameters[name] for name in names]
 
     def errata_say(self, parameter: Parameter, said: str) -> bool:
-        """Tell whether an erratum of the parameter takes what is held."""
+        """Return whether an erratum of the parameter takes what is in the database."""
         return any(said in self.schema.errata[key].taken for key in parameter.errata)
 
 
@@ -50,7 +50,7 @@ class Slides(Book):
 
 
 def check_numbers(book: Slides) -> Iterator[Disagreement]:
-    """Every printed number belongs to the parameters that claim it, and every claim is printed in a place of its own."""
+    """Every printed number belongs to the parameters that claim it, and every claim is printed in a separate place."""
     described: set[int] = set()
     places: dict[int, set[tuple[str, range]]] = {}
     for section in book.sections:
@@ -75,7 +75,7 @@ def check_numbers(book: Slides) -> Iterator[Disagreement]:
 
 
 def number_of(book: Slides, section: Section, fact: PrintedNumber) -> Iterator[Disagreement]:
-    """Tell what is wrong with those who claim a printed number."""
+    """Yield what is wrong with those who claim a printed number."""
 
     def differs(manual: str, database: str) -> Disagreement:
         return at_line("numbers", section, fact.line, fact.number, manual, database)
@@ -109,7 +109,7 @@ def words(text: str) -> set[str]:
 
 
 def alike(printed: str, held: str) -> bool:
-    """Tell whether two names are one: one of them may say more, or name both of a pair."""
+    """Return whether two names are one: one of them may say more, or name both of a pair."""
     return words(printed) <= words(held) or words(held) <= words(printed)
 
 
@@ -131,7 +131,7 @@ def check_choices(book: Slides) -> Iterator[Disagreement]:
 
 
 def choice_of(book: Slides, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:
-    """Tell the disagreements on one printed value."""
+    """Yield the disagreements on one printed value."""
     if not book.owners(fact.number):
         yield at_line(
             "choices", section, fact.line, fact.number, f"{fact.letter} {fact.text}", "no parameter has it"
@@ -149,7 +149,7 @@ def choice_of(book: Slides, section: Section, fact: PrintedChoice) -> Iterator[D
 
 
 def check_ranges(book: Slides) -> Iterator[Disagreement]:
-    """Every printed range is held, and no other."""
+    """Every printed range is in the database, and no other."""
     printed: set[str] = set()
     for section in book.sections:
         for fact in section.ranges:
@@ -161,7 +161,7 @@ def check_ranges(book: Slides) -> Iterator[Disagreement]:
 
 
 def range_of(book: Slides, section: Section, fact: PrintedRange) -> Iterator[Disagreement]:
-    """Tell the disagreements on one printed range."""
+    """Yield the disagreements on one printed range."""
     if not book.owners(fact.applies):
         yield at_line(
             "ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", "no parameter has it"
@@ -179,7 +179,7 @@ def unit_held(parameter: Parameter) -> str:
 
 
 def check_stored(book: Slides) -> Iterator[Disagreement]:
-    """Every printed unit and default is held, or told in the words where it has none; and no other is held."""
+    """Every printed unit and default is in the database, or in the help where it has none; and no other is there."""
     rows = [(section, row) for section in book.sections for row in section.stored]
     units = {
         parameter.id: row.unit for _, row in rows if row.unit for parameter in book.owners(row.numbers[0])
@@ -201,7 +201,7 @@ def check_stored(book: Slides) -> Iterator[Disagreement]:
 
 
 def row_of(book: Slides, section: Section, row: StoredRow) -> Iterator[Disagreement]:
-    """Tell the disagreements on a printed unit, default or list of settings."""
+    """Yield the disagreements on a printed unit, default or list of settings."""
     owners = book.owners(row.numbers[0])
     defaults = [p.default.value for p in owners if p.default]
     for parameter in owners:

@@ -19,7 +19,7 @@ class Disagreement:
 
     check: str
     line: int
-    """Line of the manual's text; 0 where the database says something that is printed nowhere."""
+    """Line of the manual's text; 0 where the database has something that is printed nowhere."""
     about: str
     """A parameter's number or id."""
     section: str
@@ -37,7 +37,7 @@ def at_line(check: str, section: Section, line: int, about: str, manual: str, da
 
 
 def nowhere(check: str, about: str, database: str, among: str = "the whole text") -> Disagreement:
-    """Return a disagreement on what the database says and nothing prints."""
+    """Return a disagreement on what is in the database and printed nowhere."""
     return Disagreement(check, 0, about, among, NOWHERE, database)
 
 
@@ -47,9 +47,9 @@ class Exempt:
 
     check: str
     lines: str
-    """``1754``, or ``1754-1761``; ``0`` where the database says something that is printed nowhere."""
+    """``1754``, or ``1754-1761``; ``0`` where the database has something that is printed nowhere."""
     about: tuple[str, ...] = ()
-    """What it is about, where the lines alone do not tell it."""
+    """What it is about, where the lines alone do not show it."""
     why: str
 
     @property
@@ -62,7 +62,7 @@ class Exempt:
         yield from ((line, about) for line in self.span for about in self.about or ("",))
 
     def covers(self, found: Disagreement) -> bool:
-        """Tell whether a disagreement is excused."""
+        """Return whether a disagreement is excused."""
         return (
             found.check == self.check
             and found.line in self.span

@@ -1,4 +1,4 @@
-"""The families whose databases are held against their manuals: checks, counts of facts, and what no check may miss."""
+"""The families whose databases are compared with their manuals: checks, counts of facts, and what no check may miss."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ GROUPS, MEASURED, LINE = "axes.cnc_groups", "axes.measured", "comm.master_line"
 
 
 def is_judged(fact: PrintedRange) -> bool:
-    """Tell whether a bound must be held: what is recommended need not, and a type's range is what others are held to."""
+    """Return whether a bound must be in the database: a recommendation need not, and the range of a type is the limit of others."""
     return fact.note != "recommended" and not fact.applies.startswith("type ")
 
 

@@ -1,4 +1,4 @@
-"""A family whose database is held against its manual: what ``families.py`` records of each."""
+"""A family whose database is compared with its manual: what ``families.py`` records of each."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from amp_studio.schema import load_schema
 OwnBook = TypeVar("OwnBook", bound=Book)
 """The family's own class of book."""
 Check = Callable[[Any], Iterator[Disagreement]]
-"""What tells the disagreements of a whole book, which is of the family's own class."""
+"""What yields the disagreements of a whole book, which is of the family's own class."""
 Judge = Callable[[Any, Section], Iterator[Disagreement]]
-"""What tells those of one section."""
+"""What yields those of one section."""
 
 
 class AlteredFact(NamedTuple):
-    """Facts of a kind that a check must tell when they are altered."""
+    """Facts of a kind that a check must report when they are altered."""
 
     check: str
     kind: str
@@ -32,7 +32,7 @@ class AlteredFact(NamedTuple):
 
 
 class AlteredEntry(NamedTuple):
-    """A changed parameter of the database that a check must tell, and words that it tells it with."""
+    """A changed parameter of the database that a check must report, and words of its report."""
 
     check: str
     parameter: str
@@ -52,7 +52,7 @@ class Family(Generic[OwnBook]):
     counts: Mapping[str, int]
     """Kind of fact -> how many the manual prints."""
     described: int
-    """How many numbers stand in the tables that describe parameters."""
+    """How many numbers are in the tables that describe parameters."""
     facts: tuple[AlteredFact, ...]
     entries: tuple[AlteredEntry, ...]
 

@@ -27,7 +27,7 @@ class Difference(NamedTuple):
 
 
 def check_stored(book: Reference) -> Iterator[Disagreement]:
-    """Every row of the Patch AMP table is what the database holds: default, bounds, codes and mark."""
+    """Every row of the Patch AMP table is what the database contains: default, bounds, codes and mark."""
     rows = {
         claim.parameter for row in book.stored for number in row.numbers for claim in owners_of(book, number)
     }
@@ -41,13 +41,13 @@ def check_stored(book: Reference) -> Iterator[Disagreement]:
 
 
 def rows_of(book: Reference, section: Section) -> Iterator[Disagreement]:
-    """Tell the disagreements on the rows of one section."""
+    """Yield the disagreements on the rows of one section."""
     for row in section.stored:
         yield from row_of(book, row)
 
 
 def row_of(book: Reference, row: StoredRow) -> Iterator[Disagreement]:
-    """Tell the disagreements on one row."""
+    """Yield the disagreements on one row."""
     where = f"{PATCH_PAGE} {row.name}"
     owners = {number: owners_of(book, number) for number in row.numbers}
     for number, claims in owners.items():
@@ -73,7 +73,7 @@ def owners_of(book: Reference, number: str) -> list[Claim]:
 
 
 def left_out(book: Reference, row: StoredRow, number: str) -> bool:
-    """Tell whether an erratum names a row of the table, by the number of its first axis, that is no parameter."""
+    """Return whether an erratum names a row of the table, by the number of its first axis, that is no parameter."""
     readings = (
         r for erratum in book.schema.errata.values() for r in erratum.readings if r.page == PATCH_PAGE
     )
@@ -104,7 +104,7 @@ def differences(book: Reference, row: StoredRow, claim: Claim) -> Iterator[Diffe
 
 
 def only_on(book: Reference, claim: Claim, machine: str) -> bool:
-    """Tell whether a parameter has no number on every other machine type, or is out of force there."""
+    """Return whether a parameter has no number on every other machine type, or is inactive there."""
     others = {m.key for m in book.schema.family.machines} - {machine}
     conditions = book.schema.family.conditions
     for state in book.schema.parameters[claim.parameter].states:
@@ -160,7 +160,7 @@ def outermost(book: Reference, parameter: Parameter, end: int) -> Iterator[tuple
 
 
 def agrees(printed: str, unit: str, value: object, held_unit: str) -> bool:
-    """Tell whether a held value is a printed figure; converted to another unit it is rounded as shortly."""
+    """Return whether a value of the database is a printed figure; converted to another unit it is rounded as shortly."""
     there = unit_of(unit) if unit else held_unit
     try:
         converted = convert(float(str(value)), held_unit, there)
@@ -184,6 +184,6 @@ def code_differences(row: StoredRow, parameter: Parameter) -> Iterator[Differenc
 
 
 def labels_agree(printed: str, label: str) -> bool:
-    """Tell whether one label is part of the other: the table and the chapter shorten each in its own way."""
+    """Return whether one label is part of the other: the table and the chapter shorten each in its own way."""
     one, other = squashed(printed), squashed(label)
     return one == other or (min(len(one), len(other)) > 3 and (one in other or other in one))

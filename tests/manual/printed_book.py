@@ -23,7 +23,7 @@ class Claim:
 
 @dataclass(frozen=True, eq=False)
 class Book:
-    """The facts of a manual and the database they are held against."""
+    """The facts of a manual and the database they are compared with."""
 
     schema: Schema
     sections: tuple[Section, ...]
@@ -36,7 +36,7 @@ class Book:
     def explained(
         self, parameter: Parameter, page: str, said: Iterable[str], held: Iterable[object] = ()
     ) -> bool:
-        """Tell whether an erratum names all that is printed on a page, and takes what is held, not that."""
+        """Return whether an erratum names all that is printed on a page, and takes what is in the database instead."""
         said, held = tuple(said), tuple(map(str, held))
         return bool(said) and any(
             all(mentions(reading.says, one) for one in said)
@@ -77,7 +77,7 @@ def figures(text: str) -> set[float]:
 
 
 def mentions(text: str, said: str) -> bool:
-    """Tell whether a text names a printed figure, or else the printed words one after the other."""
+    """Return whether a text names a printed figure, or else the printed words one after the other."""
     try:
         return float(said) in figures(text)
     except ValueError:

@@ -1,4 +1,4 @@
-"""Every constraint that a manual states is told by something: a range, a choice, a state, a need or a rule.
+"""Every constraint that a manual states is covered by something: a range, a choice, a state, a need or a rule.
 
 ``constraints/`` lists the manuals' constraining statements, each with its line in the text and its page. What cannot
 be decided from a parameter file is listed too, with the reason.
@@ -35,7 +35,7 @@ class Statement(BaseModel):
         return self
 
     def told_by(self) -> tuple[str, ...]:
-        """Return what tells it."""
+        """Return what shows it."""
         return (self.by,) if isinstance(self.by, str) else self.by
 
 
@@ -53,7 +53,7 @@ def schema_of(path: Path) -> Schema:
 
 
 def missing(schema: Schema, teller: str) -> str | None:
-    """Return what is wrong with what is said to tell a statement."""
+    """Return what is wrong with the entry that covers a statement."""
     kind, _, named = teller.rpartition(" ")
     if not kind:
         return None if teller in {rule.id for rule in schema.rules} else f"no rule {teller}"
@@ -68,7 +68,7 @@ def missing(schema: Schema, teller: str) -> str | None:
         "type": parameter.type,
     }
     if kind not in held:
-        return f"'{kind}' is none of {', '.join(held)}"
+        return f"'{kind}' is not one of {', '.join(held)}"
     return None if held[kind] else f"{named} has no {kind}"
 
 

@@ -45,7 +45,7 @@ def extract(checkout: Path, tmp_path: Path) -> Extract:
 
 
 def roll(*body: str) -> tuple[str, ...]:
-    """Return a section with a heading of its own."""
+    """Return a section with a separate heading."""
     return ("Barrel Roll**Function**", "", *body, "", "Secondary Barrel Word", "", "Patch AMP Values", "")
 
 

@@ -9,7 +9,7 @@ from disagreements import Disagreement
 from families import NUM
 
 TYPES = "Rules for Writing the Parameters"
-"""Its ranges are those of the types: a range of the database is held against them, not they against it."""
+"""Its ranges are those of the types: a range of the database is compared with them, not they against it."""
 
 
 def test_every_listed_parameter_with_a_page_is_described() -> None:

@@ -1,4 +1,4 @@
-"""Every value that a manual itself has somebody enter can be entered, or an erratum says why not.
+"""Every value that a manual itself has somebody enter can be entered, or an erratum has the reason why not.
 
 Taken from its procedures, examples and programs, not from the lists of ranges and defaults: for the 9/PC from the
 text of each parameter, the timing example of chapter 33, and the tuning and scales of appendices A and B; for the 57C422B
@@ -141,7 +141,7 @@ REFUSED = {
     ("9pc", "servo.velocity_proportional_gain@1", "88000"): "e-1801-table",
     ("57c422b", "command.velocity@X", "65536000 counts/s"): "e-r19-limit",
 }
-"""Values that a manual has somebody enter and prints a narrower range for: the erratum that says so."""
+"""Values that a manual has somebody enter and prints a narrower range for: the erratum about it."""
 
 
 def a_file(family: str) -> ParameterFile:

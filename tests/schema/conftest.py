@@ -28,7 +28,7 @@ units:
 effect: {level: restart}
 groups: [all]
 """
-"""What a family says of itself when a test has nothing to add."""
+"""What a family has when a test has nothing to add."""
 
 
 class Facts:

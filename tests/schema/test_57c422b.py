@@ -1,4 +1,4 @@
-"""The registers of the 57C422B, held against what chapter 4 and the printed programs of the manual say of them."""
+"""The registers of the 57C422B, compared with chapter 4 and the printed programs of the manual."""
 
 from __future__ import annotations
 

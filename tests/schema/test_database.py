@@ -76,7 +76,7 @@ def schema(request) -> Schema:
 
 
 def ranges_of(parameter: Parameter) -> Iterator[tuple[str, Range]]:
-    """Yield every printed range of a parameter, whatever condition it holds under."""
+    """Yield every printed range of a parameter, whatever its condition."""
     yield from (parameter.ranges or {}).items()
     for variant in parameter.range_variants:
         yield from variant.ranges.items()

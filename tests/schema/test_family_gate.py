@@ -1,4 +1,4 @@
-"""Only the id of a family that is there is ever looked up, whoever names it."""
+"""Only the id of a family that is there is ever looked up, whatever names it."""
 
 from __future__ import annotations
 

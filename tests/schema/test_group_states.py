@@ -1,4 +1,4 @@
-"""States that a group says once for all its parameters, and lists that the family says once."""
+"""States that a group has once for all its parameters, and lists that the family has once."""
 
 from __future__ import annotations
 

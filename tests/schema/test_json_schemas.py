@@ -37,14 +37,14 @@ def named_in(path: Path) -> Path:
 
 
 def faults(name: str, data: Any) -> list[str]:
-    """Return what a schema says of data, each with its place."""
+    """Return what a schema reports about data, each with its place."""
     found = validator(name).iter_errors(data)
     return [f"{'/'.join(map(str, e.absolute_path))}: {e.message[:200]}" for e in found]
 
 
 def test_the_schemas_are_what_the_models_say() -> None:
     kept = {path.name: path.read_text("utf-8") for path in SCHEMAS.glob("*.json")}
-    assert kept == write_schemas.schemas(), "'make schema' writes them anew"
+    assert kept == write_schemas.schemas(), "'make schema' writes them again"
 
 
 def test_the_units_are_valid_by_their_schema() -> None:

@@ -1,4 +1,4 @@
-"""Loading facts: a fault is told with file and line, and the cache never gives yesterday's facts."""
+"""Loading facts: a fault is reported with file and line, and the cache never gives yesterday's facts."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ SLOW = "conditions:\n  slow:\n    reads: {speed: a.speed}\n    when: speed < 1.0
 
 
 def line_with(path: Path, text: str) -> int:
-    """Return the last line of a file that holds a text."""
+    """Return the last line of a file that contains a text."""
     return max(n for n, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if text in line)
 
 
@@ -60,7 +60,7 @@ def test_good_facts_load(facts, head) -> None:
         ("type: real", "type: reel", "type: reel", "a.speed: type: 'reel' is not 'integer', 'real', "),
         ("id: a.kind", "id: a.speed", "- id: a.speed", "a.speed occurs twice"),
         ("id: a.kind", "id: Kind", "- id: Kind", "Kind: id: 'Kind' is no id: small letters"),
-        ("value: one", "value: three", "- id: a.kind", "a.kind: default 'three' is none of its choices"),
+        ("value: one", "value: three", "- id: a.kind", "a.kind: default 'three' is not one of its choices"),
         ("label: Two", "label: ONE", "- id: a.kind", "a.kind: two choices share a label"),
         ("key: two", "key: one", "- id: a.kind", "a.kind: two choices share a key"),
         ("code: b", "code: A", "- id: a.kind", "a.kind: two choices share a code"),
@@ -182,7 +182,7 @@ def test_every_family_with_a_folder_is_known() -> None:
 
 @pytest.fixture
 def database(facts, head, monkeypatch, tmp_path: Path) -> Path:
-    """Return a folder of facts with one small family, and a cache of its own; the folder is read anew each time."""
+    """Return a folder of facts with one small family, and a separate cache; the folder is read again each time."""
     facts.write("family.yaml", head + SLOW)
     facts.group(GOOD)
     monkeypatch.setattr(loading, "database_folder", lambda: facts.folder.parent)
@@ -250,7 +250,7 @@ def test_a_cache_that_cannot_be_written_costs_nothing_but_time(database, tmp_pat
     expected = load()
     (path,) = cached(tmp_path)
     path.unlink()
-    path.mkdir()  # a folder stands where the file should
+    path.mkdir()  # a folder is where the file should be
     assert expected == load()
     assert [path] == cached(tmp_path), "and no temporary file is left"
     path.rmdir()
@@ -320,7 +320,7 @@ def test_a_cache_that_was_changed_but_is_still_json_is_made_again_and_named(
     assert path.read_bytes() != whole
     assert (load(), path.read_bytes()) == (expected, whole)
     assert warned(caplog) == [
-        f"{path} cannot be used and is made anew: its content is not what was kept there"
+        f"{path} cannot be used and is made again: its content is not what was kept there"
     ]
 
 
@@ -358,7 +358,7 @@ def test_whatever_lies_where_the_cache_should_is_named_and_neither_waited_for_no
         assert (path.is_symlink(), path.read_bytes()) == (False, whole)
     assert not elsewhere.exists()
     if kind != "link to nothing":
-        assert [said.startswith(f"{path} cannot be used and is made anew: ") for said in warned(caplog)] == [
+        assert [said.startswith(f"{path} cannot be used and is made again: ") for said in warned(caplog)] == [
             True
         ]
 

@@ -1,4 +1,4 @@
-"""What does not fit a model is told in plain words, with the key that was meant, and all of an entry at once."""
+"""What does not fit a model is reported in plain words, with the key that was meant, and all of an entry at once."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def test_behind_a_call_that_is_not_used_all_the_rest_are_not_used(ninepc, machin
     ],
 )
 def test_the_modality_counts_for_modal_calls_only(ninepc, machine, changes, expected: str) -> None:
-    """Page 20-5; call 4 stands behind a call that is not used."""
+    """Page 20-5; call 4 comes after a call that is not used."""
     choices = {f"macro.type1_call@{n}": "not-modal" for n in range(9010, 9020)}
     choices |= {"macro.type2_call@1": "not-modal", "macro.type2_call@2": "not-modal"}
     choices |= {"macro.type2_call@3": "not-used"} | changes

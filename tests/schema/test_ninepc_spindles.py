@@ -1,4 +1,4 @@
-"""Spindles of the real 9/PC: which of their parameters are in force goes by the axis that is the spindle."""
+"""Spindles of the real 9/PC: which of their parameters are active goes by the axis that is the spindle."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ORIENTED = ("marker_calibration", "orient_angle", "orient_inposition_band")
 
 @pytest.fixture
 def evaluation(ninepc, machine):
-    """Return what builds a machine: its axes one after the other, then values of its own."""
+    """Return what builds a machine: its axes one after the other, then other values."""
 
     def build(*axes: dict[str, str], **own: Value) -> Evaluation:
         values = {f"{name}@{n}": Value(text) for n, axis in enumerate(axes, 1) for name, text in axis.items()}

@@ -65,7 +65,7 @@ def test_bits_of_groups_and_handwheels(file, number: str, word: int, labels: lis
 
 
 def said(parameter_id: str, bit: int, word: int) -> str:
-    """Return the label of the code that stands in a field of a word."""
+    """Return the label of the code that is in a field of a word."""
     field = field_at(SCHEMA.parameter(parameter_id), bit)
     (label,) = [choice.label for choice in field.choices or () if choice.raw == field_value(field, word)]
     return label
@@ -163,7 +163,7 @@ def test_each_parameter_has_as_many_words_of_the_type_as_its_section_says(parame
     assert codes == {TYPES[parameter]}
 
 
-# -- what is in force -------------------------------------------------------------------------------
+# -- what is active ----------------------------------------------------------------------------------
 
 
 def test_an_address_that_no_list_names_has_nothing_to_say(file) -> None:

@@ -18,7 +18,7 @@ def here(ninepc, machine):
 
 
 def allowed(here, name: str, value: Value) -> bool:
-    """Tell whether a value is allowed."""
+    """Return whether a value is allowed."""
     return fault(here.evaluation, tuple(name.split("@")), value) is None
 
 

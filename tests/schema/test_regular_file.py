@@ -1,4 +1,4 @@
-"""Reading a named path: a file of bounded size, or one sentence that says what it is instead, at once."""
+"""Reading a named path: a file of bounded size, or one sentence about what it is instead, at once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which parameters can be secrets, and what may be told of them."""
+"""Which parameters can be secrets, and what may be shown of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""In force, ignored, hidden, unusable: each with its reason, and right after every edit."""
+"""Active, ignored, hidden, unusable: each with its reason, and right after every edit."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The Syntec family holds every number that the slides print, spread over twenty axes as they print it.
+"""The Syntec family has every number that the slides print, spread over twenty axes as they print it.
 
-Figures are typed here from the slides; sections are counted as ``parameter_db/syntec/family.yaml`` says.
+Figures are typed here from the slides; sections are counted as in ``parameter_db/syntec/family.yaml``.
 """
 
 from __future__ import annotations

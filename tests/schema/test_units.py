@@ -67,7 +67,7 @@ def test_a_conversion_is_exact(value: float, unit: str, to: str, expected: float
 
 
 def test_the_canonical_figure_is_rounded_once() -> None:
-    """0.3 * 25.4 is 7.619999999999999 in doubles; the length is 7.62 mm all the same."""
+    """0.3 * 25.4 is 7.619999999999999 in doubles; the length is 7.62 mm anyway."""
     assert canonical(0.3, "in") == 7.62
     assert same_value(Value(0.3, "in"), Value(7.62, "mm"))
 

@@ -43,7 +43,7 @@ def test_the_letter_of_a_choice_counts_unless_it_is_another_choice_s_label(ninep
 
 
 def test_a_letter_of_axis_name_that_is_a_name_is_that_name(ninepc) -> None:
-    """Axis Name (page 4-2): letter d stands before U; u is U, and c is C although letter c stands before it."""
+    """Axis Name (page 4-2): letter d is before U; u is U, and c is C although letter c is before it."""
     name = ninepc.parameter("axis.name")
     assert [Value("u"), Value("u"), Value("c"), Value("dollar-b")] == [
         read_value(name, t, "") for t in ("d", "U", "c", "$b")

@@ -202,7 +202,7 @@ def test_a_word_may_hold_a_code_in_each_nibble(facts, machine) -> None:
 
 
 def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, machine) -> None:
-    """NUM P34: each long word an axis holds the contents of two registers (page 5-18)."""
+    """NUM P34: each long word an axis contains the contents of two registers (page 5-18)."""
     schema = facts.schema(
         """
         - id: sensor.registers

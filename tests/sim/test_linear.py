@@ -109,7 +109,7 @@ def test_a_held_input_moves_the_machine_as_scipy_discretises_it() -> None:
 
 @pytest.mark.parametrize("delay", [0.0, 0.0007, 0.002, 0.0033])
 def test_a_delay_costs_its_phase_at_every_frequency(delay: float) -> None:
-    """A delayed output that is held moves the machine as late: e^(-j w d) of the continuous machine, not of its holds."""
+    """A delayed output that stays constant moves the machine as late: e^(-j w d) of the continuous machine, not of its samples."""
     frequencies = np.array([1.0, 10.0, 40.0])
     prompt = sampled(rigid(40.0, 3.0), pid(60.0, 0.0, 1.2), None, PLACES, PERIOD, PERIOD)
     late = sampled(rigid(40.0, 3.0, delay), pid(60.0, 0.0, 1.2), None, PLACES, PERIOD, PERIOD)

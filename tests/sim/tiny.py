@@ -25,7 +25,7 @@ WANTED, LAST = 0, 1  # u/s, u
 
 
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
-    """Ask for a velocity in proportion to the following error; stop where that is too large."""
+    """Ask for a velocity in proportion to the following error; stop if that is too large."""
     error = io[COMMAND] - io[POSITION]
     if io[MODE] == POSITION_LOOP:
         if abs(error) > p[EXCESS]:

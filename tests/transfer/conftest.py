@@ -39,7 +39,7 @@ def quick_disk(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def new_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
-    """Give a function that makes a control, in a folder of its own unless one is given."""
+    """Give a function that makes a control, in a separate folder unless one is given."""
     made: list[Control] = []
 
     def make(folder: Path | None = None, initial: bytes = OLD, **options: Any) -> Control:
@@ -55,7 +55,7 @@ def new_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
 
 @dataclass
 class Rig:
-    """A session and a control on a null modem, in a time of its own."""
+    """A session and a control on a null modem, in a separate time."""
 
     control: Control
     clock: VirtualClock
@@ -119,7 +119,7 @@ class Emulated:
     address: str
 
     def command(self, line: str) -> str:
-        """Give an operator's command and return what the control says to it."""
+        """Give an operator's command and return the control's answer."""
         assert self.process.stdin is not None
         self.process.stdin.write(line + "\n")
         self.process.stdin.flush()
@@ -171,7 +171,7 @@ def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
 
 @pytest.fixture
 def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
-    """Return what makes a control that holds the old image."""
+    """Return what makes a control that contains the old image."""
     return lambda **options: new_control(initial=images.OLD, **options)
 
 

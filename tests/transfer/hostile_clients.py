@@ -1,6 +1,6 @@
 """Clients that want to hurt an emulated control or keep it from others, by seed, beside one that means well.
 
-``clients_beside_hostile_ones`` lets them all talk to one emulated control in a time of its own, with nothing
+``clients_beside_hostile_ones`` lets them all talk to one emulated control in a simulated time, with nothing
 that waits; it returns what was wrong, so that a campaign can run many seeds.
 """
 

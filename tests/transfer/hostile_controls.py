@@ -1,6 +1,6 @@
-"""Controls that want to hurt whoever calls them, by seed: any answer may be absurd, late, missing, or noise.
+"""Controls that want to hurt the program that calls them, by seed: any answer may be absurd, late, missing, or noise.
 
-``exchange_with_hostile_control`` is one such exchange in a time of its own; it returns what was wrong with how
+``exchange_with_hostile_control`` is one such exchange in a simulated time; it returns what was wrong with how
 the client took it, so that a campaign can run many seeds.
 """
 
@@ -39,7 +39,7 @@ from .null_modem import VirtualClock
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(120))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(140))
 SIGNATURE = "s1"
-LONGEST = 1_800  # seconds an exchange with a control may take that moves just enough not to be given up
+LONGEST = 1_800  # seconds an exchange with a control may take that moves just enough not to be cancelled
 
 ABSURD = {
     "u8": [0, 1, 2, 127, 255],
@@ -52,7 +52,7 @@ TRICKS = [
     "fields", "fields", "fields", "silent", "noise", "half", "flood", "busy", "refuse", "late", "twice", "cut", "number",
     "acks", "trickle",
 ]  # fmt: skip
-LIES = {"fields", "refuse", "number"}  # after these a control may have said what is not so
+LIES = {"fields", "refuse", "number"}  # after these a control may have sent what is not true
 
 
 class HostileControl:

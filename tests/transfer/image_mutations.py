@@ -84,7 +84,7 @@ def _head(image: bytes, chance: random.Random) -> bytes:
 
 
 def _lines(image: bytes, chance: random.Random) -> bytes:
-    """Drop, double, swap or shorten lines; half of the time the last one counts them rightly all the same."""
+    """Drop, double, swap or shorten lines; half of the time the last one counts them rightly anyway."""
     lines = image.split(b"\n")
     at, other = chance.randrange(len(lines)), chance.randrange(len(lines))
     match chance.randrange(4):

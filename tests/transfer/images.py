@@ -17,5 +17,5 @@ def sha(image: bytes) -> bytes:
 
 
 def send(session: Session, image: bytes = NEW, **options: Any) -> Any:
-    """Send an image to a control that holds the old one."""
+    """Send an image to a control that contains the old one."""
     return session.send(image, signature="s1", expected=sha(OLD), **options)

@@ -1,4 +1,4 @@
-"""A line without a cable: a client and an emulated control in one thread, in a time of its own.
+"""A line without a cable: a client and an emulated control in one thread, in a simulated time.
 
 Nothing sleeps and nothing is random: time passes only while the client waits,
 so that an exchange over a slow or a broken line takes a few milliseconds and
@@ -13,7 +13,7 @@ from amp_studio.transfer.links.link import Link, LinkError
 
 
 class VirtualClock:
-    """Time in seconds that passes when it is told to."""
+    """Time in seconds that passes on demand."""
 
     def __init__(self) -> None:
         self.now = 0.0

@@ -74,7 +74,7 @@ def mill(entry: str = "", line: str = "") -> bytes:
     ],
 )  # fmt: skip
 def test_a_damaged_number_names_its_entry(line: str, said: str) -> None:
-    """A number stands with its unit, in the one form it is written in, at an instance that exists, once."""
+    """A number has its unit, in the one form it is written in, at an instance that exists, once."""
     with pytest.raises(ImageError, match=said) as caught:
         decode_image(mill("home.calibration@1", line))
 
@@ -119,7 +119,7 @@ def test_a_whole_number_is_one(number: str) -> None:
     ],
 )
 def test_a_choice_is_its_code_and_nothing_else(code: str) -> None:
-    """Labels, letters and other spellings of a code are not what a control holds."""
+    """Labels, letters and other spellings of a code are not what a control contains."""
     with pytest.raises(ImageError, match=r"servo\.position_loop_type@1"):
         decode_image(mill("servo.position_loop_type@1", f"1510\tservo.position_loop_type@1\t{code}"))
 
@@ -196,7 +196,7 @@ def test_half_a_character_is_no_text_of_an_image() -> None:
                                      "password.character@1\t4711", "101 password.character@1 4711", "102\tpassword.character@1\t4711",
                                      "101\tpassword.character@1\t4711\t"])  # fmt: skip
 def test_a_damaged_password_is_not_repeated(damaged: str) -> None:
-    """The entry is named, what stands there is not."""
+    """The entry is named, what is there is not."""
     with pytest.raises(ImageError, match=r"password\.character@1") as caught:
         decode_image(mill("password.character@1", damaged))
     assert "4711" not in str(caught.value)

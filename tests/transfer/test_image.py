@@ -45,7 +45,7 @@ def test_an_image_reads_back_as_the_same_values() -> None:
 
 
 def test_the_page_shows_the_form() -> None:
-    """The records of docs/protocols/image.md stand in an image like that."""
+    """The records of docs/protocols/image.md are in an image like that."""
     lines = encode_image(a_file()).decode().splitlines()
 
     assert lines[:2] == ["AMP-IMAGE 1", "family 9pc"]

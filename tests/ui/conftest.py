@@ -147,7 +147,7 @@ def bare() -> bytes:
 
 @pytest.fixture
 def path(tmp_path: Path, example: bytes) -> Path:
-    """Return a copy of the example mill in a folder of its own."""
+    """Return a copy of the example mill in a separate folder."""
     folder = tmp_path / "machine"
     folder.mkdir()
     path = folder / "mill.amp"
@@ -189,7 +189,7 @@ def window(open_window: Callable[..., MainWindow], path: Path) -> MainWindow:
 
 @pytest.fixture
 def workspace(request: pytest.FixtureRequest, qapp: QApplication, path: Path) -> Iterator[Workspace]:
-    """Return the workspace of the window; without a window in the test, one that stands alone."""
+    """Return the workspace of the window; without a window in the test, one that is alone."""
     if "window" in request.fixturenames:
         window: MainWindow = request.getfixturevalue("window")
         assert window.workspace is not None
@@ -224,7 +224,7 @@ def whole(workspace: Workspace) -> Callable[[], tuple[object, ...]]:
 
 
 def on_disk(path: Path) -> ParameterFile:
-    """Return a file as it stands on disk."""
+    """Return a file as it is on disk."""
     return open_file(path).file
 
 
@@ -280,7 +280,7 @@ def start_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
 
 
 def during(act: Callable[[ProgressDialog], object], when: Callable[[], bool] = lambda: True) -> None:
-    """Do something once while a progress dialog is to be seen and ``when`` says so."""
+    """Do something once while a progress dialog is to be seen and ``when`` is true."""
     timer = QTimer(QApplication.instance())
 
     def look() -> None:

@@ -1,4 +1,4 @@
-"""Differences to another file: absent here, absent there, different, same, with counts; what is ticked is taken."""
+"""Differences to another file: missing here, missing there, different, same, with counts; what is ticked is taken."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PITCH = ("servo.lead_screw_pitch", "1")
 
 @pytest.fixture
 def other(path: Path) -> Path:
-    """Return a file that differs in three values, one of them absent here, one there, and one in its unit only."""
+    """Return a file that differs in three values, one of them missing here, one there, and one in its unit only."""
     file = open_file(path).file
     file.set(EXCESS, Value(3.0, "mm"))
     file.set(CALIBRATION, None)

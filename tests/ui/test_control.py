@@ -24,7 +24,7 @@ Start = Callable[..., Control]
 
 
 def download(window: MainWindow, person: Person, control: Control) -> str:
-    """Download the open file and return what is told at the end."""
+    """Download the open file and return what is reported at the end."""
     person.types(control.address)
     action(window, "Download to Control").trigger()
     return person.reads()
@@ -227,7 +227,7 @@ def test_an_address_that_is_none_is_told(window: MainWindow, person: Person) -> 
 
 @pytest.fixture
 def odd_control(start_control: Start, path: Path) -> Control:
-    """Return a control that holds a value out of range."""
+    """Return a control that contains a value out of range."""
     control = start_control()
     file = open_file(path).file
     file.set_many({EXCESS: Value(1e6, "mm")}, force="on a day")

@@ -216,7 +216,7 @@ def test_a_value_goes_to_all_axes_of_the_type(window: MainWindow, file: Paramete
 
 
 def test_a_value_of_a_process_is_no_value_of_an_axis(window: MainWindow, person) -> None:
-    """Instance 1 of a process stands beside instance 1 of an axis, not in its place."""
+    """Instance 1 of a process comes beside instance 1 of an axis, not in its place."""
     window.go_to(("zone.group_count", "1"))
     window.guarded(window.edits.to_all_axes)
     assert person.reads() == "Select a value of a fitted axis first."

@@ -38,7 +38,7 @@ sys.stdin.read()
 
 @pytest.fixture
 def other_program(path: Path) -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """Return what starts another program on the file; it holds the lock until it is killed."""
+    """Return what starts another program on the file; it has the lock until it is killed."""
     started: list[subprocess.Popen[str]] = []
 
     def start(*options: str) -> subprocess.Popen[str]:

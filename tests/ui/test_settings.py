@@ -1,4 +1,4 @@
-"""The program starts whatever stands in its settings."""
+"""The program starts whatever is in its settings."""
 
 from __future__ import annotations
 

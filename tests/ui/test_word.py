@@ -1,4 +1,4 @@
-"""Packed words taken apart into ticks and fields, and values as the control holds them."""
+"""Packed words taken apart into ticks and fields, and values as the control contains them."""
 
 from __future__ import annotations
 

@@ -19,5 +19,5 @@ def machine() -> Callable[[str], ParameterFile]:
 
 @pytest.fixture
 def mill(machine: Callable[[str], ParameterFile]) -> ParameterFile:
-    """Return a sound mill of its own, whose rapid is 12000 mm/min on seven axes."""
+    """Return a separate sound mill, whose rapid is 12000 mm/min on seven axes."""
     return machine("mill")

@@ -77,7 +77,7 @@ def _another(file: ParameterFile, address: Address, random: Random) -> Value | N
 
 
 def broken_promises(file: ParameterFile, own: BuilderRules = NO_RULES) -> tuple[int, list[str]]:
-    """Apply each offered fix alone, to a copy that is checked anew; returns how many, and what they do not keep."""
+    """Apply each offered fix alone, to a copy that is checked again; returns how many, and what they do not keep."""
     before, said = Validator(file, own).run(), list[str]()
     offered = [finding for finding in before if finding.fix]
     for finding in offered:

@@ -41,7 +41,7 @@ PLACE = re.compile(
 CONNECTED = re.compile(r"'[^']*'|&&|\|\||[([{,?:)\]}]")
 """What begins or ends an operand of "and" and "or", and texts, which may have any of these in them."""
 GUARD = re.compile(r"\(?[^&|]+ [!=]= null\)?|\w+ < size\(\w+\)")
-"""What asks whether something is there at all. Without it a rule that meets nothing is an error, so nothing is said."""
+"""What asks whether something is there at all. Without it a rule that meets nothing is an error, so there is no finding."""
 
 
 def variations(text: str) -> Iterator[tuple[str, str]]:
@@ -59,7 +59,7 @@ def variations(text: str) -> Iterator[tuple[str, str]]:
 
 
 def operands(text: str) -> Iterator[tuple[int, int, str]]:
-    """Yield where the operands of "and" and "or" stand, each with what it must be to decide nothing."""
+    """Yield where the operands of "and" and "or" are, each with what it must be to decide nothing."""
     open_ones = [[0]]
     """For each bracket, where the operands of the present chain begin, and the operators between them."""
     for found in [*CONNECTED.finditer(text), None]:

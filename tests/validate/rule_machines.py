@@ -1,6 +1,6 @@
 """The cases of every family's rules, and the sound machines on which they are tried.
 
-``rule_cases/README.md`` says how cases are written, ``sound_machines/<family>/`` holds the machines.
+``rule_cases/README.md`` explains how cases are written; the machines are in ``sound_machines/<family>/``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Whatever stands in a file of any family: nothing raises, and edit by edit the findings are those of a full run."""
+"""Whatever is in a file of any family: nothing raises, and edit by edit the findings are those of a full run."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ TEXTS = [
 
 @pytest.fixture(scope="session")
 def a_machine(machine: Callable[[str], ParameterFile], checkout: Path) -> Callable[[str], ParameterFile]:
-    """Return what gives a machine of its own, by name."""
+    """Return what gives a separate machine, by name."""
 
     @cache
     def found(name: str) -> ParameterFile:
@@ -146,7 +146,7 @@ class Edited:
         self._changed.clear()
 
     def agree(self) -> bool:
-        """Tell whether the findings are those of a full run, here and in a copy that remembers nothing."""
+        """Return whether the findings are those of a full run, here and in a copy that remembers nothing."""
         assert self.findings == self.validator.findings()
         full = [Validator(self.file).run(), Validator(self.file.copy()).run()]
         # Compared as texts, for True is equal to 1.

@@ -84,7 +84,7 @@ def test_an_inactive_value_is_shown_with_the_word_for_its_state_and_the_reason(m
 
 @pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill"])
 def test_every_finding_of_a_machine_with_nothing_right_can_be_explained(family: str) -> None:
-    """Whatever stands in a file, each finding has its words."""
+    """Whatever is in a file, each finding has its words."""
     file = ParameterFile(load_schema(family))
     for n, address in enumerate(file.addresses()):
         parameter = file.schema.parameters[address[0]]

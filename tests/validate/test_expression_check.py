@@ -139,7 +139,7 @@ def test_no_rule_that_we_deliver_compares_what_can_never_be_equal() -> None:
 
 
 def compared(node: Node) -> Iterator[str]:
-    """Yield the texts that choices are compared with, as far as a plain look can tell."""
+    """Yield the texts that choices are compared with, as far as a plain look can find them."""
     if node.kind in ("==", "!="):
         yield from (part.text for part in node.parts if part.kind == "value" and isinstance(part.value, str))
     for part in node.parts:

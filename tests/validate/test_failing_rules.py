@@ -1,4 +1,4 @@
-"""A builder's rule that ends in an error with the values of a file says so with its line: it is not taken for one that holds."""
+"""A builder's rule that ends in an error with the values of a file reports it with its line: it is not taken for one that is satisfied."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Whatever fix is offered in any state that the tables of cases bring about keeps its promises, whosever it is.
 
-Applied alone it is within range, ends its finding and brings nothing as severe; and one that is said to be safe sets
+Applied alone it is within range, ends its finding and brings nothing as severe; and one that is marked as safe sets
 what the control uses anyway, or what no motion depends on.
 """
 
@@ -32,7 +32,7 @@ NO_MOTION = {
 
 
 def broken_promises(case: Case) -> Iterator[str]:
-    """Apply each fix that is offered while a case is broken, and tell what it does not keep."""
+    """Apply each fix that is offered while a case is broken, and yield what it does not keep."""
     here = case.machine
     with here.changed(case.given), here.changed(case.breaks or {}):
         before = here.findings

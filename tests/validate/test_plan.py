@@ -1,4 +1,4 @@
-"""What a rule reads: which instances it runs for, what it is told of other scopes, and what cannot be meant."""
+"""What a rule reads: which instances it runs for, what it gets of other scopes, and what cannot be meant."""
 
 from __future__ import annotations
 
@@ -226,7 +226,7 @@ LENGTH = {"length": "axis.length"}
         ),
         (rule(LENGTH, optional=["room"]), "optional names 'room', which it does not read"),
         (rule(LENGTH, any_state=["room"]), "any_state names 'room', which it does not read"),
-        (rule(LENGTH, units={"twice": "mm"}), "units names 'twice', which is none of its values"),
+        (rule(LENGTH, units={"twice": "mm"}), "units names 'twice', which is not one of its values"),
         (rule(LENGTH, values={"twice": "length * 2.0"}, units={"twice": "ell"}), "'ell' is no unit"),
         (
             rule(LENGTH, message="{lenght} is short."),
@@ -287,7 +287,7 @@ def test_what_a_rule_may_say(small) -> None:
 def test_a_rule_of_the_family_that_cannot_be_meant_is_refused_when_it_is_first_decided(
     small, wrong: Rule, said: str
 ) -> None:
-    """Its expressions are compiled late, but a slip in them is never taken for a rule that holds."""
+    """Its expressions are compiled late, but a slip in them is never taken for a rule that is satisfied."""
     faulty = replace(small, rules=(wrong,))
     file = ParameterFile(faulty)
     file.set(("axis.length", "2"), Value(5.0, "mm"))

@@ -3,7 +3,7 @@
 Of every rule of every family the check is negated, every comparison flipped, every "and" made an "or" and the other
 way round, and every "not" left out. The full run (``make mutants``) also replaces every choice and number, turns every
 sum, product, quantifier and truth value into its opposite, and leaves out every operand of "and" and "or". What is
-alive at the end stands in ``equivalent_mutants.yaml``, with the reason why no case can tell it from the rule.
+alive at the end is in ``equivalent_mutants.yaml``, with the reason why no case can distinguish it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
 
 EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_mutants.yaml")
-"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it says the same as the rule."""
+"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the rule."""
 
 
 @dataclass(frozen=True)
@@ -28,14 +28,14 @@ class Mutant:
     """A rule with one change."""
 
     rule: Rule
-    """Under a name of its own; it says nothing."""
+    """Under a separate name, without a message."""
     text: str
-    """The part that was changed, as it stands now."""
+    """The part that was changed, as it is now."""
     before: str
     change: str
 
     def has(self, piece: str) -> bool:
-        """Tell whether a piece of text is what was changed here."""
+        """Return whether a piece of text is what was changed here."""
         return piece in self.text and piece not in self.before
 
 

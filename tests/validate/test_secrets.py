@@ -1,4 +1,4 @@
-"""What is found about a secret is told without it: in messages, reasons and fixes, a builder's own rules too."""
+"""What is found about a secret is shown without it: in messages, reasons and fixes, a builder's own rules too."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ PASSWORD = ("password.character", "1")
 
 @pytest.fixture
 def mill(machine) -> ParameterFile:
-    """Return a sound mill of its own, with a figure in its password that is found nowhere else."""
+    """Return a separate sound mill, with a figure in its password that is found nowhere else."""
     file = machine("mill")
     file.set(PASSWORD, Value(7654321))
     return file
 
 
 def told(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> str:  # noqa: B008  # frozen
-    """Return everything that is said of the findings of a rule."""
+    """Return all texts of the findings of a rule."""
     validator = Validator(file, own)
     findings = [f for f in validator.run() if f.rule == rule]
     assert findings

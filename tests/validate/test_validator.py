@@ -17,7 +17,7 @@ CUTTING = ("feedrate.max_cutting", "1")
 EXCESS = ("servo.excess_error", "1")
 
 
-# -------------------------------------------------------------------------------- states, unset, unknown
+# ------------------------------------------------------------------------------ states, not set, unknown
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from .formulas.servo import FOLLOWING_ERROR_MARGIN
 LOOSE = 2.0
 """Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
 APART = 0.03
-"""Relative difference of gain and time constant from which KVAR is recommended anew. A choice of this program."""
+"""Relative difference of gain and time constant from which KVAR is recommended again. A choice of this program."""
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use. A choice of this program."""
 

@@ -71,7 +71,7 @@ def position_cam(table: Sequence[int], increment: int, travelled: float, base: f
 def rotary_position_cam(
     table: Sequence[int], increment: int, travelled: float, unwind: int, base: float = 0.0
 ) -> float:
-    """Return the position in continuous rotary mode: each time the master unwinds the cam begins again (page 4-52).
+    """Return the position in continuous rotary mode: each time the master unwinds the cam starts again (page 4-52).
 
     ``unwind`` is the gearing unwind constant, in counts of the master.
     """

@@ -294,5 +294,5 @@ class Parameter(Model):
             keys = {c.key for c in self.choices}
             for value in (self.default.value, *(self.default.instances or {}).values()):
                 if value not in keys:
-                    raise ValueError(f"default {value!r} is none of its choices")
+                    raise ValueError(f"default {value!r} is not one of its choices")
         return self

@@ -115,7 +115,7 @@ class Control:
         self._remember(autostart=on)
 
     def restart(self) -> None:
-        """Start anew: the active image becomes current."""
+        """Start again: the active image becomes current."""
         self._remember(incarnation=self.incarnation + 1, running=True, restart_needed=False)
 
     def patch(self, change: Callable[[bytes], bytes]) -> None:

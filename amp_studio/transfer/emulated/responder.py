@@ -41,7 +41,7 @@ CHUNK = 512  # bytes a piece
 class Responder:
     """Answers the requests of one line on behalf of a control.
 
-    When ``restart_due`` is set, whoever owns the line hangs up once the answers are out, and restarts the
+    When ``restart_due`` is set, the owner of the line hangs up once the answers are out, and restarts the
     control.
     """
 

@@ -30,11 +30,11 @@ OpenLink = Callable[[Callable[[], None]], Link]
 PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
 LONGEST_PAUSE = 2.0  # up to this
 SLICE = 0.1  # seconds a pause may last before the cancel event is read again
-SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is notified
+SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
 LINGER = 5.0  # seconds a commit is seen through after somebody has asked to stop
 
-# Patience begins anew only with a step of so many bytes (fewer of a small image, on a slow line, or at the
+# Patience starts again only with a step of so many bytes (fewer of a small image, on a slow line, or at the
 # end): a control cannot keep a client for ever by giving it a byte every few seconds.
 STEP = 1_024
 STEPS = 64
@@ -79,7 +79,7 @@ class Connection:
         self._sleep = sleep
         self._talk: Transaction | None = None
         self._until: float | None = None  # when patience ends
-        self._reached = 0  # bytes of the image under way when patience last began anew
+        self._reached = 0  # bytes of the image under way when patience last began again
         self._best = 0  # the most bytes of it that were ever there
         self._moved_at = self._notified_at = clock()
         self._stopped_at: float | None = None
@@ -182,7 +182,7 @@ class Connection:
             self.notify(SILENT, 0, round(self._patience))
 
     def moved(self, done: int, total: int) -> None:
-        """``done`` of ``total`` bytes are there: after a step of some size patience begins anew."""
+        """``done`` of ``total`` bytes are there: after a step of some size patience starts again."""
         if self.is_committing:
             return  # everything is there; only the answer to the commit counts
         if done > self._best:
@@ -201,7 +201,7 @@ class Connection:
             self.notify(CUT, 0, round(self._patience))
 
     def notify(self, stage: str, done: int, total: int) -> None:
-        """Notify whoever waits; that he cannot be notified ends no exchange."""
+        """Notify the waiting caller; an error in that ends no exchange."""
         with contextlib.suppress(Exception):
             self.progress(stage, done, total)
 

@@ -98,7 +98,7 @@ class DownloadTransfer:
                 return self._line.persist(self._attempt)
             except RefusalError as refusal:
                 # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
-                # control may also have begun anew without the client's noticing; then it answers how much it
+                # control may also have started again without the client's noticing; then it answers how much it
                 # has.
                 if refusal.code == Code.DIGEST:
                     spoilt, self._reached = spoilt + 1, 0

@@ -1,4 +1,4 @@
-"""What a refusal of the control means to whoever asked for the exchange."""
+"""What a refusal of the control means to the caller who asked for the exchange."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from .transaction import Transaction
 # An image is some hundred kilobytes of text at most; a control that states more is not understood rightly.
 MAX_IMAGE = 1 << 22  # bytes
 MAX_PIECES = 1 << 16
-ATTEMPTS = 3  # how often reading may be broken off by the control, begin anew, or end with another digest
+ATTEMPTS = 3  # how often reading may be broken off by the control, start again, or end with another digest
 
 
 class UploadTransfer:
@@ -36,7 +36,7 @@ class UploadTransfer:
             try:
                 ready = self._line.persist(self._read)
             except RefusalError as refusal:
-                # On a serial line a control may have begun anew without the client's noticing.
+                # On a serial line a control may have started again without the client's noticing.
                 size = self._opened[0].size if self._opened is not None else 0
                 idle = 0 if self._received() - before > size // STEPS else idle + 1
                 if refusal.code != Code.NO_UPLOAD or idle >= ATTEMPTS:

@@ -61,7 +61,7 @@ class _Attempt(Generic[Made]):
     def run(self) -> None:
         try:
             self.result.put(self._work())
-        except Exception as error:  # whoever waits gets it
+        except Exception as error:  # the waiting caller gets it
             self.result.put(error)
         if self._is_abandoned.is_set():
             self.abandon()

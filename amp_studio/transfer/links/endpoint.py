@@ -29,7 +29,7 @@ class Endpoint:
 
     ``host`` and ``port``       of tcp, tls and rfc2217
     ``device``                  of serial
-    ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to whoever speaks on the line
+    ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to the protocol on the line
     ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in hexadecimal
     ``protocol``                how it is spoken to; "" for the usual way of the control's family
     """

@@ -25,7 +25,7 @@ def connect(
     """Open the line to a control, within ``timeout`` seconds; raises LinkError.
 
     ``look`` is called at least every 0.1 s while opening and writing wait, and may raise to break off. ``own_flow``
-    leaves Xon and Xoff to whoever speaks on the line: they are read as bytes, whatever the endpoint's ``flow`` is.
+    leaves Xon and Xoff to the protocol on the line: they are read as bytes, whatever the endpoint's ``flow`` is.
     A way of speaking with other usual settings than 115200 8N1 gives ``endpoint.with_usual(…)``.
     """
     if endpoint.kind == "tcp":

@@ -51,7 +51,7 @@ def connect_rfc2217(
 
 
 class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
-    """pyserial's port with a reader of its own."""
+    """pyserial's port with a separate reader."""
 
     _socket: Any
     _thread: Any

@@ -22,7 +22,7 @@ SLICE = (
 WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
 HELD_LIMIT = 60.0  # seconds the other end may hold the line by flow control
 LOOK = 0.1  # seconds between two looks while the line takes nothing
-PIECE = 256  # bytes for which a port that says it has room has some
+PIECE = 256  # bytes for which a port that reports room has some
 PSEUDO_TERMINALS = range(136, 144)  # their device numbers on Linux
 NO_PORT = "this is no serial port"
 GONE = "the port is gone: its adapter was unplugged or switched off"
@@ -103,7 +103,7 @@ class SerialLink:
 
 
 def port_settings(endpoint: Endpoint, own_flow: bool) -> dict[str, Any]:
-    """Return the settings of a line as pyserial takes them; ``own_flow`` leaves Xon and Xoff to whoever reads."""
+    """Return the settings of a line as pyserial takes them; ``own_flow`` leaves Xon and Xoff to the reader."""
     settings = endpoint.serial_settings()
     flow: Flow = "none" if own_flow and settings.flow == "xonxoff" else settings.flow
     return {
@@ -156,7 +156,7 @@ def _need_port(endpoint: Endpoint) -> None:
 def _claim(port: Any) -> None:
     """Keep programs out that do not ask for the lock pyserial takes.
 
-    Not from a pseudo terminal: its other end holds it open, and would keep the mark of a program that was killed.
+    Not from a pseudo terminal: its other end keeps it open, and would keep the mark of a program that was killed.
     """
     if os.name != "posix" or os.major(os.fstat(port.fileno()).st_rdev) in PSEUDO_TERMINALS:
         return
@@ -176,7 +176,7 @@ class PortListener:
         self._given = False
 
     def accept(self, timeout: float) -> SerialLink | None:
-        """Return the line once; after it was closed or lost, open it anew when the port is there again."""
+        """Return the line once; after it was closed or lost, open it again when the port is there again."""
         if self._link is not None and not self._given:
             self._given = True
             return self._link

@@ -26,7 +26,7 @@ class Negotiation:
 
 @dataclass(frozen=True)
 class Option:
-    """What stood between SB and SE."""
+    """What came between SB and SE."""
 
     content: bytes
 

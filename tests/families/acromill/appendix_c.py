@@ -21,7 +21,7 @@ TURN = plant.PULSES_PER_TURN
 PRINTED = 500.0
 """Turns/s2: ACC 500, DEC 500, STP 500 (page 115)."""
 VERIFIED = 500.0 / 60.0 / 0.1
-"""Turns/s2 with which the ramps take the "approximately 100 msec" that page 115 wants verified."""
+"""Turns/s2 with which the ramps take the "approximately 100 msec" that page 115 has verified."""
 
 _DEFAULTS: dict[str, ParameterValue] = {
     "axes.pulses_per_unit": TURN,

@@ -181,7 +181,7 @@ def test_a_new_file_reads_back_as_it_was() -> None:
 
 
 def test_bare_figures_are_in_the_unit_of_the_machine() -> None:
-    """Default Units says what a unit is (page 61), and the remark of the script what it was."""
+    """Default Units is what a unit is (page 61), and the remark of the script what it was."""
     file = mill(axes_excess_error_band_X=Value(1.0, "in"), axes_pulses_per_unit_X=Value(25400.0, "counts/in"))
     file.set(("control.default_units", ""), Value("metric"))
     assert FORMAT.write(file).split("\n")[1:] == ["REM units metric", "PPU X1000", "EXC AXIS0 25.4", ""]

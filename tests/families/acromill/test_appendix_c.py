@@ -1,7 +1,7 @@
 """The tuning story of appendix C (from page 113 on), step by step, on the motor that its own figures identify.
 
-Its traces are lost; what the story says about each of them is tested. Each step runs with the ramps as they are printed,
-ACC 500 (17 ms), and with ramps of the 100 ms that the story wants verified (erratum of the index).
+Its traces are lost; what the text has about each of them is tested. Each step runs with the ramps as they are printed,
+ACC 500 (17 ms), and with ramps of the 100 ms that the story has verified (erratum of the index).
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def test_step_1_rings_in_both_ramps_and_has_a_steady_error_at_speed_and_at_rest(
     assert reversals(starting(scope), beyond=5.0) >= 6
     assert reversals(stopping(scope), beyond=5.0) >= 2
     assert scope.at_speed == pytest.approx(100.0, abs=1.0)
-    assert 1.0 <= abs(scope.error[-1]) <= plant.COULOMB / 0.001  # as far as dry friction holds it
+    assert 1.0 <= abs(scope.error[-1]) <= plant.COULOMB / 0.001  # as far as dry friction lets it
 
 
 @BOTH_RAMPS

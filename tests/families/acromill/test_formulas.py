@@ -151,7 +151,7 @@ def test_wear_is_added_to_the_radius() -> None:
 
 
 def test_a_gap_of_seven_epsilons_is_no_joint() -> None:
-    assert not acromill.is_joined(0.0007, 0.0001)  # page 61 says it is
+    assert not acromill.is_joined(0.0007, 0.0001)  # so page 61
     assert acromill.is_joined(0.0001, 0.0001)
     assert acromill.is_joined(0.0007, 0.002)  # with the default
 

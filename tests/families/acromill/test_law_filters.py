@@ -1,4 +1,4 @@
-"""LOPASS and NOTCH of an ACR controller do what appendix C says of them (page 128)."""
+"""LOPASS and NOTCH of an ACR controller do what appendix C describes (page 128)."""
 
 from __future__ import annotations
 

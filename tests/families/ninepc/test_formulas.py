@@ -2,8 +2,8 @@
 
 Chapters 3 to 7, 9, 10, 33 and appendix B, with the page in the id of each case; further chapters have files of
 their own beside this one. A number printed with n decimals is compared with the result rounded half up to n
-decimals; all other comparisons are exact, or say so. Chapter 3 holds no arithmetic. Where a printed number
-contradicts its own formula the formula is asserted and the misprint stands beside it.
+decimals; all other comparisons are exact, or marked. Chapter 3 has no arithmetic. Where a printed number
+contradicts its own formula the formula is asserted and the misprint is beside it.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ def test_the_ls176_scale_gives_20000_counts() -> None:
 
 
 def test_the_larger_period_is_one_grating_longer() -> None:
-    # Page B-2: 20.02 mm against 20 mm; 20 counts of 0.001 mm tell the markers apart.
+    # Page B-2: 20.02 mm against 20 mm; 20 counts of 0.001 mm distinguish the markers.
     assert ninepc.dcm_counts_per_cycle(0.02, 5, 20.02) == 20_020
 
 

@@ -1,6 +1,6 @@
 """Programs, tools, cycles and probes: the worked examples of chapters 8, 15, 21, 22, 24, 26, 29 and 30.
 
-The page stands with each case. Numbers that the manual does not print, and that are worked by hand from its
+The page is with each case. Numbers that the manual does not print, and that are worked by hand from its
 words, are marked "by hand".
 """
 

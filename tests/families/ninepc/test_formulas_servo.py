@@ -83,7 +83,7 @@ def test_minimum_excess_error(rapid: float, gain: float, ratio: float, expected:
 
 
 def test_minimum_excess_error_is_110_percent_of_the_following_error() -> None:
-    # Page 7-20 says 110 % of the largest following error expected; that is the gain equation of 7-25.
+    # Page 7-20: 110 % of the largest following error expected; that is the gain equation of 7-25.
     assert ninepc.minimum_excess_error(10_160, 1, 1) == pytest.approx(1.1 * ninepc.following_error(10_160, 1))
 
 

@@ -1,6 +1,6 @@
 """Servos, coupled axes, OCI and tuning: the worked examples and tables of chapters 7, 10, 31 to 36 and the appendices.
 
-The page stands with each case. Numbers that the manual does not print, and that are worked by hand from its
+The page is with each case. Numbers that the manual does not print, and that are worked by hand from its
 words, are marked "by hand".
 """
 

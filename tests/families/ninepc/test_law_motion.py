@@ -126,7 +126,7 @@ def test_a_torque_offset_holds_the_weight_that_would_pull_the_axis_down(axis: Ax
         for values in (weight, {})
     ]
     assert sag[0] == pytest.approx(0.0, abs=0.002)  # the delay of the first sample
-    # Held by the position loop alone: 3 % of torque / (VPG in % for 1 mm/s x position gain).
+    # Kept by the position loop alone: 3 % of torque / (VPG in % for 1 mm/s x position gain).
     assert sag[1] == pytest.approx(
         -3.0 / (100.0 * 1500.0 / 65536.0 * 2.0 * math.pi / 10.0) / (1000.0 / 60.0), rel=0.02
     )
@@ -254,7 +254,7 @@ def test_an_open_loop_moves_without_a_following_error_to_check(axis: Axis) -> No
     assert [alarm.code for alarm in step(chatter, distance=20.0, feedrate=3000.0).alarms] == ["UNSTABLE"]
 
 
-# -- advice ----------------------------------------------------------------------------------------
+# -- recommendations ----------------------------------------------------------------------------------------
 
 
 def advised(axis: AxisLaw, **settings: Any) -> dict[str, float]:

@@ -169,7 +169,7 @@ def test_the_sum_discharges_faster_than_it_charges_and_no_further_than_zero() ->
 
 
 def test_the_torque_is_limited_by_the_direction_of_travel_not_by_its_sign() -> None:
-    # Pages 7-61, 7-62: the limit of a direction holds for accelerating and for decelerating in it.
+    # Pages 7-61, 7-62: the limit of a direction is valid for accelerating and for decelerating in it.
     servo = Servo(PROPORTIONAL=1e6, LIMIT_POSITIVE=150.0, LIMIT_NEGATIVE=60.0)
     assert servo.torque(50.0, moved=0.001) == 150.0
     assert servo.torque(-50.0, moved=0.001) == -150.0  # braking on the way

@@ -121,7 +121,7 @@ def test_an_axis_too_heavy_for_its_position_gain_is_not_overdamped_at_1500_and_t
 ) -> None:
     heavy = axis({**MACHINES["heavy"], "servo.initial_gain": 1.0})
     assert chart(heavy, FEEDRATE, 1500.0, 0.0).overshoot > SLIGHT
-    assert highest(heavy, FEEDRATE) > 10000.0  # the procedure goes on upwards all the same
+    assert highest(heavy, FEEDRATE) > 10000.0  # the procedure goes on upwards anyway
     text = " ".join(heavy.assumptions)
     assert "too heavy for its position gain" in text
     assert "Proportional Gain 2300 on this axis" in text

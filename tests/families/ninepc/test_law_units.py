@@ -70,7 +70,7 @@ def test_the_table_gives_the_same_motion_at_every_inertia_ratio(axis: Axis) -> N
 
 
 def test_the_gains_of_a_motor_keep_their_ratio_but_for_the_7xx() -> None:
-    # Where the tool says that its results are rough.
+    # Where the results of the tool are rough.
     ratios = {}
     for motor in [*MOTORS, "b720e", "b730e"]:
         cells = units.standard_gains(TABLES, motor, 0)
@@ -116,7 +116,7 @@ def test_an_axis_says_where_its_inertia_is_from(axis: Axis) -> None:
 
 @pytest.mark.parametrize("motor", ["b410g", "b530e"])
 def test_motor_data_from_a_data_sheet_are_assumed_with_their_source(axis: Axis, motor: str) -> None:
-    # No manual prints them: of the 530 the mean of those two stands in its place.
+    # No manual prints them: of the 530 the mean of those two is in its place.
     said = axis({"servo.motor_type": motor}).assumed["acceleration_per_output"]
     assert "data sheet 1326AB Torque Plus (within 10 %), not from a manual" in said
     assert "model.motor_torque" in said

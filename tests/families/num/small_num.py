@@ -82,7 +82,7 @@ FORMS = {
 
 
 def word(number: str, code: int, kind: str = "integer", more: str = "", storage: str = "") -> str:
-    """Return a parameter of one word; its id tells its number: p.w9_0 is P9N0."""
+    """Return a parameter of one word; its id has its number: p.w9_0 is P9N0."""
     name = re.sub(r"P(\d+)N(.*)", r"w\1_\2", number)
     kept = ", ".join(part for part in (f"code: {code}", FORMS[code], storage) if part)
     return (f"  - {{id: p.{name}, name: Word {number}, numbers: {{format: {number}}}, type: {kind}, "
@@ -142,7 +142,7 @@ def taken(schema: Schema, text: str, *, keep_unknown: bool = False) -> Parameter
 
 
 def fault(schema: Schema, text: str, *, keep_unknown: bool = False) -> str:
-    """Return what is said of a table that cannot be taken."""
+    """Return the error of a table that cannot be taken."""
     with pytest.raises(FormatError) as caught:
         FORMAT.read(text, schema, keep_unknown)
     return str(caught.value)

@@ -181,7 +181,7 @@ def test_a_frame_has_at_least_one_bit() -> None:
         (1, 16, 0x04000060, 1 / 16),  # combined: the increments are counted
         (1, 16, 0x00000060, 1 / 16),
         (1, 16, 0x02000080, 1 / 16),  # 16 bits
-        (1, 16, 0x02000007, 1 / 16),  # a frame without bits has a rule of its own
+        (1, 16, 0x02000007, 1 / 16),  # a frame without bits has a separate rule
         (1, 16, 0x0A0001E0 - 0x80, 1),  # bits beside the fields do not count
     ],
 )

@@ -67,7 +67,7 @@ def test_an_axis_that_stands_outside_its_window_gets_twice_its_error() -> None:
     assert trace.result["in_position_time"][0] is None
     found = only(trace)
     assert found.parameter == "servo.in_position_window"
-    assert found.value == 79.0  # 11-7: it stands 39.5 µm from its end
+    assert found.value == 79.0  # 11-7: it stops 39.5 µm from its end
     put(file, found.parameter, int(found.value))
     after = moved(file, gravity=20.0, velocity_integral=0.0)
     assert after.result["in_position_time"][0] is not None

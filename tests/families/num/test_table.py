@@ -1,4 +1,4 @@
-"""The NUM parameter table: every byte is understood or told, and comes back as it was (page 13-14)."""
+"""The NUM parameter table: every byte is understood or reported, and comes back as it was (page 13-14)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_the_example_of_the_manual_is_read(num: Schema) -> None:
 
 
 def test_the_example_of_the_manual_is_written_byte_for_byte(num: Schema) -> None:
-    """From the words alone: what the file remembers of the table is the four words that the header says P4 has."""
+    """From the words alone: what the file remembers of the table is the four words that P4 has by the header."""
     file = taken(num, SAMPLE)
     assert FORMAT.write(file) == SAMPLE
     assert file.header.extra == {"num_table": {"words": {"P4": "t0n4"}}}

@@ -28,7 +28,7 @@ OLD = re.sub(
 
 
 def test_tables_of_older_software_come_without_types(num: Schema, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Type and number of words stand in the header from index K on (page 13-14)."""
+    """Type and number of words are in the header from index K on (page 13-14)."""
     file = taken(num, OLD)
     assert "P9N10;05\n" in OLD
     assert file.values == taken(num, SAMPLE).values
@@ -99,7 +99,7 @@ def test_an_end_without_a_line_of_its_own_is_taken_too(num: Schema) -> None:
         ({"job_reference": "12"}, "the job reference '12' is not of eight digits"),
         ({"comment": "9"}, "the comment behind the job reference"),
         ({"comment": "\n"}, "the comment behind the job reference"),
-        ({"end": "LF XON"}, "XON is none of the signs CR, LF, XOFF"),
+        ({"end": "LF XON"}, "XON is not one of the signs CR, LF, XOFF"),
         ({"words": {"P4": "t3n4"}}, "'P4: t3n4' is not type and number of words"),
         ({"lines": ["P9N0"]}, "'P9N0' is no line of a table"),
     ],

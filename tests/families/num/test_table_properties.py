@@ -1,4 +1,4 @@
-"""Properties of the NUM parameter table: what is written is read, and what is altered is told."""
+"""Properties of the NUM parameter table: what is written is read, and what is altered is reported."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_what_is_read_is_written_and_read_again(num: Schema, seed: int) -> None:
 
 
 def changes(schema: Schema, table: str, altered: str) -> set[str] | None:
-    """Return what an altered table says otherwise, None where it is told that something is wrong."""
+    """Return what an altered table means otherwise, None where an error is reported."""
     try:
         read = FORMAT.read(altered, schema, False)
     except FormatError:
@@ -74,7 +74,7 @@ def changes(schema: Schema, table: str, altered: str) -> set[str] | None:
     figures = [
         {a: (type(v.value), v.value) for a, v in values.items()} for values in (before.values, read.values)
     ]
-    # The unit of a figure may go with a word of bits that says which axes turn; the figure stays.
+    # The unit of a figure may go with a word of bits for the axes that turn; the figure stays.
     found = {str(a) for a in figures[0].keys() | figures[1] if figures[0].get(a) != figures[1].get(a)}
     if read.extra.get("num_table") != before.extra.get("num_table"):
         found.add("layout")
@@ -82,7 +82,7 @@ def changes(schema: Schema, table: str, altered: str) -> set[str] | None:
 
 
 def says_one_thing(schema: Schema, table: str, at: int, sign: str) -> bool:
-    """Tell whether an altered byte is told, or alters one value; of the first line, only what stands there.
+    """Return whether an altered byte is reported, or alters one value; of the first line, only what is there.
 
     Lengths, headers and counts see all but this: a digit (or sign) that becomes another in a number that still is one
     of its type, a letter of a text, and the job reference, which the control itself compares.

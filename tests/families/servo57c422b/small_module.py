@@ -96,7 +96,7 @@ def taken(form: TextFormat, schema: Schema, text: str, *, keep: bool = False) ->
 
 
 def told(form: TextFormat, schema: Schema, text: str) -> str:
-    """Return what is told of a text that cannot be meant."""
+    """Return the error of a text that cannot be meant."""
     with pytest.raises(FormatError) as caught:
         form.read(dedent(text), schema, False)
     return str(caught.value)

@@ -25,15 +25,18 @@ def test_a_task_has_an_assignment_a_line_and_acts_last(module: Schema) -> None:
         module, mode_X="0x1", gain_X="5", gain_Y="6", travel_X="-7 counts", fast_X="40000000 counts/s"
     )
     file.header.name = "SHUTTLE"
-    assert TASK.write(file).split("\n") == [
-        "1000 ! SHUTTLE, Small module",
-        "2000 PGAIN%=5 \\!Gain (X axis), 5",
-        "2010 REG_11!=-7 \\!Travel (X axis), -7 counts",
-        "2020 REG_17!=09C400000H \\!Fast (X axis), 40000000 counts/s",  # more than a signed double word says
-        "2030 REG_2051%=6 \\!Gain (Y axis), 6",
-        "2040 REG_65%=01H \\!Mode (X axis), 0x0001",  # the module acts on it at once
-        "",
-    ]
+    assert (
+        TASK.write(file).split("\n")
+        == [
+            "1000 ! SHUTTLE, Small module",
+            "2000 PGAIN%=5 \\!Gain (X axis), 5",
+            "2010 REG_11!=-7 \\!Travel (X axis), -7 counts",
+            "2020 REG_17!=09C400000H \\!Fast (X axis), 40000000 counts/s",  # more than a signed double word contains
+            "2030 REG_2051%=6 \\!Gain (Y axis), 6",
+            "2040 REG_65%=01H \\!Mode (X axis), 0x0001",  # the module acts on it at once
+            "",
+        ]
+    )
     assert taken(TASK, module, TASK.write(file)).values == file.values
 
 

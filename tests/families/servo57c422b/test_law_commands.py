@@ -106,7 +106,7 @@ def test_tune_dynamics_finds_what_the_axis_can_do_up_to_its_registers() -> None:
 
 
 def test_tune_feedforward_nulls_the_error_at_speed() -> None:
-    # Page 4-31; the programs end at 8256 and 8320, the assumed motor stands between both.
+    # Page 4-31; the programs end at 8256 and 8320, the assumed motor stops between both.
     trace = run(module(gain__feedforward=Value(0, "")), "tune", tune__command="feedforward")
     assert values(trace)["feedforward_gain"] == pytest.approx(8260, abs=10)
 

@@ -23,7 +23,7 @@ from amp_studio.transfer.progress import Progress, quiet
 FAMILY = "steps"
 
 
-# -- formulas: what one BLU is, another parameter says --------------------------------------------
+# -- formulas: what one BLU is, another parameter sets --------------------------------------------
 
 
 def limit_mm(limit: float, increment: str) -> float:
@@ -34,7 +34,7 @@ def limit_mm(limit: float, increment: str) -> float:
 FORMULAS = {"limit_mm": limit_mm}
 
 
-# -- a text format of its own: ``N10=50000 BLU`` ---------------------------------------------------
+# -- a separate text format: ``N10=50000 BLU`` ---------------------------------------------------
 
 
 def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
@@ -62,7 +62,7 @@ def _write(file: ParameterFile) -> str:
 FORMAT = TextFormat("stp", "stepper list", ".stp", lambda text: text.startswith("(STEPS)"), _read, _write)
 
 
-# -- a protocol of its own -------------------------------------------------------------------------
+# -- a separate protocol ---------------------------------------------------------------------------
 
 
 class Driver(HouseContent):

@@ -1,7 +1,7 @@
 """Every worked number of the Syntec slides that a formula must give back.
 
-The id of each case begins with the section, counted as ``parameter_db/syntec/family.yaml`` says. Comparisons are exact
-or say so. Where a printed number leaves a step out, the formula is asserted and what is printed stands beside it.
+The id of each case begins with the section, counted as in ``parameter_db/syntec/family.yaml``. Comparisons are exact
+or marked. Where a printed number leaves a step out, the formula is asserted and what is printed is beside it.
 """
 
 from __future__ import annotations
@@ -187,7 +187,7 @@ def test_the_alarms_come_at_twice_and_four_times_the_error_of_the_faster_speed(
 
 @pytest.mark.parametrize("gain", [1, 30, 47.5])
 def test_the_speed_of_an_alarm_does_not_depend_on_the_loop_gain(gain: float) -> None:
-    """Sections 1.5.3 and 1.5.4: the gain stands on both sides."""
+    """Sections 1.5.3 and 1.5.4: the gain is on both sides."""
     for speed, limit in (
         (syntec.alarm_speed(3000, 10000), syntec.following_error_limit(3000, 10000, gain)),
         (syntec.fatal_alarm_speed(3000, 10000), syntec.fatal_following_error_limit(3000, 10000, gain)),

@@ -36,7 +36,7 @@ OLD, NEW = b"1 old\n", b"1 new\n"
 
 
 class Sheet(HouseContent):
-    """A control as small as a driver can make it: it does not say what it holds before it is read."""
+    """A control as small as a driver can make it: it does not say what it contains before it is read."""
 
     def __init__(self, *, estop: bool | None = None, signature: str = "s1", **abilities: bool) -> None:
         self.abilities = Abilities(**abilities)
@@ -66,7 +66,7 @@ class Sheet(HouseContent):
 
 @pytest.fixture
 def sheet_family() -> Iterator[None]:
-    """A family with a protocol of its own."""
+    """A family with a separate protocol."""
     register(Registration("sheet", drivers={"sheet": "tests.not.loaded:FACTORY"}))
     yield
     unregister("sheet")
@@ -152,7 +152,7 @@ class Settings(Sheet):
         self.content, self._left, self._cut = held, breaks_after, cut
 
     def encode(self, file: Any, held: bytes) -> bytes:
-        """Put the lines of ``file``, bytes too here, over those that are held; a number that is not there is an error."""
+        """Put the lines of ``file``, bytes too here, over those that are there; a number that is not there is an error."""
         lines = dict(line.split(b"=") for line in held.splitlines())
         for number, value in (line.split(b"=") for line in file.splitlines()):
             if number not in lines:
@@ -230,7 +230,7 @@ def test_settings_that_read_back_otherwise_are_some_new_and_some_not() -> None:
 
 
 class Reversed(HouseContent):
-    """A kind of content that is an image written backwards under a first line of its own."""
+    """A kind of content that is an image written backwards under a separate first line."""
 
     def decode(self, content: bytes) -> ParameterFile:
         return decode_image(content.removeprefix(b"REVERSED 1\n")[::-1])

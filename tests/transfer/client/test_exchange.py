@@ -1,4 +1,4 @@
-"""Download, upload: what a person is told, and that nothing is replaced before it is kept."""
+"""Download, upload: what a person reads, and that nothing is replaced before it is kept."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NEW = b"2 new!\n" * 25
 
 
 class Shelf:
-    """Where old images are kept; remembers what the control held at that moment."""
+    """Where old images are kept; remembers what the control contained at that moment."""
 
     def __init__(self, control: Any) -> None:
         self.control = control

@@ -1,4 +1,4 @@
-"""identify says who answers at an address and what it contains; ports lists where something could."""
+"""identify shows who answers at an address and what it contains; ports lists where something could."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a control held is kept byte for byte, whatever it is, under a name nobody has, and checked before it goes back."""
+"""What a control contained is kept byte for byte, whatever it is, under a name nobody has, and checked before it goes back."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_a_readable_image_is_kept_as_a_parameter_file_too(tmp_path: Path) -> Non
 def test_a_parameter_file_that_would_not_come_back_the_same_is_not_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The image alone is what the control held."""
+    """The image alone is what the control contained."""
     content = kept_module.content_of
     monkeypatch.setattr(
         kept_module,

@@ -16,7 +16,7 @@ from tests.transfer.conftest import StartControl
 
 
 def panel(process: subprocess.Popen[str], command: str) -> str:
-    """Do something at the control's panel and return what it answers; what it said before is read over."""
+    """Do something at the control's panel and return what it answers; its earlier answers are read over."""
     assert process.stdin is not None
     assert process.stdout is not None
     process.stdin.write(command + "\n")
@@ -49,7 +49,7 @@ def test_download_verify_upload_and_nothing_differs(
 def test_out_of_estop_nothing_is_sent(
     mill: Path, start_control: StartControl, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The control must be in E-stop (page 2-14); one line says so, and nothing was replaced."""
+    """The control must be in E-stop (page 2-14); one line reports it, and nothing was replaced."""
     process, address = start_control("tcp://127.0.0.1:0", "--no-estop")
     before = (tmp_path / "control" / "active.img").read_bytes()
 

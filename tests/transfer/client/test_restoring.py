@@ -1,4 +1,4 @@
-"""Whatever a control holds, a download replaces it, keeps it, and it can be put back, by the command line's verbs."""
+"""Whatever a control contains, a download replaces it, keeps it, and it can be put back, by the command line's verbs."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ HOSTILE = {
 
 @dataclass
 class Bench:
-    """A control that was started with an image in its memory, and what the verbs said last."""
+    """A control that was started with an image in its memory, and what the verbs printed last."""
 
     address: str
     active: Path
@@ -56,7 +56,7 @@ class Bench:
 def bench(
     start_control: StartControl, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> Callable[[bytes], Bench]:
-    """Give a function that starts a control which holds these bytes."""
+    """Give a function that starts a control which contains these bytes."""
 
     def make(at_control: bytes) -> Bench:
         memory = tmp_path / "control"
@@ -204,7 +204,7 @@ def test_without_a_place_to_keep_it_nothing_is_replaced(
 
 @pytest.mark.parametrize("verb", ["download", "restore"])
 def test_only_what_was_approved_is_replaced(verb: str, bench: Callable[[bytes], Bench], mill: Path) -> None:
-    """Somebody changed the control after it was looked at: exit 2, both digests in the sentence, nothing replaced or kept."""
+    """Somebody changed the control after it was checked: exit 2, both digests in the sentence, nothing replaced or kept."""
     control = bench(GARBAGE)
     copy = control.folder / "copy.img"
     copy.write_bytes(mill_image())
@@ -358,7 +358,7 @@ def test_who_only_looks_is_not_told_that_nothing_was_replaced(
 def test_an_upload_writes_no_file_of_what_cannot_be_read(
     what: str, bench: Callable[[bytes], Bench], tmp_path: Path
 ) -> None:
-    """It says how to keep it byte for byte, and that can be put back."""
+    """The message explains how to keep it byte for byte, and that can be put back."""
     control = bench(HOSTILE[what])
     path = tmp_path / "new.amp"
 

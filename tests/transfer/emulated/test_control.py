@@ -1,4 +1,4 @@
-"""An emulated control holds its old image or the new one, whatever happens to its disk and whenever."""
+"""An emulated control contains its old image or the new one, whatever happens to its disk and whenever."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_what_it_holds_and_its_state_outlive_the_process(make: Callable[..., Con
     assert control.flags == Flags.RUNNING, "not in E-stop, no autostart, and a start makes the image current"
     assert control.incarnation == 2
     control.close()
-    assert make(folder, estop=True).flags & Flags.ESTOP, "the panel can be set anew at the start"
+    assert make(folder, estop=True).flags & Flags.ESTOP, "the panel can be set again at the start"
 
 
 def test_a_download_is_taken_up_after_a_restart(make: Callable[..., Control]) -> None:
@@ -147,7 +147,7 @@ def refuse(image: bytes) -> None:
 
 
 def test_a_control_takes_back_whatever_it_has_held(make: Callable[..., Control]) -> None:
-    """Under any signature and unread, also after a restart; what it has not held it looks into."""
+    """Under any signature and unread, also after a restart; what it has not contained it reads."""
     control = make()
     download(control)
     folder = control.memory.folder
@@ -173,7 +173,7 @@ def test_a_control_takes_back_whatever_it_has_held(make: Callable[..., Control])
 def test_a_control_remembers_what_was_keyed_in_and_what_lay_in_its_memory(
     make: Callable[..., Control],
 ) -> None:
-    """Every image that was active at some time counts as held."""
+    """Every image that was active at some time counts as contained."""
     control = make()
     control.patch(lambda image: b"patched")
     folder = control.memory.folder
@@ -197,7 +197,7 @@ def test_the_memory_of_images_does_not_grow_for_ever(make: Callable[..., Control
 
 
 def test_a_memory_of_an_earlier_program_is_taken_over(make: Callable[..., Control]) -> None:
-    """It knows only the image it holds."""
+    """It knows only the image it contains."""
     control = make()
     folder = control.memory.folder
     control.close()

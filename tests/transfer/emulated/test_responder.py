@@ -116,7 +116,7 @@ def test_what_belongs_to_no_download_or_upload_is_refused(responder: Responder) 
     other = OpenDownload(TRANSFER, 3, sha(b"abc"), sha(OLD), "s1")
     assert refusal(responder, other) == Code.MALFORMED, "one id, two images"
     ask(responder, Hello(1, bytes(4), ""))
-    assert refusal(responder, piece(0)) == Code.UNKNOWN_TRANSFER, "a Hello begins anew"
+    assert refusal(responder, piece(0)) == Code.UNKNOWN_TRANSFER, "a Hello starts again"
     ask(responder, OpenUpload())
     ask(responder, Hello(1, bytes(4), ""))
     assert refusal(responder, Read(0, 1)) == Code.NO_UPLOAD

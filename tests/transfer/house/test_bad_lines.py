@@ -1,4 +1,4 @@
-"""A session ends well over bad lines, and where it cannot, it says truly what the control contains."""
+"""A session ends well over bad lines, and where it cannot, it reports truly what the control contains."""
 
 from __future__ import annotations
 

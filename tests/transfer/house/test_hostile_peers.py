@@ -1,4 +1,4 @@
-"""Peers that want to hurt: bounded time and memory at both ends, and an end that says the truth."""
+"""Peers that want to hurt: bounded time and memory at both ends, and an end that reports the truth."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_hostile_clients_keep_a_control_from_nobody(seed: int, tmp_path: Path) -
     assert clients_beside_hostile_ones(seed, tmp_path) == []
 
 
-# -- a control that is not what it says ------------------------------------------------------------
+# -- a control that is not what it claims ----------------------------------------------------------
 
 
 class Liar(Responder):
@@ -180,7 +180,7 @@ def test_a_control_that_loses_again_and_again_what_it_was_sent_is_given_up(lying
 
 
 def test_a_byte_every_few_seconds_does_not_keep_a_client_for_ever(lying: Callable[..., Any]) -> None:
-    """One byte more each time would hold it for days: patience begins anew only after a step of some size."""
+    """One byte more each time would hold it for days: patience starts again only after a step of some size."""
     made = lying(lambda _, answer: answer, chunk=1, window=1)
     image = bytes(range(256)) * 40
     slow = made.modem.connect

@@ -1,4 +1,4 @@
-"""A download that is stopped at any moment says truly what the control contains; a commit is answered for in 20 s."""
+"""A download that is stopped at any moment reports truly what the control contains; a commit is answered for in 20 s."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tests.transfer.images import NEW, OLD, send
 
 
 class SetAfter(Stop):
-    """Is set when it has been asked so often; ``is_urgent`` as told."""
+    """Is set when it has been asked so often; ``is_urgent`` as given."""
 
     def __init__(self, asks: int, *, urgent: bool = False) -> None:
         super().__init__()
@@ -103,7 +103,7 @@ def test_nobody_who_can_be_told_ends_no_exchange(
 
 
 class NoAnswerToCommit(Responder):
-    """Takes the commit, and is silent from then on; ``does_it`` says whether the commit happens."""
+    """Takes the commit, and is silent from then on; ``does_it`` decides whether the commit happens."""
 
     does_it = False
 

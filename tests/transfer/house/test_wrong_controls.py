@@ -282,7 +282,7 @@ def test_a_control_that_gets_nowhere_is_given_up(
 
 
 class Wrong(Responder):
-    """A control that answers otherwise than it should: ``answers`` maps a request to what it says instead."""
+    """A control that answers otherwise than it should: ``answers`` maps a request to its other answer."""
 
     answers: ClassVar[dict[type[Message], Callable[[Any], Message]]] = {}
 

@@ -1,4 +1,4 @@
-"""An address is written in one of three forms, and what is wrong with another is said in one sentence."""
+"""An address is written in one of three forms, and what is wrong with another is reported in one sentence."""
 
 from __future__ import annotations
 

@@ -145,7 +145,7 @@ def test_a_serial_port_serves_one_program_and_outlives_it() -> None:
 
 @needs_pty
 def test_a_control_can_be_listened_for_at_a_serial_port() -> None:
-    """The port is one end of a pseudo terminal here; its other end stands for the cable."""
+    """The port is one end of a pseudo terminal here; its other end is in the place of the cable."""
     cable = listen(parse_endpoint("pty:"))
     port = listen(cable.endpoint)
     assert port.endpoint == Endpoint("serial", device=cable.endpoint.device)
@@ -157,7 +157,7 @@ def test_a_control_can_be_listened_for_at_a_serial_port() -> None:
     assert port.accept(0) is None
     near.close()
     again = port.accept(0)
-    assert again is not None, "the port is opened anew after a restart"
+    assert again is not None, "the port is opened again after a restart"
     again.close()
     port.close()
     cable.close()

@@ -123,7 +123,7 @@ def _signs(names: object) -> str:
     try:
         return "".join(_NAMES[name] for name in str(names).split())
     except KeyError as error:
-        raise FormatError(f"{error.args[0]} is none of the signs {', '.join(_NAMES)}") from None
+        raise FormatError(f"{error.args[0]} is not one of the signs {', '.join(_NAMES)}") from None
 
 
 def _block(line: str) -> Placed:
