@@ -98,5 +98,5 @@ def _read(path: Path) -> list[tuple[str, str, str, str, bool]]:
         ):
             raise TypeError
     except (ValueError, LookupError, TypeError, RecursionError):
-        raise TicksError(f"{path} is no list of ticks of a sheet: move it away to begin anew") from None
+        raise TicksError(f"{path} is no list of ticks of a sheet: move it away to start again") from None
     return found

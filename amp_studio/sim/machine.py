@@ -15,7 +15,7 @@ from .errors import SimulationError
 CONTACT = 150.0
 """Hz: resonance of motor and load in contact, of an axis that has backlash but no given resonance; an assumption."""
 CONTACT_DAMPING = 1.0
-"""Damping ratio of that contact: it adds no oscillation of its own; an assumption."""
+"""Damping ratio of that contact: it adds no further oscillation; an assumption."""
 RESONANCE_DAMPING = 0.05
 """Damping ratio of a resonance that is given without one; an assumption."""
 

@@ -104,7 +104,7 @@ def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:
         assumed["resonance"] = (
             "Backlash without a resonance: motor and load in contact are taken as that stiff."
         )
-        assumed["damping"] = "The contact adds no oscillation of its own."
+        assumed["damping"] = "The contact adds no further oscillation."
     if machine.damping is None and machine.resonance > 0.0:
         assumed["damping"] = "The damping ratio of the resonance is not given."
     if machine.damping is not None:

@@ -12,7 +12,7 @@ from .links.link import Link
 from .progress import SILENT, Progress, quiet
 
 SLICE = 0.1  # seconds between two looks at the cancel event
-SILENT_AFTER = 1.8  # seconds without an answer until whoever waits is notified
+SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
 SILENT_EVERY = 1.0
 PERSON = -1
 """The total of a progress whose stage is a sentence: what a person is to do at the control."""
@@ -62,7 +62,7 @@ class Waiting:
             self.notify(SILENT, 0, 0)
 
     def notify(self, stage: str, done: int, total: int) -> None:
-        """Notify whoever waits; that he cannot be notified ends no exchange."""
+        """Notify the waiting caller; an error in that ends no exchange."""
         with contextlib.suppress(Exception):
             self._progress(stage, done, total)
 

@@ -1,4 +1,4 @@
-"""A line without a cable between a driver and an emulated device, in a time of its own."""
+"""A line without a cable between a driver and an emulated device, in a simulated time."""
 
 from __future__ import annotations
 

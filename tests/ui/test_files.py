@@ -313,7 +313,7 @@ def test_close_shows_the_welcome_page_with_the_file(window: MainWindow, path: Pa
 
 
 def test_own_rules_beside_the_file_are_checked(open_window, path: Path) -> None:
-    """A machine builder's own rules stand in the same form beside his files."""
+    """A machine builder's own rules are in the same form beside his files."""
     path.with_name("rules.yaml").write_text(
         "rules:\n"
         "  - id: own.calibration\n"

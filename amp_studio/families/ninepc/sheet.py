@@ -23,7 +23,7 @@ _STAGES = (
     ),
     Stage(
         "Narrower limits, less speed, gain and torque",
-        "Whoever is interrupted here leaves a machine that is more careful than before.",
+        "A person who is interrupted here leaves a machine that is more careful than before.",
         "7-20",
     ),
     Stage("Other values"),

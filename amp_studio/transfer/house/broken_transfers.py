@@ -44,7 +44,7 @@ class BrokenTransfers:
                 path.unlink()
 
     def forget(self, what: bytes) -> None:
-        """It is committed, or given up."""
+        """It is committed, or cancelled."""
         with contextlib.suppress(OSError):
             self._path(what).unlink()
 

@@ -181,7 +181,7 @@ class DownloadTransfer:
         return error
 
     def _advice(self) -> str:
-        """Return how the staged bytes are made use of; nobody could tell the control to throw them away."""
+        """Return how the staged bytes are made use of; there was no way to make the control discard them."""
         if not self._reached or self._broken.find(self._what) is None:
             return ""
         return f" (the same download goes on from byte {self._reached} of {len(self._image)})"

@@ -1,4 +1,4 @@
-"""A driver at an emulated ACR card, in a time of its own; faults may be put on each line and into the save."""
+"""A driver at an emulated ACR card, in a simulated time; faults may be put on each line and into the save."""
 
 from __future__ import annotations
 

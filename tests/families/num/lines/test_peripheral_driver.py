@@ -1,4 +1,4 @@
-"""The tool as the peripheral of a NUM control: it loads, unloads and tells the person what to press; nothing is half done."""
+"""The tool as the peripheral of a NUM control: it loads, unloads and shows the person what to press; nothing is half done."""
 
 from __future__ import annotations
 
