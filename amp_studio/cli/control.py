@@ -21,7 +21,7 @@ from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
 from amp_studio.transfer.image import ImageError
 
-from .console import family, note, print_json, progress
+from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
 from .files import difference_json, print_comparison, print_difference
 from .out_of_range import settle_values
@@ -36,7 +36,8 @@ def emulate_verb(options: argparse.Namespace) -> int:
     family(options.family)
     return emulate(options.listen, EmulatedOptions(
         options.family, options.state, machine=options.machine, estop=not options.no_estop,
-        autostart=not options.manual_restart, faults=options.faults))  # fmt: skip
+        autostart=not options.manual_restart, faults=options.faults,
+        hardware=dict(assignments(options.option))))  # fmt: skip
 
 
 def download_verb(options: argparse.Namespace) -> int:

@@ -258,6 +258,13 @@ def parser() -> argparse.ArgumentParser:
         metavar="JSON",
         help='what goes wrong, to practise with: {"drop_after_bytes": 9000}',
     )
+    sub.add_argument(
+        "--option",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="what was ordered with the control, where its family has options: axes=3 for a 9/PC",
+    )
     sub = verb("ports", "identify", "the serial ports of this computer")
     json_option(sub)
     sub = verb("identify", "identify", "what answers at an address, and what it contains")

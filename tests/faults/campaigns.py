@@ -137,6 +137,9 @@ CAMPAIGNS = (
     Campaign(
         "odd commands at an emulated control", partial(_damaged_in, persons.fuzz_commands), MANY, 200, 5_000
     ),
+    Campaign(
+        "odd commands at the screen of a 9/PC", partial(_damaged_in, persons.fuzz_panel), MANY, 10, 1_000
+    ),
     Campaign("command lines to be completed", partial(_damaged_in, persons.fuzz_completion), MANY, 20, 5_000),
     Campaign("odd command lines", partial(_damaged_in, fuzz_command_lines), MANY, 40, 2_000),
     Campaign("damaged suppressions", partial(_damaged_in, stored.fuzz_suppressions), MANY, 50, 5_000),

@@ -9,6 +9,7 @@ from pathlib import Path
 from unittest import mock
 
 from amp_studio.cli.completion import answer
+from amp_studio.families.ninepc.emulated.panel import NinePcPanel
 from amp_studio.files import new_file
 from amp_studio.schema import UnknownParameterError, addresses_meant, family_ids
 from amp_studio.schema.visible import visible
@@ -227,6 +228,48 @@ def fuzz_commands(folder: Path, seed: int, count: int) -> list[str]:
         return violations(mutants(COMMANDS, seed, count), look, ())
     finally:
         control.close()
+
+
+def fuzz_panel(folder: Path, seed: int, count: int) -> list[str]:
+    """Give damaged commands at the screen of an emulated 9/PC: it answers each with one line; its AMP can be read."""
+    file = new_file("9pc", "mill")
+    keep = {("axis.type", "1"), ("servo.excess_error", "1"), ("axis.machine", "")}
+    for address in [a for a in file.values if a not in keep]:
+        del file.values[address]
+    file.evaluation.forget()
+    control = Control(
+        folder / "control", Identity("9pc", file.schema.signature), encode_image(file), accept=decode_image
+    )
+    shown: list[str] = []
+    emulator = Emulator(control, mock.Mock(), patch=patch_image, panel=NinePcPanel(), say=shown.append)
+
+    def look(text: str) -> None:
+        before = control.image
+        for line in ("password AB-D4", "patch-amp LOCK", text, "update"):
+            shown.clear()
+            emulator.command(line)
+            emulator._obey()
+            assert len(shown) <= 1
+            assert all(line == visible(line) and len(line) < 1500 for line in shown), shown
+        if control.image != before:
+            decode_image(control.image)
+
+    try:
+        return violations(mutants(PANEL, seed, count), look, ())
+    finally:
+        control.close()
+
+
+PANEL = (
+    "search 1750",
+    "replace 1750 40.5",
+    "replace 1750 -1e3",
+    "password AB-D4",
+    "patch-amp LOCK",
+    "can",
+    "messages",
+    "leave",
+)
 
 
 def fuzz_completion(folder: Path, seed: int, count: int) -> list[str]:

@@ -39,7 +39,7 @@ def fuzz_screens(seed: int, count: int) -> list[str]:
     return violations(mutants(SCREENS, seed, count), look, (ReadBackError,))
 
 
-def fuzz_ticks(seed: int, count: int, folder: Path) -> list[str]:
+def fuzz_ticks(folder: Path, seed: int, count: int) -> list[str]:
     """Damage the file of ticks: it is refused and left alone, or every tick in it belongs to an entry as it is."""
     sheet, _ = _sheet()
     path = folder / "mill.amp.ticks.json"

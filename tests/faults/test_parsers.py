@@ -31,6 +31,7 @@ READERS = {
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
     "demo.py": "",  # whether there is a display
+    "families/ninepc/emulated/panel.py": "odd commands at the screen of a 9/PC",
     "files/atomic.py": "damaged backups",
     "files/document.py": "damaged journal and history",
     "files/lock.py": "damaged lock notes",

@@ -8,6 +8,7 @@ REGISTRATION = Registration(
     family="9pc",
     formulas="amp_studio.families.ninepc.formulas:FORMULAS",
     formats=("amp_studio.families.ninepc.formats.patch_sheet:FORMAT",),
+    emulators={"house": "amp_studio.families.ninepc.emulated:emulate"},
     sheet="amp_studio.families.ninepc.sheet:KEYING",
     law="amp_studio.families.ninepc.law:LAW",
 )

@@ -60,6 +60,7 @@ class Control:
         self.identity = identity
         self.memory = Memory(folder)
         self.is_committing = False
+        self._held = ""
         self._capacity = capacity
         self._accept = accept
         self._lock = EditLock(folder / "control")
@@ -100,6 +101,11 @@ class Control:
         return self._record.flags()
 
     @property
+    def is_as_delivered(self) -> bool:
+        """Whether nothing was ever downloaded to it or changed at it."""
+        return self._record.committed is None and not self._record.changed_at_control
+
+    @property
     def staged_size(self) -> int:
         """How many bytes of the open download are staged."""
         return self._staging.size
@@ -107,8 +113,16 @@ class Control:
     # -- at the operator's panel -------------------------------------------------------------------
 
     def set_estop(self, on: bool) -> None:
-        """Press or release the emergency stop."""
+        """Press or release the emergency stop; raises StateError where the control does not come out of it."""
+        if self._held and not on:
+            raise StateError(f"the control stays in E-stop: {self._held}")
         self._remember(estop=on)
+
+    def hold(self, reason: str) -> None:
+        """Keep the control in E-stop for a reason; "" lets it out again when somebody releases it."""
+        self._held = reason
+        if reason and not self._record.estop:
+            self._remember(estop=True)
 
     def set_autostart(self, on: bool) -> None:
         """Choose whether the control restarts by itself after a download."""

@@ -28,6 +28,7 @@ from amp_studio.transfer.links.opening import listen
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm
+from .panel import Panel, PlainPanel
 from .responder import CHUNK, WINDOW, Responder
 
 RESTART_SECONDS = 0.5
@@ -74,6 +75,7 @@ class Emulator:
         listener: Listener,
         *,
         patch: Patch | None = None,
+        panel: Panel | None = None,
         faults: Faults | None = None,
         restart_seconds: float = RESTART_SECONDS,
         window: int = WINDOW,
@@ -86,6 +88,7 @@ class Emulator:
         self._control = control
         self._listener = listener
         self._patch = patch
+        self._panel = panel or PlainPanel()
         faults = faults or Faults()
         self._line = FaultyLine(faults)
         self._restart_seconds = restart_seconds
@@ -111,6 +114,7 @@ class Emulator:
     def run(self) -> None:
         """Serve until ``quit`` or ``stop``; raises LinkError when nothing can be listened on any more."""
         try:
+            self._started()
             while not self._is_over():
                 self.turn()
         finally:
@@ -198,6 +202,7 @@ class Emulator:
         if left <= 0:
             self._back_at = None
             self._report(self._restarted)
+            self._started()
             return
         caller = self._listener.accept(min(left, SLICE))
         if caller is not None:
@@ -229,6 +234,15 @@ class Emulator:
         self._control.restart()
         return f"restarted {self._control.incarnation}"
 
+    def _started(self) -> None:
+        """Show what the family's control shows at a start, and keep it in E-stop where it does not come out of it."""
+        start = self._panel.started(self._control)
+        for message in start.messages:
+            self._show(_line(message))
+        self._control.hold(start.held)
+        if start.held:
+            self._show(f"held in E-stop: {_line(start.held)}")
+
     def _done(self, line: str) -> str:
         """Do a command and return what the operator reads."""
         if len(line) > LONGEST_COMMAND:
@@ -251,7 +265,11 @@ class Emulator:
             case "patch", _ if "=" in rest:
                 self._patched(*rest.split("=", 1))
             case _:
-                raise ValueError(f"{quoted(line)} is no command: {COMMANDS}")
+                answer = self._panel.command(self._control, verb, rest)
+                if answer is None:
+                    words = ", ".join(filter(None, (COMMANDS, self._panel.words)))
+                    raise ValueError(f"{quoted(line)} is no command: {words}")
+                return answer
         return visible(line)
 
     def _patched(self, key: str, value: str) -> None:
@@ -274,6 +292,7 @@ def serve(
     control: Control,
     *,
     patch: Patch | None = None,
+    panel: Panel | None = None,
     faults: Faults | None = None,
     restart_seconds: float = RESTART_SECONDS,
     commands: Iterable[str] | None = None,
@@ -299,6 +318,7 @@ def serve(
             control,
             listener,
             patch=patch,
+            panel=panel,
             faults=faults,
             restart_seconds=restart_seconds,
             say=show,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import contextlib
 import tempfile
 import threading
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from amp_studio.files import new_file
@@ -19,6 +19,7 @@ from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from .control import Control
 from .emulator import serve
 from .faults import read_faults
+from .panel import Panel
 from .record import Identity
 
 GENERAL = {"house": "amp_studio.transfer.emulated.family_control:emulate_house"}
@@ -33,6 +34,7 @@ class EmulatedOptions:
     ``machine``  the machine type, None for the family's first
     ``estop``, ``autostart``  as it begins, where a protocol knows of them
     ``faults``   what goes wrong, to practise with, as one JSON object
+    ``hardware`` what was ordered with it, by the names that its family knows
     """
 
     family: str
@@ -41,6 +43,7 @@ class EmulatedOptions:
     estop: bool = True
     autostart: bool = True
     faults: str = "{}"
+    hardware: Mapping[str, str] = field(default_factory=dict)
 
 
 Emulate = Callable[[Endpoint, EmulatedOptions], int]
@@ -67,11 +70,19 @@ def emulate(listen: str, options: EmulatedOptions) -> int:
 
 def emulators_of(family: str) -> dict[str, str]:
     """Return protocol -> emulated control, the usual one first."""
-    return {**registration_of(family).emulators, **GENERAL}
+    own = registration_of(family).emulators
+    return {**own, **{name: place for name, place in GENERAL.items() if name not in own}}
 
 
 def emulate_house(listen: Endpoint, options: EmulatedOptions) -> int:
     """Run an emulated control in the house protocol; it begins with the family's printed defaults."""
+    if options.hardware:
+        raise ValueError(f"an emulated control of {options.family} has no options")
+    return run_house(listen, options)
+
+
+def run_house(listen: Endpoint, options: EmulatedOptions, panel: Panel | None = None) -> int:
+    """Run an emulated control in the house protocol, with what its family does at its own panel."""
     stop = threading.Event()
     with contextlib.ExitStack() as stack:
         stack.enter_context(interrupts(stop.set))
@@ -82,7 +93,8 @@ def emulate_house(listen: Endpoint, options: EmulatedOptions) -> int:
         folder = memory_folder(options, stack)
         control = Control(folder, identity, encode_image(file), estop=options.estop, autostart=options.autostart,
                           accept=decode_image)  # fmt: skip
-        return serve(listen, control, patch=patch_image, faults=read_faults(options.faults), stop=stop)
+        return serve(listen, control, patch=patch_image, panel=panel, faults=read_faults(options.faults),
+                     stop=stop)  # fmt: skip
 
 
 def memory_folder(options: EmulatedOptions, stack: contextlib.ExitStack) -> Path:

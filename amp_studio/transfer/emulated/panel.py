@@ -1,0 +1,47 @@
+"""What the control of a family does besides taking and giving contents: at each start, and at its own screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from .control import Control
+
+
+@dataclass(frozen=True)
+class Start:
+    """What comes of a start with a content.
+
+    ``messages``  what the control's screen shows, one line each
+    ``held``      why it stays in E-stop; "" where E-stop can be released
+    """
+
+    messages: tuple[str, ...] = ()
+    held: str = ""
+
+
+class Panel(Protocol):
+    """A family's own behaviour, found by its ``Registration.emulators``. It waits for nothing and opens nothing."""
+
+    words: str
+    """The operator's commands that it knows, for the list of all."""
+
+    def started(self, control: Control) -> Start:
+        """Return what happens at a start of the control, whatever its content is."""
+
+    def command(self, control: Control, verb: str, rest: str) -> str | None:
+        """Do an operator's command and return what he reads; None for one of others. Raises ValueError, RefusalError, OSError."""
+
+
+class PlainPanel:
+    """A control of which no such behaviour is known."""
+
+    words = ""
+
+    def started(self, _control: Control) -> Start:
+        """Return that nothing happens."""
+        return Start()
+
+    def command(self, _control: Control, _verb: str, _rest: str) -> str | None:
+        """Know no command."""
+        return None
