@@ -8,10 +8,9 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from amp_studio.files import ENDING, ParameterFile, ParameterFileError, open_file
 from amp_studio.report import alike, counted, finding_json, same_finding_text, suppressed_text
@@ -29,8 +28,7 @@ AT_A_TIME = 8
 """Files a process is handed at once."""
 
 
-@dataclass(frozen=True)
-class CheckResult:
+class CheckResult(NamedTuple):
     """The result of one file; passes from one process to another."""
 
     path: Path

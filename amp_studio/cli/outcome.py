@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 Mark = tuple[int, int, int, int] | str | None
 """What distinguishes one state of a file from another: device, number, size and time; None where there is no file.
@@ -13,8 +13,7 @@ A text gives the reason why it cannot be examined.
 """
 
 
-@dataclass(frozen=True)
-class Target:
+class Target(NamedTuple):
     """A file that a verb may replace, and its backup, as they were before it began."""
 
     path: Path

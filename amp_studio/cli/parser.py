@@ -91,8 +91,21 @@ def _named(action: argparse.Action) -> str:
     return (action.option_strings or [str(action.metavar or action.dest).lower()])[-1].lstrip("-")
 
 
-def parser() -> argparse.ArgumentParser:
-    """Return the parser of every verb; ``module`` and ``verb`` name the function that runs."""
+class _NotAsked(argparse.ArgumentParser):
+    """In the place of the parser of a verb that is not on the command line; it takes arguments and keeps none."""
+
+    def __init__(self) -> None:
+        pass
+
+    def add_argument(self, *_names: Any, **_how: Any) -> Any:
+        """Add nothing."""
+
+
+def parser(asked: str = "") -> argparse.ArgumentParser:
+    """Return the parser of every verb; ``module`` and ``verb`` name the function that runs.
+
+    Where there is a verb ``asked``, it is of that one alone: to make all of them takes a third of a start.
+    """
     top = _Parser(
         prog="amp-studio",
         description="Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program, on the files that are named.",
@@ -102,6 +115,8 @@ def parser() -> argparse.ArgumentParser:
 
     def verb(name: str, module: str, summary: str, writes: str = "") -> argparse.ArgumentParser:
         """Add a verb; ``writes`` names the option whose file it may replace."""
+        if asked and name != asked:
+            return _NotAsked()
         message = f"{summary[0].upper()}{summary[1:]}."
         sub: argparse.ArgumentParser = verbs.add_parser(name, help=summary, description=message, verb=name)
         sub.set_defaults(verb=f"{name}_verb", module=module, writes=writes.split())
@@ -331,7 +346,7 @@ def parser() -> argparse.ArgumentParser:
     sub = verb("completion", "completion", "print the completion script of a shell")
     sub.add_argument("shell", choices=("bash", "zsh", "fish"))
     verb("man", "man_page", "print the man page")
-    return top
+    return parser() if asked and not verbs.choices else top
 
 
 def _path(text: str) -> Path:

@@ -8,10 +8,10 @@ off. Comments and keys that this program does not know survive every save.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from amp_studio.schema import (
     Address,
@@ -56,8 +56,7 @@ class ParameterFileError(FileError):
     """A parameter file or project that cannot be used; nothing was changed."""
 
 
-@dataclass(frozen=True)
-class Opened:
+class Opened(NamedTuple):
     """A file as it was read: its content, and its state on disk."""
 
     file: ParameterFile
@@ -201,7 +200,7 @@ def _value(file: ParameterFile, address: Address, text: str) -> Value | None:
     """Return the value, None for an address the schema does not have; raises InvalidValueError."""
     schema = file.schema
     parameter = schema.parameters.get(address[0])
-    if parameter is None or address[1] not in schema.on(file.machine).instances(parameter):
+    if parameter is None or address not in file.machine_schema.places:
         return None
     try:
         if len(text) > _REMEMBERED:
@@ -301,7 +300,7 @@ def _as_spelled(file: ParameterFile, entries: dict[str, str], known: object) -> 
 
 
 def _entries(file: ParameterFile) -> dict[str, str]:
-    order = {a: n for n, a in enumerate(file.addresses())}
+    order = file.machine_schema.places
     known = sorted(file.values, key=lambda a: order.get(a, len(order)))
     entries = {written(a): write_value(file.schema.parameters[a[0]], file.values[a]) for a in known}
     return entries | {key: text for key, text in file.unknown.items() if key not in entries}

@@ -16,10 +16,9 @@ from __future__ import annotations
 import contextlib
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from difflib import SequenceMatcher, get_close_matches
 from functools import partial
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from .address import Address, UnknownParameterError, whole_of, written
 from .bit_fields import field_value
@@ -47,8 +46,7 @@ class FileState(Protocol):
     def least_hidden(self, claims: list[Address]) -> list[Address]: ...
 
 
-@dataclass(frozen=True, slots=True)
-class Meant:
+class Meant(NamedTuple):
     """What a text addresses."""
 
     address: Address

@@ -31,8 +31,7 @@ class Reference(NamedTuple):
     is_list: bool
 
 
-@dataclass(frozen=True, slots=True)
-class StateInfo:
+class StateInfo(NamedTuple):
     """The state of a parameter, and why it is inactive."""
 
     state: ParameterState
@@ -58,8 +57,7 @@ class StatePlan:
     otherwise: StateInfo
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
+class Question(NamedTuple):
     """A condition asked for an instance."""
 
     decision: Decision
@@ -239,13 +237,18 @@ class Conditions:
 
     def reference(self, text: str, instance: str, scope: str | None) -> Reference:
         """Resolve one entry of ``reads`` for an instance; raises UnknownParameterError."""
-        if text.endswith("@*"):
-            instance = ""  # the same for every one
         key = (text, instance, scope)
         found = self._references.get(key)
         if found is None:
-            found = self._references[key] = self._resolve(text, instance, scope)
+            same = instance and text.endswith("@*")  # for every instance
+            found = self.reference(text, "", scope) if same else self._resolve(text, instance, scope)
+            self._references[key] = found
         return found
+
+    def all_references(self, texts: Iterable[str], instance: str, scope: str | None) -> list[Reference]:
+        """Resolve several entries of ``reads`` for an instance; raises UnknownParameterError."""
+        known = self._references.get
+        return [known((text, instance, scope)) or self.reference(text, instance, scope) for text in texts]
 
     def _named(self, text: str, scope: str | None) -> tuple[str, str, dict[str, int], bool]:
         """Return the parameter and the instances that a text means, its own instances in order, and whether it is kin."""

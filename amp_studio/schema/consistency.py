@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
 from .model import BoundRef, Family, Group, Parameter, StateRule
@@ -12,8 +12,7 @@ from .quoting import quoted
 from .yaml_reader import KeyPath
 
 
-@dataclass(frozen=True, slots=True)
-class Inconsistency:
+class Inconsistency(NamedTuple):
     """A fault that one file alone does not show; ``group`` is the file's key, None for ``family.yaml``."""
 
     group: str | None

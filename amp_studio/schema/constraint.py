@@ -8,7 +8,7 @@ inch range and the printed metric range differ in the last digit.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .address import Address
 from .bit_fields import field_value
@@ -20,8 +20,7 @@ from .value import Value
 from .values import MASKED, digits_of, show_value, write_number
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
+class Limits(NamedTuple):
     """The bounds that apply to one instance in one unit; None where there is none."""
 
     low: float | None

@@ -84,8 +84,7 @@ class Evaluation:
 
     def references(self, texts: Iterable[str], instance: str, scope: str | None) -> list[Reference]:
         """Resolve several entries of ``reads`` for an instance; raises UnknownParameterError."""
-        resolve = self._conditions.reference
-        return [resolve(text, instance, scope) for text in texts]
+        return self._conditions.all_references(texts, instance, scope)
 
     # -- conditions ------------------------------------------------------------
 

@@ -67,10 +67,12 @@ class Keys(dict[Address, Key]):
 
     def __missing__(self, address: Address) -> Key:
         value = self._value(address)
-        try:
-            found: Key = value._key  # type: ignore[union-attr]  # most are known: this is done for every value of a file
-        except AttributeError:
-            found = key_of(value)
+        found: Key = None
+        if value is not None:
+            try:
+                found = value._key  # type: ignore[attr-defined]  # most are known: this is done for every value of a file
+            except AttributeError:
+                found = key_of(value)
         self[address] = found
         return found
 

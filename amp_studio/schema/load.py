@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import platformdirs
 from pydantic import ValidationError
@@ -121,8 +120,7 @@ def _of(family: Family, folder: Path) -> list[Path]:
     return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(NamedTuple):
     """One item of a named list of a file, unchanged."""
 
     kind: str

@@ -53,6 +53,11 @@ class MachineSchema:
         """Every addressable value, in the manual's order."""
         return tuple((p.id, i) for p in self.parameters.values() for i in self.instances(p))
 
+    @cached_property
+    def places(self) -> Mapping[Address, int]:
+        """Address -> its place in the manual's order."""
+        return {address: n for n, address in enumerate(self.addresses)}
+
     def kin(self, scope: str | None, other: str | None) -> bool:
         """Return whether instances of two scopes belong together: the same scope, or one has the parts of the other."""
         return scope == other or bool(

@@ -7,8 +7,8 @@ family and from the value of the parameter that sets the size; a length that is 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from .address import Address, UnknownParameterError
 from .evaluation import Evaluation
@@ -19,8 +19,7 @@ from .value import InvalidValueError, Value
 from .values import EXACT, checked, choice_key, read_exact, write_number
 
 
-@dataclass(frozen=True, slots=True)
-class Size:
+class Size(NamedTuple):
     """How long one of a unit is here."""
 
     number: Fraction

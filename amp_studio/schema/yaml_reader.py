@@ -150,7 +150,11 @@ class _YamlParser:
 
     def _node(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
         """Return a value, and where its text ends."""
-        anchor, is_alias = event.anchor, type(event).__name__ == "AliasEvent"
+        anchor, kind = event.anchor, type(event).__name__
+        if anchor is None and kind == "ScalarEvent" and event.tag is None:  # nearly all are
+            text = event.value
+            return (self.scalar(text) if event.implicit[0] else text), event.end_mark.index
+        is_alias = kind == "AliasEvent"
         if anchor is not None and (self.anchors is None or (is_alias and anchor not in self.anchors)):
             raise self._error("is not readable: it uses a YAML reference", event)
         if is_alias and self.anchors is not None:

@@ -62,7 +62,7 @@ def encode_image(file: ParameterFile) -> bytes:
     """Return the image of a file: every value that is set, in the manual's order; raises ImageError."""
     schema, here = file.schema, file.machine_schema
     lines = head_of(file)
-    order = {a: n for n, a in enumerate(file.addresses())}
+    order = file.machine_schema.places
     values = sorted((a for a in file.values if a in order), key=order.__getitem__)
     for address in values:
         number = here.number(address)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from amp_studio.schema import Address, Evaluation, Rule, Suppression, addresses_meant
 
@@ -31,8 +32,7 @@ class BuilderRules:
 NO_RULES = BuilderRules()
 
 
-@dataclass(frozen=True, slots=True)
-class Suppressed:
+class Suppressed(NamedTuple):
     """A finding that is left as it is, and who decided that."""
 
     finding: Finding

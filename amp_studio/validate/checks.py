@@ -42,17 +42,20 @@ class Checks:
 
     def of_all(self, plan: Plan) -> Iterator[tuple[Place, Finding]]:
         """Yield all that is wrong, and where it is filed: what a full run finds."""
-        file = self._file
-        for alike in plan.alike:
-            state = file.evaluation.state(alike[0]).state
-            self._rules.look_at(alike, state == "in-force")
-            for address in alike:
-                value = file.values.get(address)
-                if value is None or (state in _NOT_LOOKED_AT and address not in file.forced):
-                    continue
-                finding = self._values.finding(address, value)
-                if finding is not None:
-                    yield address, finding
+        file, order = self._file, plan.order
+        state_of, keys = file.evaluation.state, file.evaluation.keys
+        addresses = sorted(filter(order.__contains__, file.values), key=order.__getitem__)
+        states = [state_of(address) for address in addresses]
+        self._rules.look_at(
+            (address, keys[address] if state.is_active else None)
+            for address, state in zip(addresses, states, strict=True)
+        )
+        for address, state in zip(addresses, states, strict=True):
+            if state.state in _NOT_LOOKED_AT and address not in file.forced:
+                continue
+            finding = self._values.finding(address, file.values[address])
+            if finding is not None:
+                yield address, finding
         for first, checks in plan.by_first_read.items():
             if first is None or self._rules.is_active(first):
                 for check, finding in self._rules.findings(checks):

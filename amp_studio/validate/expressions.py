@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from string import Formatter
-from typing import Any
+from typing import Any, NamedTuple
 
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
@@ -55,8 +54,7 @@ class RuleError(ValueError):
         super().__init__(f"rule {rule}: {what}")
 
 
-@dataclass(frozen=True, slots=True)
-class FindingExpressions:
+class FindingExpressions(NamedTuple):
     """The message and the fixes of a broken rule, worked out of the values it reads."""
 
     values: tuple[tuple[str, Expression], ...]

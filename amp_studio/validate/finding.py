@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from amp_studio.schema import Address, Value
 from amp_studio.schema.model import Severity
@@ -12,8 +13,7 @@ OWN_FAULT = "rules.unusable"
 """The rule that findings about a builder's rules themselves belong to."""
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+class Setting(NamedTuple):
     """One value of one parameter."""
 
     address: Address

@@ -7,7 +7,6 @@ address to the checks that read it, so that an edit runs only those again.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import count
@@ -121,11 +120,12 @@ class Plan:
     """Of a file without values."""
 
     @cached_property
-    def alike(self) -> tuple[tuple[Address, ...], ...]:
-        """The addresses, those together whose state is always the same."""
-        found: dict[object, list[Address]] = {}
+    def needed(self) -> tuple[tuple[Address, ...], ...]:
+        """The addresses without which a file is not complete where they are active, those of the same state together."""
+        parameters, found = self.evaluation.schema.parameters, dict[object, list[Address]]()
         for address in self.addresses:
-            found.setdefault(self.evaluation.how_state_is_found(address), []).append(address)
+            if not parameters[address[0]].optional:
+                found.setdefault(self.evaluation.how_state_is_found(address), []).append(address)
         return tuple(map(tuple, found.values()))
 
     @cached_property
@@ -180,9 +180,9 @@ class _Further:
 @lru_cache(maxsize=32)
 def _make(schema: Schema, machine: str, further: _Further) -> Plan:
     evaluation = Evaluation(schema, lambda _: None, lambda: machine)
-    addresses = schema.on(machine).addresses
+    here = schema.on(machine)
     checks = checks_of(evaluation, schema.rules + further.rules, late=len(schema.rules))
-    return Plan(addresses, {address: n for n, address in enumerate(addresses)}, checks, evaluation)
+    return Plan(here.addresses, here.places, checks, evaluation)
 
 
 def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) -> tuple[RuleCheck, ...]:
@@ -223,8 +223,11 @@ def _resolved(
     scope, instances = _runs_for(evaluation, rule)
     texts = [rule.reads[name] for name in names]
     for instance in instances:
-        with suppress(UnknownParameterError):
-            yield instance, evaluation.references(texts, instance, scope)
+        try:
+            references = evaluation.references(texts, instance, scope)
+        except UnknownParameterError:
+            continue
+        yield instance, references
 
 
 def _check_read(schema: Schema, rule: Rule, text: str) -> None:

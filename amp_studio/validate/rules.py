@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -95,10 +95,9 @@ class RuleChecks:
         self._seen.clear()
         self._lists.clear()
 
-    def look_at(self, alike: Sequence[Address], is_active: bool) -> None:
-        """Look at all values of one state, which is quicker than one by one."""
-        keys = self._file.evaluation.keys
-        self._seen.update([(a, keys[a]) for a in alike] if is_active else dict.fromkeys(alike))
+    def look_at(self, seen: Iterable[tuple[Address, Key]]) -> None:
+        """Take the keys of values that are active, and None for the others: quicker than to look at one by one."""
+        self._seen.update(seen)
 
     def is_active(self, address: Address) -> bool:
         """Return whether a value is there and counts."""
@@ -179,8 +178,9 @@ class RuleChecks:
         return evaluation.keys[address] if evaluation.state(address).state != "hidden" else None
 
     def _list(self, listed: Listed) -> tuple[Key, ...]:
-        seen = self._seen
-        found = self._lists[listed] = tuple([seen[a] for a in listed.addresses])
+        seen, values = self._seen, self._file.values
+        found = tuple([seen[a] if a in values else None for a in listed.addresses])  # thousands of a table
+        self._lists[listed] = found
         return found
 
     # -- the finding -----------------------------------------------------------

@@ -8,7 +8,8 @@ making one after the other comes to an end. Values that nobody gave (``schema.un
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from amp_studio.files import Change, ParameterFile, RangeError
 from amp_studio.files.parameter_file import Marks
@@ -25,8 +26,7 @@ _ASKED = 1000
 """Steps that it takes to ask a rule at all."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Tried:
+class _Tried(NamedTuple):
     """What came of a trial, and the checks that would have to be another for it to come to something else."""
 
     is_good: bool

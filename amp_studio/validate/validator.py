@@ -131,10 +131,8 @@ class Validator:
 
     def _all_not_set(self) -> set[Address]:
         evaluation, values = self.file.evaluation, self.file.values.keys()
-        active = (alike for alike in self._plan.alike if evaluation.state(alike[0]).is_active)
-        missing = (address for alike in active for address in alike if address not in values)
-        parameters = self.file.schema.parameters
-        return {address for address in missing if not parameters[address[0]].optional}
+        active = (alike for alike in self._plan.needed if evaluation.state(alike[0]).is_active)
+        return {address for alike in active for address in alike if address not in values}
 
     def _check_address(self, address: Address) -> Finding | None:
         asked = (

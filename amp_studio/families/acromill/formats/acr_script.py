@@ -201,7 +201,7 @@ def _write(file: ParameterFile) -> str:
 
 def _settings(file: ParameterFile) -> list[CommandSetting]:
     """Return every setting that the family's commands can make, in ``ORDER``."""
-    place = {address: n for n, address in enumerate(file.addresses())}
+    place = file.machine_schema.places
     rank = {word: n for n, word in enumerate(ORDER)}
 
     def order(setting: CommandSetting) -> tuple[int, int]:
