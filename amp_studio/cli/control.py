@@ -21,6 +21,7 @@ from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
 from amp_studio.transfer.image import ImageError
 
+from .by_hand import note_by_hand, sheet_offered
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
 from .files import difference_json, print_comparison, print_difference
@@ -46,11 +47,12 @@ def download_verb(options: argparse.Namespace) -> int:
     errors = _note_errors(file, path)
     if errors and not options.accept_errors:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
-    with asked_politely() as stop:
+    name = file.schema.family.family
+    with asked_politely() as stop, sheet_offered(name):
         keep = options.keep or path.parent
-        return _print_outcome(
-            download_file(file, options.to, keep, path.stem, progress(), stop, expected=options.expect)
-        )
+        outcome = download_file(file, options.to, keep, path.stem, progress(), stop, expected=options.expect)
+        note_by_hand(name)
+        return _print_outcome(outcome)
 
 
 def restore_verb(options: argparse.Namespace) -> int:
@@ -114,6 +116,7 @@ def upload_verb(options: argparse.Namespace) -> int:
         print(f"{output}: {len(image)} bytes, digest in {digest_path(output).name}")
     else:
         file = _readable(image, output)
+        note_by_hand(file.schema.family.family)
         settle_values(file, options.on_fault, "an upload")
         write_new(file, output)
         print(f"{output}: {counted(len(file.values), 'value')}")
@@ -133,7 +136,8 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
 def verify_verb(options: argparse.Namespace) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
     file = open_file(options.path).file
-    fetched = fetch_image(options.control, progress(), family=file.schema.family.family)
+    with sheet_offered(file.schema.family.family):
+        fetched = fetch_image(options.control, progress(), family=file.schema.family.family)
     found = verify_content(file, fetched)
     if options.json:
         print_json({

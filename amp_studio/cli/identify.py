@@ -14,6 +14,7 @@ from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.serial_ports import serial_ports
 
+from .by_hand import note_by_hand, sheet_offered
 from .console import family, print_json, progress
 
 
@@ -36,9 +37,13 @@ def identify_verb(options: argparse.Namespace) -> int:
     """Print who answers at an address, and what it contains."""
     if options.family:
         family(options.family)
-    with closing(open_driver(options.address, options.family or "")) as driver:
+    with (
+        closing(open_driver(options.address, options.family or "")) as driver,
+        sheet_offered(options.family or ""),
+    ):
         abilities = driver.abilities
         control, content, digest = look_at(driver, progress())
+    note_by_hand(control.family)
     unreadable, axes, values = "", list(control.axes), None
     try:
         file = decode_content(content)

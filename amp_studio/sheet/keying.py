@@ -106,6 +106,7 @@ class Keying:
     ``stages``, ``stage``  the order in which values are keyed in where no rule needs another one: the stage of a value by
     what the control contains before and after
     ``before``, ``after``  what a person does around it
+    ``only_way`` a sentence for whoever wants to exchange with a control that takes values at its screens only
     """
 
     title: str = "Sheet for entering values"
@@ -115,6 +116,7 @@ class Keying:
     stage: Callable[[ParameterFile, ParameterFile, Address], int] = one_stage
     before: tuple[Instruction, ...] = ()
     after: tuple[Instruction, ...] = ()
+    only_way: str = ""
 
 
 def keying_of(family: str) -> Keying:
