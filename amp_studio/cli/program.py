@@ -55,7 +55,7 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
 def _leave_out_plugins() -> None:
     """Keep pydantic from searching every installed package for plugins, and from loading what it would search with.
 
-    Told that there are none to be used it still loads importlib.metadata, with zipfile, email and socket: a twentieth of a check.
+    With all of them switched off it still loads importlib.metadata, with zipfile, email and socket: a twentieth of a check.
     """
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     none: Any = ModuleType("pydantic.plugin._loader")
