@@ -53,6 +53,17 @@ def test_neither_the_version_nor_help_loads_a_schema(arguments: str) -> None:
     assert told.stdout.splitlines()[-1] == "[]"
 
 
+def test_checking_a_file_loads_nothing_of_printing_saving_and_explaining() -> None:
+    names = ["typst", "jinja2", "email", "amp_studio.report.build", "amp_studio.files.yaml_text", "amp_studio.files.document",
+             "amp_studio.validate.explanation", "amp_studio.validate.rule_file"]  # fmt: skip
+    code = (
+        f"import atexit, sys; atexit.register(lambda: print([m for m in {names} if m in sys.modules]));"
+        "from amp_studio.cli import main; main(['validate', sys.argv[1]])"
+    )
+    done = subprocess.run([sys.executable, "-c", code, EXAMPLE], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
 def test_help_names_the_families_and_scenarios_that_there_are() -> None:
     assert families() == family_ids()
     assert set(SIMULATED) <= set(scenario_names())
@@ -65,6 +76,14 @@ def test_help_of_every_verb_has_examples_and_exit_codes_and_explains_every_argum
     assert all(line in told for line in EXAMPLES[verb])
     assert "exit codes:\n  0  done" in told
     assert [action.dest for action in sub._actions if not action.help] == []
+
+
+def test_the_parser_of_one_verb_is_the_one_among_all() -> None:
+    for verb, sub in verbs_of(parser()).items():
+        alone = verbs_of(parser(verb))
+        assert list(alone) == [verb]
+        assert alone[verb].format_help() == sub.format_help()
+    assert list(verbs_of(parser("vlidate"))) == list(verbs_of(parser()))
 
 
 def offline() -> Iterator[str]:
