@@ -51,6 +51,6 @@ def test_what_the_control_contains_by_now_is_off_the_sheet_without_a_word(
 def test_a_damaged_file_of_ticks_is_refused_and_left_alone(tmp_path: Path, sheet, content: str) -> None:
     path = tmp_path / "mill.amp.ticks.json"
     path.write_text(content, encoding="utf-8")
-    with pytest.raises(TicksError, match="is no list of ticks of a sheet: move it away to begin anew"):
+    with pytest.raises(TicksError, match="is no list of ticks of a sheet: move it away to start again"):
         Ticks(path, sheet)
     assert path.read_text(encoding="utf-8") == content
