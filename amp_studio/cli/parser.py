@@ -117,8 +117,8 @@ def parser(asked: str = "") -> argparse.ArgumentParser:
         """Add a verb; ``writes`` names the option whose file it may replace."""
         if asked and name != asked:
             return _NotAsked()
-        message = f"{summary[0].upper()}{summary[1:]}."
-        sub: argparse.ArgumentParser = verbs.add_parser(name, help=summary, description=message, verb=name)
+        text = f"{summary[0].upper()}{summary[1:]}."
+        sub: argparse.ArgumentParser = verbs.add_parser(name, help=summary, description=text, verb=name)
         sub.set_defaults(verb=f"{name}_verb", module=module, writes=writes.split())
         return sub
 

@@ -18,7 +18,6 @@ from amp_studio.schema import (
     read_real,
     read_value,
     same_value,
-    written,
 )
 
 
@@ -77,12 +76,12 @@ class Marks:
 
     def put_back(self, file: ParameterFile) -> None:
         """Give a file these marks and this header."""
-        machine = file.machine
+        decided_by = file.machine, file.header.application
         file.forced.clear()
         file.forced.update(self.forced)
         for key, value in self.header.items():
             setattr(file.header, key, value)
-        if file.machine != machine:
+        if (file.machine, file.header.application) != decided_by:
             file.evaluation.forget()
 
 
@@ -340,7 +339,3 @@ def without_secrets(file: ParameterFile) -> ParameterFile:
 def describe(file: ParameterFile, address: Address) -> str:
     """Return ``1300 Home Calibration`` for messages."""
     return file.machine_schema.label(address)
-
-
-__all__ = ["Change", "Header", "Marks", "ParameterFile", "RangeError", "default_value", "describe", "fill_defaults",
-           "secret_values", "without_secrets", "written"]  # fmt: skip

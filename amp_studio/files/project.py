@@ -184,19 +184,19 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
         raise ParameterFileError(path, None, "is not an AMP Studio project")
     if int(version) > PROJECT_FORMAT:
         raise ParameterFileError(path, None, f"was written by a newer AMP Studio (project format {version})")
-    message = {key: data[key] for key in _TEXTS if data.get(key) is not None}
-    for key, value in message.items():
+    texts = {key: data[key] for key in _TEXTS if data.get(key) is not None}
+    for key, value in texts.items():
         if not isinstance(value, str):
             raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
     extra = {k: v for k, v in typed.items() if k not in _TEXTS and k != _VERSION}
     for key in extra:  # it stays in the file, unless it is one that the project lacks
         if near := did_you_mean(
-            str(key), [lacking for lacking in ("name", "family") if lacking not in message]
+            str(key), [lacking for lacking in ("name", "family") if lacking not in texts]
         ):
             raise ParameterFileError(
                 path, document.line((key,)), f"{quoted(str(key))}: there is no such key{near}"
             )
-    info = ProjectInfo(**{"name": "", "family": "", **message}, extra=extra)
+    info = ProjectInfo(**{"name": "", "family": "", **texts}, extra=extra)
     try:
         _check(info)
     except InvalidNameError as error:

@@ -120,8 +120,8 @@ class _FileReader:
             raise self._fault("is not an AMP Studio parameter file")
         self.data, version = document.data, document.data["amp_studio"]
         if not isinstance(version, str) or not re.fullmatch(r"[0-9]{1,9}", version):
-            message = quoted(version) if isinstance(version, str) else "this"
-            raise self._fault(f"{message} is no version of the file format", "amp_studio")
+            shown_version = quoted(version) if isinstance(version, str) else "this"
+            raise self._fault(f"{shown_version} is no version of the file format", "amp_studio")
         if int(version) > FORMAT:
             raise self._fault(
                 f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})", "amp_studio"
@@ -148,15 +148,15 @@ class _FileReader:
         header, family = self.file.header, self.file.schema.family
         header.extra = _extra(self.text, self.data)
         for key in _HEADER:
-            message = self.data.get(key)
-            if not isinstance(message, (str, type(None))):
+            text = self.data.get(key)
+            if not isinstance(text, (str, type(None))):
                 raise self._fault(f"{key} is no text", key)
-            if message is not None:
-                setattr(header, key, message)
+            if text is not None:
+                setattr(header, key, text)
         for key, known in (("machine", [m.key for m in family.machines]), ("units", list(family.units))):
-            message = self.data.get(key)
-            if message is not None and known and message not in known:
-                raise self._fault(f"{key} is {quoted(message)}; known here: {', '.join(known)}", key)
+            text = self.data.get(key)
+            if text is not None and known and text not in known:
+                raise self._fault(f"{key} is {quoted(text)}; known here: {', '.join(known)}", key)
 
     def _section(self, name: str, of_what: str) -> dict[str, Any]:
         entries = self.data.get(name) or {}
@@ -170,17 +170,17 @@ class _FileReader:
         machine = file.schema.family.machine_parameter
         ordered = sorted(entries, key=lambda k: k != machine)  # the machine type decides what the others are
         for key in ordered:
-            address, message = read_address(key), entries[key]
-            if not isinstance(message, str):
+            address, text = read_address(key), entries[key]
+            if not isinstance(text, str):
                 raise self._fault(f"{short(key)} has no single value", "values", key)
             if address in values or key in file.unknown:  # "x" and "x@"
                 raise self._fault(f"{quoted(written(address))} occurs twice", "values", key)
             try:
-                value = _value(file, address, message)
+                value = _value(file, address, text)
             except InvalidValueError as error:
                 raise self._fault(f"{short(key)}: {error}", "values", key) from None
             if value is None:
-                file.unknown[key] = message
+                file.unknown[key] = text
             else:
                 values[address] = value
                 if key == machine:
@@ -288,12 +288,12 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
 def _as_spelled(file: ParameterFile, entries: dict[str, str], known: object) -> dict[str, str]:
     """Return entries with those that mean the same already as a person spelled them: 0.50 in, control.type@."""
     found: dict[str, tuple[str, str]] = {}
-    for key, message in known.items() if isinstance(known, dict) else ():
+    for key, text in known.items() if isinstance(known, dict) else ():
         address = read_address(key)
         value = file.values.get(address)
         try:
-            if value is not None and _value(file, address, message) == value:
-                found[written(address)] = key, message
+            if value is not None and _value(file, address, text) == value:
+                found[written(address)] = key, text
         except InvalidValueError:
             continue
     return dict(found.get(name, (name, text)) for name, text in entries.items())

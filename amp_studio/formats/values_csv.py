@@ -66,7 +66,7 @@ def _take(
     address: Address = (row["id"].strip(), row.get("instance", "").strip())
     parameter = schema.parameters.get(address[0])
     is_text = parameter is not None and parameter.type == "text"
-    message = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
+    text = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
     offered = (
         {i for m in schema.family.machines for i in schema.on(m.key).instances(parameter)}
         if parameter
@@ -79,7 +79,7 @@ def _take(
             )
         if written(address) in found.unknown:
             raise FormatError(f"{short(written(address))} occurs twice", line, heads.index("id") + 1)
-        found.unknown[written(address)] = message
+        found.unknown[written(address)] = text
         return
     if address in found.values:
         raise FormatError(f"{written(address)} occurs twice", line, heads.index("id") + 1)
@@ -89,7 +89,7 @@ def _take(
         found.notes.append(f"{written(address)} is a secret that this table does not contain; it is not set")
         return
     try:
-        found.values[address] = read_stored(schema, parameter, message)
+        found.values[address] = read_stored(schema, parameter, text)
     except InvalidValueError as error:
         raise FormatError(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
 

@@ -120,10 +120,10 @@ def field_value(field: Bit, word: int) -> int:
 
 def with_field(field: Bit, word: int, text: str) -> int:
     """Return a word with one field changed to what a person wrote; every other bit stays. Raises InvalidValueError."""
-    message = plain(text)
+    typed = plain(text)
     for choice in field.choices or ():
         names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]
-        if choice.raw is not None and message in [*names, f"raw:{choice.raw}"]:
+        if choice.raw is not None and typed in [*names, f"raw:{choice.raw}"]:
             number = choice.raw
             break
     else:
@@ -131,12 +131,12 @@ def with_field(field: Bit, word: int, text: str) -> int:
         mask = (1 << field.width) - 1
         lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
         try:
-            if len(message) > LONGEST_NUMBER:
+            if len(typed) > LONGEST_NUMBER:
                 raise ValueError
-            number = switch[message] if message in switch else int(message.removeprefix("raw:"), 0)
+            number = switch[typed] if typed in switch else int(typed.removeprefix("raw:"), 0)
         except ValueError:
             number = lowest - 1
-        if field.choices and message not in switch and not lowest <= number <= highest:
+        if field.choices and typed not in switch and not lowest <= number <= highest:
             offered = ", ".join(choice.label for choice in field.choices)
             raise InvalidValueError(f"{quoted(text.strip())} is not a choice of {field.label}: {offered}")
         if not lowest <= number <= highest:

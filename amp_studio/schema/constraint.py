@@ -141,8 +141,8 @@ def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
     if allowed is None:
         return None
     if _beyond(found, allowed):
-        message = MASKED if parameter.secret else _shown(value)
-        return f"{parameter.name} {message} is outside {_named(evaluation, allowed)}"
+        figure = MASKED if parameter.secret else _shown(value)
+        return f"{parameter.name} {figure} is outside {_named(evaluation, allowed)}"
     return None
 
 

@@ -269,8 +269,8 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
         return _read_raw(parameter, text)
     for field in ("label", "code", "key"):
         for choice in choices:
-            message = getattr(choice, field)
-            if message is not None and plain(message) == plain(text):
+            name = getattr(choice, field)
+            if name is not None and plain(name) == plain(text):
                 return choice_value(parameter, choice)
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))

@@ -169,8 +169,8 @@ class _YamlParser:
     def _content(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
         kind = type(event).__name__
         if kind == "ScalarEvent":
-            message = event.value
-            return self.scalar(message) if event.implicit[0] else message, event.end_mark.index
+            text = event.value
+            return self.scalar(text) if event.implicit[0] else text, event.end_mark.index
         self.depth += 1
         if self.depth > DEEPEST:
             raise self._error(f"is not readable: more than {DEEPEST} lists and mappings in each other", event)

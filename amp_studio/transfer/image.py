@@ -209,10 +209,8 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
     """Return the value a field means, by the same reading as a file's; raises ImageError, which names the entry."""
     is_text = parameter.type in ("text", "format")
     if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
-        message = MASKED if parameter.secret else f"'{_short(field)}'"
-        raise ImageError(
-            f"the control image contains {_short(entry)} with {message}, which is no value of it"
-        )
+        shown = MASKED if parameter.secret else f"'{_short(field)}'"
+        raise ImageError(f"the control image contains {_short(entry)} with {shown}, which is no value of it")
     try:
         if is_text:
             return read_stored(schema, parameter, _unescaped(field[5:]))

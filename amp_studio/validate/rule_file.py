@@ -58,8 +58,8 @@ def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
     try:
         return _read(path, digest_of(path), schema)
     except OSError as error:
-        message = DatabaseError(path, None, f"cannot be read: {error.strerror}")
-        return BuilderRules(faults=(_finding(path, message),))
+        fault = DatabaseError(path, None, f"cannot be read: {error.strerror}")
+        return BuilderRules(faults=(_finding(path, fault),))
 
 
 @lru_cache(maxsize=32)  # it lies beside many files

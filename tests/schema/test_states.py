@@ -307,3 +307,20 @@ def test_a_condition_may_name_the_model_of_the_control_as_a_rule_may(facts, head
     file.header.application = "T"
     file.evaluation.forget()
     assert file.evaluation.state(("device.speed", "")) == StateInfo("unusable", "the T has no speed")
+
+
+def test_a_step_that_is_taken_back_takes_back_what_followed_from_the_model(facts, head) -> None:
+    model = "\nconditions:\n  scale: {when: application == 'T', why: the T has no speed}\n"
+    model += "  nothing: {when: 'false', why: never}\n  fast: {when: 'true', why: always}\n"
+    file = ParameterFile(facts.schema(FOUR, head + model), Header(application="M"))
+
+    def change_and_fail() -> None:
+        with file.step():
+            file.header.application = "T"
+            file.evaluation.forget()
+            assert file.evaluation.state(("device.speed", "")).state == "unusable"
+            raise RuntimeError("the operation broke off")
+
+    with pytest.raises(RuntimeError):
+        change_and_fail()
+    assert file.evaluation.state(("device.speed", "")) == ACTIVE

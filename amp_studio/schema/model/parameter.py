@@ -282,10 +282,8 @@ class Parameter(Model):
             raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
         if self.choices:
             for field in ("key", "label", "code"):
-                message = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
-                seen = [
-                    " ".join(word.casefold().split()) for word in message
-                ]  # as read_value compares a person's word
+                words = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
+                seen = [" ".join(word.casefold().split()) for word in words]  # as read_value compares them
                 if len(set(seen)) != len(seen):
                     raise ValueError(f"two choices share a {field}")
         if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:

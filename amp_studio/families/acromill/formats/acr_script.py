@@ -119,11 +119,11 @@ def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandAr
 
 def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
     rest = line.text[at:].strip()
-    message = rest if len(rest) <= 40 else rest[:39] + "…"
+    text = rest if len(rest) <= 40 else rest[:39] + "…"
     if not known or not known[0].word:
-        return FormatError(f"'{message}' is no command that sets a parameter here", line.number, at + 1)
+        return FormatError(f"'{text}' is no command that sets a parameter here", line.number, at + 1)
     form = " or ".join(f"'{c.example}'" for c in known)
-    what = f"'{message}' sets nothing: {known[0].word}" if rest else f"{known[0].word} alone sets nothing: it"
+    what = f"'{text}' sets nothing: {known[0].word}" if rest else f"{known[0].word} alone sets nothing: it"
     return FormatError(
         f"{what} is written as {form}, for {', '.join(known[0].instances)}", line.number, at + 1
     )

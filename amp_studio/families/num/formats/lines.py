@@ -105,9 +105,9 @@ def blocks_of(lines: list[str]) -> Iterator[Block]:
         if line.startswith("#"):
             if header is None:
                 raise FormatError("a data line without a header PaNb before it", n, 1)
-            at, message = header
-            a, b, code, count = (None if number is None else int(number) for number in message.groups())
-            yield Block(at, message[0], (a or 0, b or 0), code, count, line[1:])
+            at, head = header
+            a, b, code, count = (None if number is None else int(number) for number in head.groups())
+            yield Block(at, head[0], (a or 0, b or 0), code, count, line[1:])
             header = None
             continue
         if header is not None:

@@ -236,13 +236,13 @@ def _heads(known: KnownWords, layout: TableLayout, unknown: dict[str, str]) -> d
 
 def _kept(unknown: dict[str, str]) -> Iterator[tuple[Word, tuple[int, int] | None, str]]:
     """Yield first word, type with number of words, and data of the kept lines of a table."""
-    for key, message in unknown.items():
+    for key, text in unknown.items():
         header = HEADER.fullmatch(key)
         if header is None or header[3] is not None:
             continue  # of another format
-        kept = _KEPT.fullmatch(message)
+        kept = _KEPT.fullmatch(text)
         if kept is None:
-            raise FormatError(f"'{message}' is not how words of {key} are kept, as in :t1n3#0 0 5")
+            raise FormatError(f"'{text}' is not how words of {key} are kept, as in :t1n3#0 0 5")
         head = None if kept[1] is None else (int(kept[1]), int(kept[2]))
         yield (int(header[1]), int(header[2])), head, kept[3]
 

@@ -179,13 +179,10 @@ class WordMeaning:
             return code_of(self.parameter, value)
         if isinstance(found, str):
             return found
-        unit, message = self.unit_in(file), value.unit
-        if dimension(message) != dimension(unit):
-            message, unit = (
-                angular(message),
-                angular(unit),
-            )  # the axis turns since, or no longer: the figure stays
-        return to_figure(self.parameter, Value(found, message), unit)
+        stored, entered = self.unit_in(file), value.unit
+        if dimension(entered) != dimension(stored):  # the axis turns since, or no longer: the figure stays
+            stored, entered = angular(stored), angular(entered)
+        return to_figure(self.parameter, Value(found, entered), stored)
 
 
 def meant_by(file: ParameterFile, meanings: tuple[WordMeaning, ...]) -> WordMeaning:
