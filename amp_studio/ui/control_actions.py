@@ -138,6 +138,7 @@ class ControlActions:
     def _preview(self, workspace: Workspace, address: str) -> str | None:
         """Show what the download would change in the control; returns the digest of the image to replace, or None."""
         from amp_studio.transfer.client.parameters import sha256
+        from amp_studio.transfer.client.verification import verify_content
         from amp_studio.transfer.content import decode_content
         from amp_studio.transfer.image import ImageError
 
@@ -156,7 +157,7 @@ class ControlActions:
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
             return approved if answer == "&Download" else None
         self.exchanges.remember(workspace, present)
-        found = workspace.differences_to(present.values)
+        found = verify_content(workspace.file, image).values
         if (
             not found.differences
             or DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets).exec()
@@ -186,7 +187,8 @@ class ControlActions:
 
         page = self.window.page
         assert page is not None
-        CompareDialog(workspace, present.values, "the control", page.go_to, self.window).show()
+        outside = {a: workspace.file.values[a] for a in found.outside}
+        CompareDialog(workspace, outside | present.values, "the control", page.go_to, self.window).show()
 
     def upload(self) -> None:
         """Read the parameters of the control, ask about each value out of range, and save them as a new file."""

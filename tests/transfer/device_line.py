@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.emulated.line_device import LineDevice
+import contextlib
+import threading
+from collections.abc import Iterator
+
+from amp_studio.transfer.emulated.line_device import DeviceService, LineDevice
+from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.links.opening import listen
 
 from .null_modem import VirtualClock
 
@@ -37,3 +43,18 @@ class DeviceLine:
 
     def close(self) -> None:
         self._is_open = False
+
+
+@contextlib.contextmanager
+def served(device: LineDevice, place: str) -> Iterator[tuple[str, DeviceService]]:
+    """Serve a device at a real place; yields its address and the service, whose ``command`` presses keys."""
+    listener, stop = listen(parse_endpoint(place)), threading.Event()
+    service = DeviceService(device, listener, say=lambda _: None, stop=stop)
+    thread = threading.Thread(target=service.run)
+    thread.start()
+    try:
+        yield str(listener.endpoint), service
+    finally:
+        stop.set()
+        thread.join()
+        listener.close()

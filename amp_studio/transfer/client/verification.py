@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from amp_studio.files import Comparison, Difference, ParameterFile, compare
-from amp_studio.schema import same_value
+from amp_studio.schema import Address, Value, same_value
 from amp_studio.transfer.content import kind_of
 from amp_studio.transfer.image import ImageError, head_of
 
@@ -29,6 +29,7 @@ class ImageComparison:
     ``head``        lines of the head that differ
     ``unreadable``  why the control's image cannot be compared with the file, else ""
     ``absent``      what the file sets and the control does not have, in a sentence, else ""
+    ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
     """
 
     is_same: bool
@@ -37,9 +38,15 @@ class ImageComparison:
     head: tuple[HeadDifference, ...] = ()
     unreadable: str = ""
     absent: str = ""
+    outside: tuple[Address, ...] = ()
 
     def summary(self) -> str:
-        """Return how it came out in one sentence."""
+        """Return how it came out in one sentence, and how much of the file was not compared."""
+        if not self.outside:
+            return self._summary()
+        return f"{self._summary()} {len(self.outside)} values of the file are not kept by this control."
+
+    def _summary(self) -> str:
         if self.is_same:
             return f"Nothing differs: {self.values.same} values and every byte are the same."
         if self.unreadable:
@@ -65,15 +72,24 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         return _not_compared(str(error) if fetched else "nothing")
     if present.schema.family.family != file.schema.family.family:
         return _not_compared(f"a file for {present.schema.family.name}")
-    absent, is_same = "", False
+    absent, is_same, wanted = "", False, file
     try:
-        is_same = not kind.difference(kind.encode(file, fetched), fetched)
+        content = kind.encode(file, fetched)
+        is_same = not kind.difference(content, fetched)
+        wanted = kind.decode(content)  # in the control's own units, with what the file leaves as it is
     except ImageError as error:
         absent = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
-    known = {a: v for a, v in present.values.items() if a[0] in file.schema.parameters}
-    found = compare(file.schema, file.values, known)
-    return ImageComparison(is_same, found, _other_units(file, present), head, absent=absent)
+    found = compare(file.schema, _known(file, wanted), _known(file, present))
+    outside = tuple(a for a in file.values if a not in wanted.values)
+    return ImageComparison(
+        is_same, found, _other_units(wanted, present), head, absent=absent, outside=outside
+    )
+
+
+def _known(file: ParameterFile, other: ParameterFile) -> dict[Address, Value]:
+    """Return the values of another file that the schema of this one has."""
+    return {a: v for a, v in other.values.items() if a[0] in file.schema.parameters}
 
 
 def _not_compared(why: str) -> ImageComparison:

@@ -44,7 +44,8 @@ GAP_WAIT = 20.0  # seconds between two characters of a table
 TABLE_WAIT = 900.0  # seconds a table may take to come; the largest takes 420 s at 300 bit/s
 LOAD_WAIT = 3_600.0  # seconds a load may take with all its stops
 HELD_TOLD = 2.0  # seconds a load is stopped until the person reads why
-SETTLE = 1.0  # seconds in which the control may still refuse the end of a load
+LISTEN = 0.01  # seconds between two looks whether the control stops the table
+SETTLE = 0.5  # seconds in which the control may still refuse the end of a load
 RATE = 11_520.0  # bytes a second on a line that states no rate: Xoff must not come too late
 UNLOADS = 3  # until a table has come undamaged
 LARGEST_DRAIN = 1 << 16
@@ -69,12 +70,17 @@ class PeripheralDriver(NumTableContent):
     abilities = Abilities(can_send=True, all_or_nothing=False)
 
     def __init__(
-        self, open_link: OpenLink, *, is_checked: bool = False, clock: Callable[[], float] = time.monotonic
+        self,
+        open_link: OpenLink,
+        *,
+        is_checked: bool = False,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         """``is_checked``: the line itself finds damaged bytes, as TCP does."""
         self._open_link = open_link
         self._is_checked = is_checked
-        self._waiting = Waiting(clock)
+        self._waiting = Waiting(clock, sleep)
         self._link: Link | None = None
         self._parity: Parity = "none"
         self._seen: bytes | None = None
@@ -100,7 +106,7 @@ class PeripheralDriver(NumTableContent):
     def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
         """Return the job reference of the CNC, which its table begins with."""
         self._waiting.begin(progress, cancel)
-        self._seen = self._unloaded("identify", PERSON_WAIT)
+        self._seen = self._unloaded("upload", PERSON_WAIT)
         return ControlIdentity(
             family=FAMILY,
             protocol="peripheral",
@@ -173,6 +179,7 @@ class PeripheralDriver(NumTableContent):
         """Have a person unload until a table has come undamaged, twice the same where nothing on the line shows damage."""
         before, fault, last = b"", "", TransferError("no table")
         for _ in range(UNLOADS):
+            self._line()  # what comes before the port is open is lost
             self._waiting.ask(f"{fault}{UNLOAD_TEXT}")
             try:
                 reader = self._one_unload(stage, seconds)
@@ -283,12 +290,16 @@ class PeripheralDriver(NumTableContent):
 
     def _listen(self, link: Link, seconds: float) -> None:
         """Let some time pass, and obey Xoff and Xon; what else a control sends means nothing."""
-        end = self._waiting.now() + seconds
+        waiting = self._waiting
+        end = waiting.now() + seconds
         while True:
-            for byte in self._waiting.read(link, max(0.0, end - self._waiting.now())):
+            waiting.look()
+            for byte in link.read(0):
                 self._is_held = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_held)
-            if self._waiting.now() >= end:
+            left = end - waiting.now()
+            if left <= 0:
                 return
+            waiting.sleep(min(left, LISTEN))
 
     def _await_go_on(self, link: Link) -> None:
         """Wait while the control has stopped the table; raises ImageRejectedError where it does not go on."""

@@ -30,7 +30,9 @@ class NumBench:
         self.lines: list[DeviceLine] = []
         self.control = self.switch_on()
         self.press(f"parity {parity}")
-        self.driver = PeripheralDriver(self._open, is_checked=is_checked, clock=self.clock)
+        self.driver = PeripheralDriver(
+            self._open, is_checked=is_checked, clock=self.clock, sleep=self.clock.sleep
+        )
 
     def switch_on(self) -> NumControl:
         self.control = NumControl(DeviceSetup("num", Memory(self.folder), self.screen.append))

@@ -252,7 +252,7 @@ def test_a_hostile_other_end_is_bounded(
     def open_link(_look: Callable[[], None]) -> Link:
         return Hostile(bench, answer)
 
-    driver = PeripheralDriver(open_link, clock=bench.clock)
+    driver = PeripheralDriver(open_link, clock=bench.clock, sleep=bench.clock.sleep)
     with pytest.raises(kind):
         driver.identify()
     assert bench.clock.now < 3_700
@@ -264,7 +264,7 @@ def test_a_control_that_holds_a_load_for_ever_is_left(bench: NumBench) -> None:
     def open_link(_look: Callable[[], None]) -> Link:
         return Hostile(bench, lambda n: b"\x11" if n == 2 else b"\x13")
 
-    driver = PeripheralDriver(open_link, clock=bench.clock)
+    driver = PeripheralDriver(open_link, clock=bench.clock, sleep=bench.clock.sleep)
     with pytest.raises(TransferError) as caught:
         driver.send(content, signature="", expected=b"", held=content)
     assert caught.value.at_control == "old", "no data line was sent"
