@@ -12,6 +12,7 @@ FAMILIES = {
     "acromill": "amp_studio.families.acromill:REGISTRATION",
     "57c422b": "amp_studio.families.servo57c422b:REGISTRATION",
     "syntec": "amp_studio.families.syntec:REGISTRATION",
+    "grblhal": "amp_studio.families.grblhal:REGISTRATION",
 }
 """Family -> its record."""
 

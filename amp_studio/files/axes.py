@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from amp_studio.schema import Address, AxisProfile, InvalidValueError, Value
+from amp_studio.schema.model import AxisList
 
 from .parameter_file import Change, ParameterFile
 
@@ -18,9 +19,11 @@ class AxisError(ValueError):
 
 
 def axis_instances(file: ParameterFile) -> tuple[str, ...]:
-    """Return the axes a file can have; empty for a family without an axis profile."""
-    profile = file.schema.family.axes
-    return file.machine_schema.instances(file.schema.parameters[profile.type]) if profile else ()
+    """Return the axes a file can have; empty for a family without an axis profile or a list of axes."""
+    family = file.schema.family
+    if family.axis_list:
+        return family.scopes["axis"].instances
+    return file.machine_schema.instances(file.schema.parameters[family.axes.type]) if family.axes else ()
 
 
 def axis_type(file: ParameterFile, axis: str) -> str:
@@ -42,7 +45,10 @@ def axis_title(file: ParameterFile, axis: str) -> str:
 
 def fitted_axes(file: ParameterFile) -> tuple[str, ...]:
     """Return the axes that are not unfitted."""
-    profile = file.schema.family.axes
+    family, profile = file.schema.family, file.schema.family.axes
+    if family.axis_list:
+        listed = file.get((family.axis_list.param, ""))
+        return tuple(a for a in axis_instances(file) if listed is None or a in str(listed.value))
     if profile is None:
         return ()
     if profile.fitted_by:
@@ -56,12 +62,14 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
 
     A spindle's name makes a spindle; A, B and C are fitted as rotary, every
     other as linear, as is usual; raises AxisError for a name that is not
-    offered and for too many axes.
+    offered and for too many axes. A control with a list of axes has the first ones, in their order.
     """
-    profile = _profile(file)
     instances = axis_instances(file)
-    if len(names) > len(instances):
+    if instances and len(names) > len(instances):
         raise AxisError(f"{len(names)} axes are too many: {file.schema.family.name} has {len(instances)}")
+    if file.schema.family.axis_list:
+        return _list_axes(file, file.schema.family.axis_list, [name.upper() for name in names])
+    profile = _profile(file)
     wanted: dict[Address, Value | None] = {}
     for axis, name in zip(instances, names, strict=False):
         try:
@@ -72,6 +80,16 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     for axis in instances[len(names) :]:
         wanted.update(_unfitted(profile, axis))
     return file.set_many(wanted)
+
+
+def _list_axes(file: ParameterFile, listed: AxisList, names: Sequence[str]) -> list[Change]:
+    instances = axis_instances(file)
+    if tuple(names) != instances[: len(names)] or len(names) < listed.least:
+        order = ", ".join(instances)
+        raise AxisError(
+            f"{file.schema.family.name} has the first {listed.least} or more of the axes {order}, in this order"
+        )
+    return file.set_many({(listed.param, ""): Value("".join(names))})
 
 
 def retype_axis(file: ParameterFile, axis: str, type_key: str) -> list[Change]:

@@ -45,5 +45,5 @@ def new_file(
     axes = list(axes)
     if axes:
         name_axes(file, axes)
-    fill_defaults(file)
+    fill_defaults(file, existing_only=schema.family.axis_list is not None)
     return file

@@ -308,12 +308,19 @@ def _refitted(unit: str, turns: bool, metric: str) -> str:
     return "mm" + unit[3:] if unit.startswith("deg") and metric.startswith("mm") else unit
 
 
-def fill_defaults(file: ParameterFile, instances: Iterable[str] | None = None) -> list[Change]:
-    """Set every value that is not set to its printed default; returns the changes."""
+def fill_defaults(
+    file: ParameterFile, instances: Iterable[str] | None = None, *, existing_only: bool = False
+) -> list[Change]:
+    """Set every value that is not set to its printed default; returns the changes.
+
+    With ``existing_only`` what is hidden stays out: a setting that the control does not have.
+    """
     only = None if instances is None else set(instances)
     changes = []
     for address in file.addresses():
         if (only is None or address[1] in only) and address not in file.values:
+            if existing_only and file.evaluation.state(address).state == "hidden":
+                continue
             default = file.default(address)
             if default is not None and (change := file.set(address, default)):
                 changes.append(change)

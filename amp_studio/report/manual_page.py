@@ -276,7 +276,10 @@ def _plain(parameter: Parameter, value: float | bool | str) -> str:
 def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
     """Yield the command that sets the first instance, with a placeholder for each value: ``NOTCH X(…, …)``."""
     if parameter.storage and parameter.storage.command:
-        here = schema.on(schema.family.default_machine)
+        machines = [schema.family.default_machine, *(m.key for m in schema.family.machines)]
+        here = next((schema.on(m) for m in machines if schema.on(m).instances(parameter)), None)
+        if here is None:  # it exists on no machine type
+            return
         first = here.instances(parameter)[0]
         known = {"{i}": first, "{k}": "0", "{n}": here.plain_number((parameter.id, first))}
         yield re.sub("{.*?}", lambda gap: known.get(gap[0], "…"), parameter.storage.command)

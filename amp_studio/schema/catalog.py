@@ -26,6 +26,8 @@ class Schema:
     guides: tuple[Guide, ...]
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
+    description: bytes = b""
+    """What a control said of itself, from which this schema was made; empty for the facts of the database."""
 
     def __repr__(self) -> str:
         return f"Schema({self.family.family!r})"
@@ -94,6 +96,8 @@ class Schema:
             for word in ("code", "command"):
                 if storage and storage[word] is None:
                     del storage[word]  # files of a family without codes or commands keep their checksum
+            if storage and not storage["single"]:
+                del storage["single"]
             if storage and "command" in storage:
                 storage["command"] = storage["command"].replace("{k}", "{n}")  # as the place was written once
             lines.append([parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit,
@@ -118,8 +122,8 @@ def load_schema(family_id: str) -> Schema:
     return schema_of(load_compiled(family_id))
 
 
-def schema_of(compiled: Compiled) -> Schema:
-    """Return the schema of compiled facts."""
+def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
+    """Return the schema of compiled facts, which were made from the ``description`` of a control where there is one."""
     return Schema(
         family=compiled.family,
         groups=compiled.groups,
@@ -129,4 +133,5 @@ def schema_of(compiled: Compiled) -> Schema:
         guides=compiled.guides,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},
+        description=description,
     )

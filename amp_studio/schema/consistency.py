@@ -63,6 +63,9 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
     if family.axis_names is not None and family.axis_names.param not in ids:
         what = f"there is no parameter {quoted(family.axis_names.param)}"
         yield Inconsistency(None, ("axis_names", "param"), what)
+    if family.axis_list is not None and family.axis_list.param not in ids:
+        what = f"there is no parameter {quoted(family.axis_list.param)}"
+        yield Inconsistency(None, ("axis_list", "param"), what)
     for unit, scale in family.scales.items():
         for kind in ("length", "angle"):
             size = getattr(scale, kind)

@@ -185,8 +185,7 @@ def _layout(parameter: Parameter, machine: str) -> Layout | None:
 
 def number_of(numbers: Numbers, index: int, instance: str) -> str:
     """Return the number of the instance at ``index``."""
-    plain = _plain_number(numbers, index, instance)
-    return plain if numbers.listed is not None else numbers.format.format(n=plain, i=instance)
+    return numbers.format.format(n=_plain_number(numbers, index, instance), i=instance)
 
 
 def _plain_number(numbers: Numbers, index: int, instance: str) -> str:

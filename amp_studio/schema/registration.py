@@ -30,6 +30,7 @@ class Registration:
     ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
+    ``describe``  description of a control -> its schema (``described``), for a family whose controls describe themselves
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
 
@@ -41,6 +42,7 @@ class Registration:
     emulators: Mapping[str, str] = field(default_factory=dict)
     law: str = ""
     sheet: str = ""
+    describe: str = ""
     facts: Path | None = None
 
 

@@ -132,11 +132,11 @@ def canonical_unit(unit: str) -> str:
 
 
 def angular(unit: str) -> str:
-    """Return the unit in degrees used when an axis turns (mm/min and in/min give deg/min)."""
+    """Return the unit in degrees used when an axis turns (mm/min gives deg/min, steps/mm steps/deg if there is that)."""
     head, _, tail = unit.partition("/")
     if head in ("mm", "in"):
         return "deg/" + tail if tail else "deg"
-    return unit
+    return f"{head}/deg" if tail in ("mm", "in") and f"{head}/deg" in UNITS else unit
 
 
 def shown(unit: str) -> str:

@@ -4,4 +4,7 @@ from __future__ import annotations
 
 from amp_studio.schema.registration import Registration
 
-REGISTRATION = Registration(family="grblhal")
+REGISTRATION = Registration(
+    family="grblhal",
+    describe="amp_studio.families.grblhal.described:schema_of",
+)

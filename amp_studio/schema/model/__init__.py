@@ -18,6 +18,7 @@ from .documents import (
     Tables,
 )
 from .family import (
+    AxisList,
     AxisProfile,
     Condition,
     Family,
@@ -68,6 +69,7 @@ from .rule import (
 )
 
 __all__ = [
+    "AxisList",
     "Assignment",
     "AxisProfile",
     "Bit",

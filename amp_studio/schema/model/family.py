@@ -71,6 +71,14 @@ class AxisNames(Model):
     bit: int
 
 
+class AxisList(Model):
+    """Where a control whose axes are compiled in has their letters: a text parameter, the first instances in order."""
+
+    param: ParameterId
+    least: int = 1
+    """The fewest axes there can be."""
+
+
 class OwnUnit(Model):
     """A unit: what it measures, and how people write it."""
 
@@ -155,6 +163,7 @@ class Family(Model):
     """Condition under which length-like quantities of an axis are entered in degrees."""
     axes: AxisProfile | None = None
     axis_names: AxisNames | None = None
+    axis_list: AxisList | None = None
     effect: Effect
     groups: tuple[str, ...]
     choice_lists: dict[Key, tuple[Choice, ...]] = {}

@@ -113,6 +113,8 @@ class Storage(Model):
     notation: Literal["decimal", "hex", "binary", "ascii"] = "decimal"
     words: int = 1
     word_order: Literal["high-first", "low-first"] = "high-first"
+    single: bool = False
+    """A number is kept as a 32-bit float, and shown with ``decimals``: the control has more than it shows."""
     code: int | None = None
     """The control's own code of the type of word, which its files name (NUM: 6 for 32 bits in hexadecimal)."""
     command: str | None = None

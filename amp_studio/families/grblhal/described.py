@@ -1,0 +1,289 @@
+"""The schema of one control, made of what it says of itself and of what is known of the settings by their numbers.
+
+What the control says counts: which settings there are, their names, types, labels, bounds and marks. What is known of a
+number adds the id, which stays the same for every control, our own help, and the conditions and rules that go by the id.
+A setting that nobody knows gets an id of its group and its name.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from amp_studio.schema import Parameter, Schema, UnitError, load_schema, unit_named
+from amp_studio.schema import catalog as catalog
+from amp_studio.schema.load import Compiled
+from amp_studio.schema.described import DescriptionError
+from amp_studio.schema.model import (
+    Bit, Choice, Default, Effect, Family, Group, Help, Layout, Numbers, Rule, Storage, Table,
+)  # fmt: skip
+
+from .description import (
+    AXES, BOOLEAN, CHOICE, DECIMAL, INTEGER, MASK, PASSWORD, SWITCHED_MASK,
+    Description, Setting, description_of, read_description,
+)  # fmt: skip
+
+FAMILY = "grblhal"
+PAGE = "ES"
+"""Where the facts of a control are: its answer to ``$ES``."""
+KEPT_STATES = ("per_axis_rates",)
+"""Conditions by which a setting comes and goes with another one: it is known though the control does not list it now."""
+_PLACES = ("{'X': 0.0, 'Y': 1.0, 'Z': 2.0, 'A': 3.0, 'B': 4.0, 'C': 5.0, 'U': 6.0, 'V': 7.0}",)
+"""As rules write the places of the axes in a mask."""
+_ROTARY = "{'A': 0.0, 'B': 1.0, 'C': 2.0, 'U': 3.0, 'V': 4.0}"
+_AXIS_GROUP = "Axis"
+_UNITS = {"microseconds": "us", "milliseconds": "ms", "step/mm": "steps/mm", "step/deg": "steps/mm"}
+_LINEAR = {"deg": "mm", "deg/min": "mm/min", "deg/s2": "mm/s2", "deg/s3": "mm/s3", "steps/deg": "steps/mm"}
+"""A rotary axis says degrees; that it turns is a matter of a setting, and the schema is the same."""
+_QUANTITIES = {
+    "mm": "length", "mm/min": "velocity", "mm/s2": "acceleration", "mm/s3": "jerk", "steps/mm": "counts-per-length",
+    "ms": "time", "us": "time", "s": "time", "%": "percent", "rpm": "rotation", "Hz": "frequency", "V": "voltage",
+    "A": "current", "deg": "angle",
+}  # fmt: skip
+_TYPES = {BOOLEAN: "boolean", MASK: "bits", SWITCHED_MASK: "bits", CHOICE: "choice", AXES: "bits", INTEGER: "integer",
+          DECIMAL: "real"}  # fmt: skip
+
+
+def schema_of(content: bytes) -> Schema:
+    """Return the schema of the control that a content describes; raises DescriptionError."""
+    return _Maker(read_description(content)).schema(description_of(content))
+
+
+class _Maker:
+    """Makes the schema of one control."""
+
+    def __init__(self, told: Description) -> None:
+        self.told = told
+        self.known = load_schema(FAMILY)
+        self.ids: set[str] = set()
+        self.by_number = _by_number(self.known)
+        self.axes = tuple(told.axes)
+        if not self.axes:
+            raise DescriptionError("the axes of the control are not described: its answer to $I is needed")
+
+    def schema(self, description: bytes) -> Schema:
+        groups: dict[str, list[Parameter]] = {"build": self._build()}
+        names = {"build": ("Build", "")}
+        for settings in self._quantities():
+            key, name, section = self._group(settings[0])
+            names.setdefault(key, (name, section))
+            groups.setdefault(key, []).append(self._parameter(settings, key))
+        for parameter in self.known.parameters.values():
+            if parameter.id not in self.ids:
+                group = self.known.group_of[parameter.id]
+                names.setdefault(group.key, (group.name, ""))
+                groups.setdefault(group.key, []).append(self._absent(parameter))
+        made = tuple(
+            Group(key=key, name=names[key][0], section=names[key][1], chapter=PAGE, parameters=tuple(parameters))
+            for key, parameters in groups.items()
+        )
+        compiled = Compiled(
+            family=self._family(tuple(groups)), groups=made, rules=tuple(self._rules()), errata=(),
+            tables=tuple(self._tables()), guides=self.known.guides,
+        )  # fmt: skip
+        return catalog.schema_of(compiled, description)
+
+    # -- family, rules, tables -------------------------------------------------
+
+    def _family(self, groups: tuple[str, ...]) -> Family:
+        known, facts = self.known.family, self.told.facts
+        scopes = {k: v.model_copy(update={"instances": self.axes} if k == "axis" else {}) for k, v in known.scopes.items()}
+        rotary = "{" + ", ".join(f"'{a}': {n}.0" for n, a in enumerate(self.axes[3:])) + "}"
+        letters = "[" + ", ".join(f"'{a}'" for a in self.axes[3:]) + "]"
+        when = f"instance in {letters} && bit(rotary, {rotary}[instance])" if self.axes[3:] else "false"
+        conditions = known.conditions | {
+            "rotary_axis": known.conditions["rotary_axis"].model_copy(update={"when": when})
+        }
+        who = ", ".join(filter(None, (facts.get("VER", "").strip(":"), facts.get("BOARD"), facts.get("DRIVER"),
+                                      facts.get("DRIVER VERSION"))))  # fmt: skip
+        return known.model_copy(update={
+            "title": f"grblHAL {who}, as the control describes itself ($ES)", "scopes": scopes, "groups": groups,
+            "conditions": conditions, "machines": known.machines[:1],
+        })  # fmt: skip
+
+    def _rules(self) -> Iterable[Rule]:
+        """Yield the rules of the family; where the axes are others, with their places in a mask."""
+        places = "{" + ", ".join(f"'{a}': {n}.0" for n, a in enumerate(self.axes)) + "}"
+        for rule in self.known.rules:
+            yield Rule.model_validate_json(rule.model_dump_json(exclude_defaults=True).replace(_PLACES[0], places))
+
+    def _tables(self) -> Iterable[Table]:
+        told = (("alarms", "Alarms (ALARM:n)", "EA", self.told.alarms),
+                ("errors", "Answers to a setting or command (error:n)", "EE", self.told.errors))  # fmt: skip
+        for key, title, page, codes in told:
+            rows = tuple((float(n), text) for n, text in sorted(codes.items()) if text)
+            if rows:
+                yield Table(id=key, title=title, page=page, head=("Code", "Meaning"), rows=rows)
+            else:
+                yield self.known.tables[key]
+
+    # -- settings --------------------------------------------------------------
+
+    def _axis(self, setting: Setting) -> str:
+        """Return the letter of the axis that a setting is of; empty for a setting of the control."""
+        letter, dash, _ = setting.name.partition("-axis ")
+        group = self.told.groups.get(setting.group)
+        inside = self.told.groups.get(group.parent) if group else None
+        if dash and letter in self.axes and inside is not None and inside.name == _AXIS_GROUP:
+            return letter if self.axes.index(letter) == setting.number % 10 else ""
+        return ""
+
+    def _quantities(self) -> Iterable[list[Setting]]:
+        """Yield each setting of the control, and those of the axes that are the same quantity together, in its order."""
+        found: dict[object, list[Setting]] = {}
+        for setting in sorted(self.told.settings.values(), key=lambda s: s.number):
+            axis = self._axis(setting)
+            alike = (setting.type, setting.format, setting.least, setting.most, setting.needs_restart,
+                     setting.may_be_zero, _unit_of(setting, turns=True))  # fmt: skip
+            key = (setting.number - self.axes.index(axis), alike) if axis else setting.number
+            found.setdefault(key, []).append(setting)
+        order = {g: n for n, g in enumerate(self.told.groups)}
+        yield from sorted(found.values(), key=lambda s: (order.get(s[0].group, len(order)), s[0].number))
+
+    def _group(self, setting: Setting) -> tuple[str, str, str]:
+        """Return key, name and section of the group of a setting: a group inside another one is a section of that."""
+        if self._axis(setting):
+            return "axis", _AXIS_GROUP, ""
+        group = self.told.groups.get(setting.group)
+        if group is None:
+            return "other", "Other", ""
+        same = next((g for g in self.known.groups if g.name == group.name), None)
+        parent = self.told.groups.get(group.parent)
+        inside = parent is not None and parent.number != group.number and parent.parent != parent.number
+        key = same.key if same else _key(group.name) or f"group_{group.number}"
+        return key, parent.name if inside and parent else group.name, group.name if inside else ""
+
+    def _parameter(self, settings: list[Setting], group: str) -> Parameter:
+        first, axis = settings[0], self._axis(settings[0])
+        base = first.number - (self.axes.index(axis) if axis else 0)
+        kind = _TYPES.get(first.type, "text")
+        known = next((p for p in self.by_number.get(base, ()) if p.type == kind and (_is_axis(p) == bool(axis))), None)
+        name = first.name.partition("-axis ")[2].capitalize() if axis else first.name
+        parameter_id = self._id(known.id if known else f"{group}.{_key(name) or 'setting'}", first.number)
+        facts: dict[str, Any] = _value_facts(first, kind, self.axes)
+        facts["layouts"] = (self._layout(settings, axis, base),)
+        return Parameter(
+            id=parameter_id, name=name, type=kind, states=known.states if known else (), page=PAGE,
+            effect=Effect(level="restart") if first.needs_restart else None, secret=first.type == PASSWORD,
+            help=self._help(first, known), optional=known.optional if known else False, **facts,
+        )  # fmt: skip
+
+    def _layout(self, settings: list[Setting], axis: str, base: int) -> Layout:
+        if not axis:
+            return Layout(scope="global", numbers=Numbers(start=base, format="${n}"))
+        listed = {self._axis(s): str(s.number) for s in settings}
+        return Layout(scope="axis", instances=tuple(listed), numbers=Numbers(listed=listed, format="${n}"))
+
+    def _id(self, wanted: str, number: int) -> str:
+        found = wanted if wanted not in self.ids else f"{wanted}_{number}"
+        self.ids.add(found)
+        return found
+
+    def _help(self, setting: Setting, known: Parameter | None) -> Help:
+        told = self.told.helps.get(setting.number, "")
+        unit = f"In {setting.unit}." if setting.unit and not _unit_of(setting) else ""
+        length = f"At most {setting.most} characters." if _TYPES.get(setting.type) is None and setting.most else ""
+        what = " ".join(filter(None, (told or (known.help.what if known else setting.name + "."), unit, length)))
+        return known.help.model_copy(update={"what": what}) if known else Help(what=what)
+
+    # -- what the control does not list ------------------------------------------
+
+    def _absent(self, parameter: Parameter) -> Parameter:
+        """Return a known setting that the control does not list: nowhere, but where a listed one brings it along."""
+        self.ids.add(parameter.id)
+        comes = any((s.when or s.unless) in KEPT_STATES for s in parameter.states)
+        layout = next((x for x in parameter.layouts or () if x.machines == ("grblhal",)), None)
+        if not comes or "homing.cycle" not in self.ids or layout is None or layout.numbers is None:
+            return parameter.model_copy(update={"layouts": (), "default": None, "page": PAGE})
+        numbers = layout.numbers
+        if layout.scope == "axis":
+            listed = {a: str((numbers.start or 0) + n) for n, a in enumerate(self.axes)}
+            layout = layout.model_copy(update={"numbers": Numbers(listed=listed, format="${n}")})
+        return parameter.model_copy(update={"layouts": (layout,), "default": None})
+
+    def _build(self) -> list[Parameter]:
+        """Return what is compiled in, with what this control says as the default."""
+        axes, rate = (self.known.parameters[p] for p in ("build.axes", "build.max_step_rate"))
+        told = self.told.max_step_rate
+        self.ids |= {axes.id, rate.id}
+        return [
+            axes.model_copy(update={"default": Default(value=self.told.axes, page="I"), "page": "I"}),
+            rate.model_copy(update={"default": None if told is None else Default(value=told, unit="Hz", page="I"), "page": "I"}),
+        ]  # fmt: skip
+
+
+def _by_number(known: Schema) -> dict[int, list[Parameter]]:
+    """Return the number of the first instance -> known parameters with it, those of grblHAL before those of Grbl 1.1."""
+    found: dict[int, list[Parameter]] = {}
+    for machine in known.family.machines:
+        for parameter in known.parameters.values():
+            layout = known.on(machine.key).layout(parameter)
+            start = layout.numbers.start if layout and layout.numbers else None
+            if start is not None and parameter not in found.setdefault(start, []):
+                found[start].append(parameter)
+    return found
+
+
+def _is_axis(parameter: Parameter) -> bool:
+    return "axis" in parameter.scopes
+
+
+def _key(text: str) -> str:
+    """Return a text as a part of an id."""
+    return re.sub("[^a-z0-9]+", "_", text.casefold()).strip("_")[:60]
+
+
+def _unit_of(setting: Setting, *, turns: bool = False) -> str:
+    """Return the unit of a setting; that of a straight axis in place of degrees. Empty where it is not known."""
+    text = setting.unit.replace("sec^2", "s2").replace("sec^3", "s3").replace("sec", "s")
+    try:
+        unit = _UNITS.get(text) or unit_named(text)
+    except UnitError:
+        return ""
+    return _LINEAR.get(unit, unit)
+
+
+def _value_facts(setting: Setting, kind: str, axes: tuple[str, ...]) -> dict[str, Any]:
+    """Return what a setting takes: range, choices, bits, storage."""
+    command = "${n}={v}"
+    if kind == "boolean":
+        choices = (Choice(key="yes", label="Yes", raw=1), Choice(key="no", label="No", raw=0))
+        return {"choices": choices, "storage": Storage(command=command)}
+    if kind == "choice":
+        return {"choices": _choices(setting), "storage": Storage(command=command)}
+    if kind == "bits":
+        labels = axes if setting.type == AXES else setting.labels
+        bits = tuple(Bit(bit=n, label=label) for n, label in enumerate(labels) if label)
+        return {"bits": bits, "storage": Storage(bits=max(1, len(labels)), signed=False, command=command)}
+    if kind == "text":
+        return {"storage": Storage(command=command)}
+    unit = _unit_of(setting)
+    decimals = len(setting.format.partition(".")[2]) if "." in setting.format else 1
+    # A setting without a least value refuses what is negative (S3219).
+    least = 0.0 if not setting.least or setting.may_be_zero else float(setting.least)
+    most = float(setting.most) if setting.most else None
+    facts: dict[str, Any] = {"ranges": {unit: (least, most)}, "unit": unit, "quantity": _QUANTITIES.get(unit, "")}
+    if unit in ("mm", "mm/min", "mm/s2", "mm/s3", "steps/mm"):
+        facts["unit"] = None  # it is in degrees where the axis turns
+    if kind == "integer":
+        return facts | {"storage": Storage(unit=unit, bits=32, signed=least < 0, command=command)}
+    storage = Storage(unit=unit, decimals=decimals, single=True, command=command)
+    return facts | {"decimals": decimals, "storage": storage}
+
+
+def _choices(setting: Setting) -> tuple[Choice, ...]:
+    found: dict[str, Choice] = {}
+    for raw, label in enumerate(setting.labels):
+        if not label:
+            continue
+        key = _key(label) or f"choice_{raw}"
+        if key in found:
+            key, label = f"{key}_{raw}", f"{label} ({raw})"
+        found[key] = Choice(key=key, label=label, raw=raw)
+    if not found:
+        raise DescriptionError(f"${setting.number} is a choice and has none")
+    return tuple(found.values())
+
+
+

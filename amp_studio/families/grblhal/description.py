@@ -1,0 +1,218 @@
+"""What a control says of itself, line by line: axes, groups, settings, help, alarms and errors.
+
+    [AXS:3:XYZ]                                                        $I      number of axes, their letters
+    [SETTINGGROUP:43|42|X-axis]                                        $EG     group, the group it is in, name
+    [SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]     $ES     number, group, name, unit, type, format,
+                                                                               least, most, needs a restart, 0 allowed
+    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \\n is a new line
+    [ALARMCODE:1||Hard limit has been triggered. …]                    $EA
+    [ERRORCODE:10||Soft limits cannot be enabled …]                    $EE
+
+A description is a text of these lines in any order; other lines are passed over, so that all that was read from a
+control is one too. It comes from outside: it is bounded, and whatever cannot be meant is a DescriptionError.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from amp_studio.schema.described import DescriptionError
+from amp_studio.schema.quoting import short
+
+T = TypeVar("T")
+MOST_BYTES = 2**20
+_MOST_SETTINGS, _MOST_GROUPS, _MOST_CODES = 2000, 500, 1000
+_LONGEST = 4000
+"""Signs of a text that is kept; the longest help there is has some 800."""
+_MOST_NUMBER = 65535
+_MOST_LABELS = 32
+"""Of a mask: the control keeps it in 32 bits."""
+_MOST_CHOICES = 256
+
+BOOLEAN, MASK, SWITCHED_MASK, CHOICE, AXES, INTEGER, DECIMAL, TEXT, PASSWORD, IPV4 = range(10)
+"""The types of settings, as ``$ES`` counts them. In a switched mask bit 0 switches all others."""
+
+_TAGS = ("VER", "AXS", "BOARD", "DRIVER", "DRIVER VERSION", "FIRMWARE", "MAX STEP RATE", "SETTINGGROUP", "SETTING",
+         "SETTINGDESCR", "ALARMCODE", "ERRORCODE")  # fmt: skip
+_LINE = re.compile(r"\[([A-Z ]+):(.*)\]")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One setting, as ``$ES`` tells it."""
+
+    number: int
+    group: int
+    name: str
+    unit: str
+    type: int
+    format: str
+    least: str
+    most: str
+    needs_restart: bool
+    may_be_zero: bool
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """What the bits or choices are called, in order; empty for one that this control does not have."""
+        labels = (label.strip() for label in self.format.split(","))
+        return tuple("" if label in ("N/A", "") else label for label in labels)
+
+
+@dataclass(frozen=True)
+class SettingGroup:
+    """A group of settings; 0 is the root of all."""
+
+    number: int
+    parent: int
+    name: str
+
+
+@dataclass
+class Description:
+    """All that a control says of itself."""
+
+    axes: str = ""
+    """The letters of its axes, in order."""
+    facts: dict[str, str] = field(default_factory=dict)
+    """``VER``, ``BOARD``, ``DRIVER`` … -> what it says."""
+    groups: dict[int, SettingGroup] = field(default_factory=dict)
+    settings: dict[int, Setting] = field(default_factory=dict)
+    helps: dict[int, str] = field(default_factory=dict)
+    alarms: dict[int, str] = field(default_factory=dict)
+    errors: dict[int, str] = field(default_factory=dict)
+
+    @property
+    def max_step_rate(self) -> float | None:
+        """Steps in a second that the driver can make, where it has a limit."""
+        found = re.fullmatch(r"([0-9]{1,9}) Hz", self.facts.get("MAX STEP RATE", ""))
+        return float(found[1]) if found else None
+
+
+def description_lines(content: bytes) -> list[str]:
+    """Return the lines of a content that describe the control, in their order; raises DescriptionError."""
+    if len(content) > MOST_BYTES:
+        raise DescriptionError(f"the description of a control has at most {MOST_BYTES:,} bytes")
+    found: list[str] = []
+    begun = ""
+    for line in content.decode("utf-8", "replace").split("\n"):
+        line = line.rstrip()
+        if begun and not line.startswith("["):  # the help of a few settings goes over several lines
+            line = f"{begun}\\n{line}"
+        begun = line if line.startswith("[SETTINGDESCR:") and not line.endswith("]") else ""
+        tagged = _LINE.fullmatch(line)
+        if tagged and tagged[1] in _TAGS:
+            found.append(line)
+    return found
+
+
+def description_of(content: bytes) -> bytes:
+    """Return what describes the control in all that was read from it: one line each, the same for the same control."""
+    return "".join(f"{line}\n" for line in description_lines(content)).encode("utf-8")
+
+
+def read_description(content: bytes) -> Description:
+    """Return what the lines of a content say; raises DescriptionError."""
+    found = Description()
+    for line in description_lines(content):
+        tag, _, rest = line[1:-1].partition(":")
+        _READERS.get(tag, _read_fact)(found, tag, rest)
+    if not found.settings:
+        raise DescriptionError("no setting is described: a control that answers $ES is needed")
+    found.axes = found.axes or _axes_of_groups(found)
+    return found
+
+
+def _read_fact(found: Description, tag: str, rest: str) -> None:
+    found.facts[tag] = _text(rest)
+
+
+def _read_axes(found: Description, _tag: str, rest: str) -> None:
+    count, _, letters = rest.partition(":")
+    if not re.fullmatch("[A-Z]{1,9}", letters) or len(set(letters)) != len(letters) or count != str(len(letters)):
+        raise DescriptionError(f"'AXS:{short(rest)}' are no axes: their number and letters are wanted, as 3:XYZ")
+    found.axes = letters
+
+
+def _read_group(found: Description, _tag: str, rest: str) -> None:
+    number, parent, name = _parts(rest, 3, "a group of settings")
+    group = SettingGroup(_number(number, rest), _number(parent, rest), _text(name) or f"Group {number}")
+    _keep(found.groups, group.number, group, _MOST_GROUPS, "group")
+
+
+def _read_setting(found: Description, _tag: str, rest: str) -> None:
+    number, group, name, unit, kind, form, least, most, restart, zero = _parts(rest, 10, "a setting")
+    if not re.fullmatch("[0-9]", kind):
+        raise DescriptionError(f"the setting '{short(rest)}' has the type {short(kind)}, which is not known")
+    if restart not in ("0", "1") or zero not in ("0", "1"):
+        raise DescriptionError(f"the setting '{short(rest)}' does not end with two marks, 0 or 1")
+    setting = Setting(
+        _number(number, rest), _number(group, rest), _text(name) or f"Setting {number}", _text(unit), int(kind),
+        _text(form), _bound(least, rest), _bound(most, rest), restart == "1", zero == "1",
+    )  # fmt: skip
+    count = len(setting.labels)
+    if setting.type in (MASK, SWITCHED_MASK) and count > _MOST_LABELS:
+        raise DescriptionError(f"${number} has {count} bits, and {_MOST_LABELS} are the most")
+    if setting.type == CHOICE and count > _MOST_CHOICES:
+        raise DescriptionError(f"${number} has {count} choices, and {_MOST_CHOICES} are the most")
+    _keep(found.settings, setting.number, setting, _MOST_SETTINGS, "setting")
+
+
+def _read_help(found: Description, _tag: str, rest: str) -> None:
+    number, _, text = rest.partition("|")
+    _keep(found.helps, _number(number, rest), _text(text), _MOST_SETTINGS, "help of setting")
+
+
+def _read_code(found: Description, tag: str, rest: str) -> None:
+    number, _, text = _parts(rest, 3, "a code")
+    codes = found.alarms if tag == "ALARMCODE" else found.errors
+    _keep(codes, _number(number, rest), _text(text), _MOST_CODES, "code")
+
+
+_READERS = {
+    "AXS": _read_axes, "SETTINGGROUP": _read_group, "SETTING": _read_setting, "SETTINGDESCR": _read_help,
+    "ALARMCODE": _read_code, "ERRORCODE": _read_code,
+}  # fmt: skip
+
+
+def _keep(known: dict[int, T], number: int, entry: T, most: int, what: str) -> None:
+    if number in known:
+        if known[number] == entry:
+            return
+        raise DescriptionError(f"the {what} {number} is described twice, each time otherwise")
+    if len(known) >= most:
+        raise DescriptionError(f"the {what}s are more than {most}")
+    known[number] = entry
+
+
+def _parts(rest: str, count: int, what: str) -> list[str]:
+    parts = rest.split("|", count - 1 if count == 3 else -1)
+    if len(parts) != count:
+        raise DescriptionError(f"'{short(rest)}' is not {what}: {count} entries between bars are wanted")
+    return parts
+
+
+def _number(text: str, rest: str) -> int:
+    if not re.fullmatch("[0-9]{1,5}", text) or int(text) > _MOST_NUMBER:
+        raise DescriptionError(f"'{short(rest)}' begins with no number of 0 to {_MOST_NUMBER}")
+    return int(text)
+
+
+def _bound(text: str, rest: str) -> str:
+    if text and not re.fullmatch(r"-?[0-9]{1,12}(\.[0-9]{1,9})?", text):
+        raise DescriptionError(f"the setting '{short(rest)}' has the bound {short(text)}, which is no number")
+    return text
+
+
+def _text(text: str) -> str:
+    r"""Return a text without control signs; ``\n`` becomes a new line."""
+    plain = re.sub(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff\ud800-\udfff]", " ", text)
+    return plain.replace("\\n", "\n")[:_LONGEST].strip()
+
+
+def _axes_of_groups(found: Description) -> str:
+    """Return the letters of the groups ``X-axis``, ``Y-axis`` … in their order, of a control that lists no axes."""
+    letters = (g.name[0] for _, g in sorted(found.groups.items()) if re.fullmatch("[A-Z]-axis", g.name))
+    return "".join(dict.fromkeys(letters))[:9]

@@ -1,0 +1,37 @@
+"""The schema of a control that describes itself: made by its family from what it said, the same whenever it says the same.
+
+The description is data of outside. It is bounded, no expression or path is taken from it, and a file names it by its
+digest, so that another one is never used in its place.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from functools import lru_cache
+
+from .catalog import Schema
+from .load import family_ids
+from .quoting import quoted
+from .registration import load_part, registration_of
+
+
+class DescriptionError(ValueError):
+    """A description that no schema can be made of; one clear sentence."""
+
+
+def described_schema(family: str, description: bytes) -> Schema:
+    """Return the schema that a description means; raises DescriptionError."""
+    if family not in family_ids() or not registration_of(family).describe:
+        raise DescriptionError(f"the controls of the family {quoted(family)} do not describe themselves")
+    return _described(family, description)
+
+
+@lru_cache(maxsize=8)
+def _described(family: str, description: bytes) -> Schema:
+    found: Schema = load_part(registration_of(family).describe)(description)
+    return found
+
+
+def digest_of_description(schema: Schema) -> str:
+    """Return the digest by which a file names the description of its control; empty for a schema of the database."""
+    return hashlib.sha256(schema.description).hexdigest() if schema.description else ""
