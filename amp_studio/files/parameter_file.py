@@ -15,6 +15,7 @@ from amp_studio.schema import (
     Value,
     angular,
     fault,
+    read_address,
     read_real,
     read_value,
     same_value,
@@ -197,8 +198,7 @@ class ParameterFile:
         with self.step() as changes:
             for address, value in wanted.items():
                 self.set(address, value)
-            profile = self.schema.family.axes
-            for axis in [c.address[1] for c in changes if profile and c.address[0] == profile.type]:
+            for axis in self._turned(changes):
                 self.refit_units(axis)
             faults = {
                 a: message
@@ -215,6 +215,17 @@ class ParameterFile:
             if address not in changed and self.forced.get(address) != marks.get(address):
                 self._notify(Change(address, value, value))  # the value is unchanged, its mark is not
         return changes
+
+    def _turned(self, changes: Iterable[Change]) -> Iterable[str]:
+        """Return the axes that changes may have made turn, or move straight."""
+        family = self.schema.family
+        if family.angular_when is None:
+            return ()
+        reads = {read_address(text)[0] for text in family.conditions[family.angular_when].reads.values()}
+        changed = [c.address for c in changes if c.address[0] in reads]
+        axes = family.scopes["axis"].instances if "axis" in family.scopes else ()
+        whole = any(self.machine_schema.scopes[a[0]] != "axis" for a in changed)
+        return axes if whole else dict.fromkeys(instance for _, instance in changed)
 
     @contextmanager
     def step(self) -> Iterator[list[Change]]:
@@ -305,6 +316,8 @@ def _refitted(unit: str, turns: bool, metric: str) -> str:
     """Return the unit that corresponds to ``unit`` on an axis that turns, or moves straight."""
     if turns:
         return angular(unit) if "deg" in metric else unit
+    if unit.endswith("/deg") and metric.endswith("/mm"):
+        return unit[:-3] + "mm"
     return "mm" + unit[3:] if unit.startswith("deg") and metric.startswith("mm") else unit
 
 

@@ -7,6 +7,7 @@ off. Comments and keys that this program does not know survive every save.
 
 from __future__ import annotations
 
+import hashlib
 import re
 from dataclasses import replace
 from functools import lru_cache
@@ -33,6 +34,7 @@ from amp_studio.schema import (
     write_value,
     written,
 )
+from amp_studio.schema.described import DescriptionError, described_schema
 from amp_studio.schema.file_error import text_of
 from amp_studio.schema.quoting import quoted, short
 from amp_studio.schema.regular_file import read_file
@@ -47,7 +49,9 @@ FORMAT = 1
 
 _HEADER = ("name", "application", "revision", "machine", "units", "notes", "signature")
 _SECTIONS = ("values", "forced")
-_KNOWN = {"amp_studio", "family", *_SECTIONS, *_HEADER}
+_DESCRIPTION = "description"
+"""What the control said of itself, line by line, where its schema is made of that: so the file opens without it."""
+_KNOWN = {"amp_studio", "family", _DESCRIPTION, *_SECTIONS, *_HEADER}
 _REMEMBERED = 200
 """Signs of the longest text whose meaning is remembered."""
 
@@ -137,12 +141,35 @@ class _FileReader:
         family = self.data.get("family")
         if not isinstance(family, str):
             raise self._fault("names no control family", *(["family"] if "family" in self.data else []))
-        if self.schema is not None and self.schema.family.family == family:
-            return self.schema
         try:
-            return load_schema(family)
+            return self._schema(family)
         except UnknownFamilyError as error:
             raise self._fault(str(error), "family") from None
+        except DescriptionError as error:
+            raise self._fault(
+                f"the description of its control cannot be used: {error}", _DESCRIPTION
+            ) from None
+
+    def _schema(self, family: str) -> Schema:
+        """Return the schema of the family, or of the control that the file describes."""
+        lines, given = self.data.get(_DESCRIPTION), self.schema
+        if lines is None:
+            is_given = given is not None and given.family.family == family and not given.description
+            return given if is_given and given is not None else load_schema(family)
+        if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
+            raise self._fault("the description of its control is no list of lines", _DESCRIPTION)
+        description = "".join(f"{line}\n" for line in lines[1:]).encode("utf-8", "replace")
+        if lines[:1] != [_seal(description)]:
+            raise self._fault(
+                "the description of its control is not the one that it was saved with: "
+                "read the control again, or take the backup",
+                _DESCRIPTION,
+            )
+        return (
+            given
+            if given is not None and given.description == description
+            else described_schema(family, description)
+        )
 
     def _read_header(self) -> None:
         header, family = self.file.header, self.file.schema.family
@@ -186,6 +213,11 @@ class _FileReader:
                 if key == machine:
                     file.take(values)
         file.take(values)
+
+
+def _seal(description: bytes) -> str:
+    """Return the first line of a description in a file, by which a change in it is noticed: it bounds what is sent."""
+    return f"sha256 {hashlib.sha256(description).hexdigest()}"
 
 
 def _extra(text: str, data: dict[str, Any]) -> dict[str, object]:
@@ -248,6 +280,9 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     header |= file.header.extra
     wanted: dict[str, Any] = header | {"values": _entries(file)}
     wanted |= {"forced": {written(a): why for a, why in file.forced.items()}}
+    if file.schema.description:
+        description = file.schema.description
+        wanted[_DESCRIPTION] = [_seal(description), *description.decode("utf-8").split("\n")[:-1]]
     text = None if previous is None else _amended(file, previous, wanted)
     if text is None:
         from .yaml_text import new_text  # what only opens files does not write any

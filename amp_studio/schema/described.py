@@ -1,12 +1,11 @@
 """The schema of a control that describes itself: made by its family from what it said, the same whenever it says the same.
 
-The description is data of outside. It is bounded, no expression or path is taken from it, and a file names it by its
-digest, so that another one is never used in its place.
+The description is data of outside: it is bounded, and no expression or path is taken from it. A file contains it, so that
+it opens without the control, on this machine and on any other.
 """
 
 from __future__ import annotations
 
-import hashlib
 from functools import lru_cache
 
 from .catalog import Schema
@@ -30,8 +29,3 @@ def described_schema(family: str, description: bytes) -> Schema:
 def _described(family: str, description: bytes) -> Schema:
     found: Schema = load_part(registration_of(family).describe)(description)
     return found
-
-
-def digest_of_description(schema: Schema) -> str:
-    """Return the digest by which a file names the description of its control; empty for a schema of the database."""
-    return hashlib.sha256(schema.description).hexdigest() if schema.description else ""

@@ -6,5 +6,7 @@ from amp_studio.schema.registration import Registration
 
 REGISTRATION = Registration(
     family="grblhal",
+    formulas="amp_studio.families.grblhal.formulas:FORMULAS",
+    formats=("amp_studio.families.grblhal.formats.listing:FORMAT",),
     describe="amp_studio.families.grblhal.described:schema_of",
 )

@@ -12,16 +12,36 @@ from collections.abc import Iterable
 from typing import Any
 
 from amp_studio.schema import Parameter, Schema, UnitError, load_schema, unit_named
-from amp_studio.schema import catalog as catalog
-from amp_studio.schema.load import Compiled
+from amp_studio.schema.catalog import schema_of as made_of
 from amp_studio.schema.described import DescriptionError
+from amp_studio.schema.load import Compiled
 from amp_studio.schema.model import (
-    Bit, Choice, Default, Effect, Family, Group, Help, Layout, Numbers, Rule, Storage, Table,
+    Bit,
+    Choice,
+    Default,
+    Effect,
+    Family,
+    Group,
+    Help,
+    Layout,
+    Numbers,
+    Storage,
+    Table,
 )  # fmt: skip
 
 from .description import (
-    AXES, BOOLEAN, CHOICE, DECIMAL, INTEGER, MASK, PASSWORD, SWITCHED_MASK,
-    Description, Setting, description_of, read_description,
+    AXES,
+    BOOLEAN,
+    CHOICE,
+    DECIMAL,
+    INTEGER,
+    MASK,
+    PASSWORD,
+    SWITCHED_MASK,
+    Description,
+    Setting,
+    description_of,
+    read_description,
 )  # fmt: skip
 
 FAMILY = "grblhal"
@@ -29,9 +49,8 @@ PAGE = "ES"
 """Where the facts of a control are: its answer to ``$ES``."""
 KEPT_STATES = ("per_axis_rates",)
 """Conditions by which a setting comes and goes with another one: it is known though the control does not list it now."""
-_PLACES = ("{'X': 0.0, 'Y': 1.0, 'Z': 2.0, 'A': 3.0, 'B': 4.0, 'C': 5.0, 'U': 6.0, 'V': 7.0}",)
-"""As rules write the places of the axes in a mask."""
-_ROTARY = "{'A': 0.0, 'B': 1.0, 'C': 2.0, 'U': 3.0, 'V': 4.0}"
+AXES_RULE = "grblhal.build.axes"
+"""Which letters a build can have: this control says which it has."""
 _AXIS_GROUP = "Axis"
 _UNITS = {"microseconds": "us", "milliseconds": "ms", "step/mm": "steps/mm", "step/deg": "steps/mm"}
 _LINEAR = {"deg": "mm", "deg/min": "mm/min", "deg/s2": "mm/s2", "deg/s3": "mm/s3", "steps/deg": "steps/mm"}
@@ -75,20 +94,30 @@ class _Maker:
                 names.setdefault(group.key, (group.name, ""))
                 groups.setdefault(group.key, []).append(self._absent(parameter))
         made = tuple(
-            Group(key=key, name=names[key][0], section=names[key][1], chapter=PAGE, parameters=tuple(parameters))
+            Group(
+                key=key,
+                name=names[key][0],
+                section=names[key][1],
+                chapter=PAGE,
+                parameters=tuple(sorted(parameters, key=_first_number)),
+            )
             for key, parameters in groups.items()
         )
         compiled = Compiled(
-            family=self._family(tuple(groups)), groups=made, rules=tuple(self._rules()), errata=(),
+            family=self._family(tuple(groups)), groups=made, errata=(),
+            rules=tuple(r for r in self.known.rules if r.id != AXES_RULE),
             tables=tuple(self._tables()), guides=self.known.guides,
         )  # fmt: skip
-        return catalog.schema_of(compiled, description)
+        return made_of(compiled, description)
 
-    # -- family, rules, tables -------------------------------------------------
+    # -- family, tables -------------------------------------------------
 
     def _family(self, groups: tuple[str, ...]) -> Family:
         known, facts = self.known.family, self.told.facts
-        scopes = {k: v.model_copy(update={"instances": self.axes} if k == "axis" else {}) for k, v in known.scopes.items()}
+        scopes = {
+            k: v.model_copy(update={"instances": self.axes} if k == "axis" else {})
+            for k, v in known.scopes.items()
+        }
         rotary = "{" + ", ".join(f"'{a}': {n}.0" for n, a in enumerate(self.axes[3:])) + "}"
         letters = "[" + ", ".join(f"'{a}'" for a in self.axes[3:]) + "]"
         when = f"instance in {letters} && bit(rotary, {rotary}[instance])" if self.axes[3:] else "false"
@@ -101,12 +130,6 @@ class _Maker:
             "title": f"grblHAL {who}, as the control describes itself ($ES)", "scopes": scopes, "groups": groups,
             "conditions": conditions, "machines": known.machines[:1],
         })  # fmt: skip
-
-    def _rules(self) -> Iterable[Rule]:
-        """Yield the rules of the family; where the axes are others, with their places in a mask."""
-        places = "{" + ", ".join(f"'{a}': {n}.0" for n, a in enumerate(self.axes)) + "}"
-        for rule in self.known.rules:
-            yield Rule.model_validate_json(rule.model_dump_json(exclude_defaults=True).replace(_PLACES[0], places))
 
     def _tables(self) -> Iterable[Table]:
         told = (("alarms", "Alarms (ALARM:n)", "EA", self.told.alarms),
@@ -135,7 +158,7 @@ class _Maker:
         for setting in sorted(self.told.settings.values(), key=lambda s: s.number):
             axis = self._axis(setting)
             alike = (setting.type, setting.format, setting.least, setting.most, setting.needs_restart,
-                     setting.may_be_zero, _unit_of(setting, turns=True))  # fmt: skip
+                     setting.may_be_zero, _unit_of(setting))  # fmt: skip
             key = (setting.number - self.axes.index(axis), alike) if axis else setting.number
             found.setdefault(key, []).append(setting)
         order = {g: n for n, g in enumerate(self.told.groups)}
@@ -150,7 +173,7 @@ class _Maker:
             return "other", "Other", ""
         same = next((g for g in self.known.groups if g.name == group.name), None)
         parent = self.told.groups.get(group.parent)
-        inside = parent is not None and parent.number != group.number and parent.parent != parent.number
+        inside = parent is not None and parent.number not in (group.number, parent.parent)
         key = same.key if same else _key(group.name) or f"group_{group.number}"
         return key, parent.name if inside and parent else group.name, group.name if inside else ""
 
@@ -158,10 +181,15 @@ class _Maker:
         first, axis = settings[0], self._axis(settings[0])
         base = first.number - (self.axes.index(axis) if axis else 0)
         kind = _TYPES.get(first.type, "text")
-        known = next((p for p in self.by_number.get(base, ()) if p.type == kind and (_is_axis(p) == bool(axis))), None)
-        name = first.name.partition("-axis ")[2].capitalize() if axis else first.name
+        known = next(
+            (p for p in self.by_number.get(base, ()) if p.type == kind and (_is_axis(p) == bool(axis))), None
+        )
+        name = first.name.partition("-axis ")[2] if axis else first.name
+        name = name[:1].upper() + name[1:]
         parameter_id = self._id(known.id if known else f"{group}.{_key(name) or 'setting'}", first.number)
         facts: dict[str, Any] = _value_facts(first, kind, self.axes)
+        if kind == "integer" and known and known.storage:
+            facts["storage"] = facts["storage"].model_copy(update={"bits": known.storage.bits})
         facts["layouts"] = (self._layout(settings, axis, base),)
         return Parameter(
             id=parameter_id, name=name, type=kind, states=known.states if known else (), page=PAGE,
@@ -183,8 +211,12 @@ class _Maker:
     def _help(self, setting: Setting, known: Parameter | None) -> Help:
         told = self.told.helps.get(setting.number, "")
         unit = f"In {setting.unit}." if setting.unit and not _unit_of(setting) else ""
-        length = f"At most {setting.most} characters." if _TYPES.get(setting.type) is None and setting.most else ""
-        what = " ".join(filter(None, (told or (known.help.what if known else setting.name + "."), unit, length)))
+        length = (
+            f"At most {setting.most} characters." if _TYPES.get(setting.type) is None and setting.most else ""
+        )
+        what = " ".join(
+            filter(None, (told or (known.help.what if known else setting.name + "."), unit, length))
+        )
         return known.help.model_copy(update={"what": what}) if known else Help(what=what)
 
     # -- what the control does not list ------------------------------------------
@@ -193,7 +225,7 @@ class _Maker:
         """Return a known setting that the control does not list: nowhere, but where a listed one brings it along."""
         self.ids.add(parameter.id)
         comes = any((s.when or s.unless) in KEPT_STATES for s in parameter.states)
-        layout = next((x for x in parameter.layouts or () if x.machines == ("grblhal",)), None)
+        layout = self.known.on(self.known.family.default_machine).layout(parameter)
         if not comes or "homing.cycle" not in self.ids or layout is None or layout.numbers is None:
             return parameter.model_copy(update={"layouts": (), "default": None, "page": PAGE})
         numbers = layout.numbers
@@ -225,6 +257,14 @@ def _by_number(known: Schema) -> dict[int, list[Parameter]]:
     return found
 
 
+def _first_number(parameter: Parameter) -> int:
+    layout = parameter.layouts[0] if parameter.layouts else None
+    numbers = layout.numbers if layout else None
+    if numbers is None:
+        return -1
+    return min(map(int, numbers.listed.values())) if numbers.listed else numbers.start or 0
+
+
 def _is_axis(parameter: Parameter) -> bool:
     return "axis" in parameter.scopes
 
@@ -234,9 +274,9 @@ def _key(text: str) -> str:
     return re.sub("[^a-z0-9]+", "_", text.casefold()).strip("_")[:60]
 
 
-def _unit_of(setting: Setting, *, turns: bool = False) -> str:
+def _unit_of(setting: Setting) -> str:
     """Return the unit of a setting; that of a straight axis in place of degrees. Empty where it is not known."""
-    text = setting.unit.replace("sec^2", "s2").replace("sec^3", "s3").replace("sec", "s")
+    text = setting.unit.replace("/sec^", "/s").replace("/sec", "/s")
     try:
         unit = _UNITS.get(text) or unit_named(text)
     except UnitError:
@@ -263,7 +303,11 @@ def _value_facts(setting: Setting, kind: str, axes: tuple[str, ...]) -> dict[str
     # A setting without a least value refuses what is negative (S3219).
     least = 0.0 if not setting.least or setting.may_be_zero else float(setting.least)
     most = float(setting.most) if setting.most else None
-    facts: dict[str, Any] = {"ranges": {unit: (least, most)}, "unit": unit, "quantity": _QUANTITIES.get(unit, "")}
+    facts: dict[str, Any] = {
+        "ranges": {unit: (least, most)},
+        "unit": unit or None,
+        "quantity": _QUANTITIES.get(unit, ""),
+    }
     if unit in ("mm", "mm/min", "mm/s2", "mm/s3", "steps/mm"):
         facts["unit"] = None  # it is in degrees where the axis turns
     if kind == "integer":
@@ -278,12 +322,10 @@ def _choices(setting: Setting) -> tuple[Choice, ...]:
         if not label:
             continue
         key = _key(label) or f"choice_{raw}"
-        if key in found:
-            key, label = f"{key}_{raw}", f"{label} ({raw})"
-        found[key] = Choice(key=key, label=label, raw=raw)
+        twice = key in found
+        found[f"{key}_{raw}" if twice else key] = Choice(
+            key=f"{key}_{raw}" if twice else key, label=f"{label} ({raw})" if twice else label, raw=raw
+        )
     if not found:
         raise DescriptionError(f"${setting.number} is a choice and has none")
     return tuple(found.values())
-
-
-

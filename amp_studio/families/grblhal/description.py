@@ -1,10 +1,11 @@
-"""What a control says of itself, line by line: axes, groups, settings, help, alarms and errors.
+r"""What a control says of itself, line by line: axes, groups, settings, help, alarms and errors.
 
     [AXS:3:XYZ]                                                        $I      number of axes, their letters
     [SETTINGGROUP:43|42|X-axis]                                        $EG     group, the group it is in, name
     [SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]     $ES     number, group, name, unit, type, format,
                                                                                least, most, needs a restart, 0 allowed
-    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \\n is a new line
+    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \n is a new line; or in $ESH the
+                                                                               sixth column between tabs
     [ALARMCODE:1||Hard limit has been triggered. …]                    $EA
     [ERRORCODE:10||Soft limits cannot be enabled …]                    $EE
 
@@ -26,6 +27,8 @@ MOST_BYTES = 2**20
 _MOST_SETTINGS, _MOST_GROUPS, _MOST_CODES = 2000, 500, 1000
 _LONGEST = 4000
 """Signs of a text that is kept; the longest help there is has some 800."""
+_HELP_ROW = 10
+"""Columns of ``$ESH``."""
 _MOST_NUMBER = 65535
 _MOST_LABELS = 32
 """Of a mask: the control keeps it in 32 bits."""
@@ -97,20 +100,34 @@ def description_lines(content: bytes) -> list[str]:
         raise DescriptionError(f"the description of a control has at most {MOST_BYTES:,} bytes")
     found: list[str] = []
     begun = ""
-    for line in content.decode("utf-8", "replace").split("\n"):
-        line = line.rstrip()
-        if begun and not line.startswith("["):  # the help of a few settings goes over several lines
-            line = f"{begun}\\n{line}"
-        begun = line if line.startswith("[SETTINGDESCR:") and not line.endswith("]") else ""
+    for came in content.decode("utf-8", "replace").split("\n"):
+        # The help of a few settings goes over several lines.
+        whole = (
+            came.rstrip("\r") if not begun or came.startswith("[") else f"{begun}\\n{came.rstrip(chr(13))}"
+        )
+        begun = whole if _goes_on(whole) else ""
+        row = whole.split("\t")
+        is_row = len(row) == _HELP_ROW and row[0].isdecimal()
+        line = f"[SETTINGDESCR:{row[0]}|{row[5]}]" if is_row else whole
         tagged = _LINE.fullmatch(line)
         if tagged and tagged[1] in _TAGS:
             found.append(line)
     return found
 
 
+def _goes_on(line: str) -> bool:
+    """Return whether a line is the beginning of a help that ends in a later one."""
+    if len(line) > _LONGEST:
+        return False
+    is_row = re.match("[0-9]{1,5}\t", line) is not None and line.count("\t") < _HELP_ROW - 1
+    return is_row or (line.startswith("[SETTINGDESCR:") and not line.endswith("]"))
+
+
 def description_of(content: bytes) -> bytes:
     """Return what describes the control in all that was read from it: one line each, the same for the same control."""
-    return "".join(f"{line}\n" for line in description_lines(content)).encode("utf-8")
+    return "".join(f"{line}\n" for line in dict.fromkeys(description_lines(content))).encode(
+        "utf-8", "replace"
+    )
 
 
 def read_description(content: bytes) -> Description:
@@ -131,8 +148,14 @@ def _read_fact(found: Description, tag: str, rest: str) -> None:
 
 def _read_axes(found: Description, _tag: str, rest: str) -> None:
     count, _, letters = rest.partition(":")
-    if not re.fullmatch("[A-Z]{1,9}", letters) or len(set(letters)) != len(letters) or count != str(len(letters)):
-        raise DescriptionError(f"'AXS:{short(rest)}' are no axes: their number and letters are wanted, as 3:XYZ")
+    if (
+        not re.fullmatch("[A-Z]{1,9}", letters)
+        or len(set(letters)) != len(letters)
+        or count != str(len(letters))
+    ):
+        raise DescriptionError(
+            f"'AXS:{short(rest)}' are no axes: their number and letters are wanted, as 3:XYZ"
+        )
     found.axes = letters
 
 
@@ -208,7 +231,9 @@ def _bound(text: str, rest: str) -> str:
 
 def _text(text: str) -> str:
     r"""Return a text without control signs; ``\n`` becomes a new line."""
-    plain = re.sub(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff\ud800-\udfff]", " ", text)
+    plain = re.sub(
+        r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff\ud800-\udfff]", " ", text
+    )
     return plain.replace("\\n", "\n")[:_LONGEST].strip()
 
 

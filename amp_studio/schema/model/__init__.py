@@ -69,8 +69,8 @@ from .rule import (
 )
 
 __all__ = [
-    "AxisList",
     "Assignment",
+    "AxisList",
     "AxisProfile",
     "Bit",
     "Bound",

@@ -1,0 +1,22 @@
+"""The arithmetic of the firmware that rules and calculators use.
+
+Every function is pure. Lengths are mm, or degrees of an axis that turns; speeds are per minute, accelerations per second
+squared. An argument that makes no sense raises ValueError with one sentence that names it.
+"""
+
+from .axes import axis_place, homing_phases, is_turning, mask_end, rotary_end
+from .motion import ramp_travel, step_rate, steps_per_unit
+
+__all__ = [
+    "axis_place",
+    "homing_phases",
+    "is_turning",
+    "mask_end",
+    "ramp_travel",
+    "rotary_end",
+    "step_rate",
+    "steps_per_unit",
+]
+
+FORMULAS = {name: globals()[name] for name in __all__}
+"""What the rules and calculators of the family may call."""
