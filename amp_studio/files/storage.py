@@ -50,7 +50,7 @@ FORMAT = 1
 _HEADER = ("name", "application", "revision", "machine", "units", "notes", "signature")
 _SECTIONS = ("values", "forced")
 _DESCRIPTION = "description"
-"""What the control said of itself, line by line, where its schema is made of that: so the file opens without it."""
+"""The description that the control gave of itself, in lines, where its schema is made of that: so the file opens without it."""
 _KNOWN = {"amp_studio", "family", _DESCRIPTION, *_SECTIONS, *_HEADER}
 _REMEMBERED = 200
 """Signs of the longest text whose meaning is remembered."""

@@ -27,7 +27,7 @@ class Schema:
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
     description: bytes = b""
-    """What a control said of itself, from which this schema was made; empty for the facts of the database."""
+    """The description that a control gave of itself, from which this schema was made; empty for the facts of the database."""
 
     def __repr__(self) -> str:
         return f"Schema({self.family.family!r})"

@@ -1,4 +1,4 @@
-"""The schema of a control that describes itself: made by its family from what it said, the same whenever it says the same.
+"""The schema of a control that describes itself: made by its family from that description, the same from the same one.
 
 The description is data of outside: it is bounded, and no expression or path is taken from it. A file contains it, so that
 it opens without the control, on this machine and on any other.

@@ -1,6 +1,6 @@
-"""The schema of one control, made of what it says of itself and of what is known of the settings by their numbers.
+"""The schema of one control, made of its description and of what is known of the settings by their numbers.
 
-What the control says counts: which settings there are, their names, types, labels, bounds and marks. What is known of a
+The description counts: which settings there are, their names, types, labels, bounds and marks. What is known of a
 number adds the id, which stays the same for every control, our own help, and the conditions and rules that go by the id.
 A setting that nobody knows gets an id of its group and its name.
 """
@@ -50,11 +50,11 @@ PAGE = "ES"
 KEPT_STATES = ("per_axis_rates",)
 """Conditions by which a setting comes and goes with another one: it is known though the control does not list it now."""
 AXES_RULE = "grblhal.build.axes"
-"""Which letters a build can have: this control says which it has."""
+"""Which letters a build can have; those of a control are in its description."""
 _AXIS_GROUP = "Axis"
 _UNITS = {"microseconds": "us", "milliseconds": "ms", "step/mm": "steps/mm", "step/deg": "steps/mm"}
 _LINEAR = {"deg": "mm", "deg/min": "mm/min", "deg/s2": "mm/s2", "deg/s3": "mm/s3", "steps/deg": "steps/mm"}
-"""A rotary axis says degrees; that it turns is a matter of a setting, and the schema is the same."""
+"""A rotary axis is described in degrees; that it turns is a matter of a setting, and the schema is the same."""
 _QUANTITIES = {
     "mm": "length", "mm/min": "velocity", "mm/s2": "acceleration", "mm/s3": "jerk", "steps/mm": "counts-per-length",
     "ms": "time", "us": "time", "s": "time", "%": "percent", "rpm": "rotation", "Hz": "frequency", "V": "voltage",
@@ -235,7 +235,7 @@ class _Maker:
         return parameter.model_copy(update={"layouts": (layout,), "default": None})
 
     def _build(self) -> list[Parameter]:
-        """Return what is compiled in, with what this control says as the default."""
+        """Return what is compiled in, with the description of this control as the default."""
         axes, rate = (self.known.parameters[p] for p in ("build.axes", "build.max_step_rate"))
         told = self.told.max_step_rate
         self.ids |= {axes.id, rate.id}

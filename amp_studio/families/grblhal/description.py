@@ -1,4 +1,4 @@
-r"""What a control says of itself, line by line: axes, groups, settings, help, alarms and errors.
+r"""The description that a control gives of itself, line by line: axes, groups, settings, help, alarms and errors.
 
     [AXS:3:XYZ]                                                        $I      number of axes, their letters
     [SETTINGGROUP:43|42|X-axis]                                        $EG     group, the group it is in, name
@@ -44,7 +44,7 @@ _LINE = re.compile(r"\[([A-Z ]+):(.*)\]")
 
 @dataclass(frozen=True)
 class Setting:
-    """One setting, as ``$ES`` tells it."""
+    """One setting, as ``$ES`` lists it."""
 
     number: int
     group: int
@@ -75,12 +75,12 @@ class SettingGroup:
 
 @dataclass
 class Description:
-    """All that a control says of itself."""
+    """The whole description of a control."""
 
     axes: str = ""
     """The letters of its axes, in order."""
     facts: dict[str, str] = field(default_factory=dict)
-    """``VER``, ``BOARD``, ``DRIVER`` … -> what it says."""
+    """``VER``, ``BOARD``, ``DRIVER`` … -> the text behind it."""
     groups: dict[int, SettingGroup] = field(default_factory=dict)
     settings: dict[int, Setting] = field(default_factory=dict)
     helps: dict[int, str] = field(default_factory=dict)

@@ -1,7 +1,7 @@
 """A file of one build on a control of another: setting by setting, by number, and what does not fit is named.
 
 A number means the same setting in every build. What a build does not have, or takes in other bounds (a mask with an axis too
-many, a choice it does not know), is told before anything is sent, where a sender would stop half-way.
+many, a choice it does not know), is listed before anything is sent, where a sender would stop half-way.
 """
 
 from __future__ import annotations

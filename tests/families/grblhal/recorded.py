@@ -1,4 +1,4 @@
-"""What a fresh build of the firmware for three axes says of itself and of its settings, and builds made of that."""
+"""What a fresh build of the firmware for three axes lists of itself and of its settings, and builds made of that."""
 
 from __future__ import annotations
 

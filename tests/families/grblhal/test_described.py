@@ -1,4 +1,4 @@
-"""The schema of a control is what it says of itself, with the ids, help, conditions and rules of the numbers that are known."""
+"""The schema of a control is its own description, with the ids, help, conditions and rules of the numbers that are known."""
 
 from __future__ import annotations
 
@@ -258,7 +258,7 @@ def test_whatever_a_control_says_there_is_a_schema_or_a_plain_refusal(data: st.D
 
 
 def test_the_facts_of_the_database_are_those_of_the_firmware() -> None:
-    """What a fresh build says of each known number is what is in the database of it."""
+    """What a fresh build lists of each known number is what is in the database of it."""
     known, told = load_schema("grblhal"), schema_of(THREE_AXES)
     for parameter in known.parameters.values():
         other = told.parameters[parameter.id]
