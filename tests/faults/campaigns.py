@@ -23,7 +23,7 @@ from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
-from . import persons, sheets, stored, texts, wire
+from . import own_contents, own_protocols, persons, sheets, stored, texts, wire
 from .command_lines import fuzz_command_lines
 from .lines import download_over_bad_lines
 from .verbs import VERBS, fail_calls
@@ -108,6 +108,16 @@ CAMPAIGNS = (
     Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 1, 5),
     Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 1, 10),
     Campaign("download over a bad line, TCP and pty", download_over_bad_lines, 300, 1, 10),
+    Campaign(
+        "NUM table over a bad line, power off in the load", own_protocols.table_under_faults, 2_000, 2, 100
+    ),
+    Campaign(
+        "ACR terminal over a bad line, power off in the save",
+        own_protocols.terminal_under_faults,
+        2_000,
+        2,
+        100,
+    ),
     Campaign("hostile control", partial(_hostile, exchange_with_hostile_control), 1_000, 10, 50),
     Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 5, 50),
     Campaign("damaged YAML", partial(_damaged, texts.fuzz_yaml), MANY, 100, 5_000),
@@ -118,6 +128,19 @@ CAMPAIGNS = (
     Campaign("damaged texts of controls", partial(_damaged_in, texts.fuzz_imports), MANY, 50, 2_000),
     Campaign("odd values", partial(_damaged, texts.fuzz_entries), MANY, 50, 5_000),
     Campaign("damaged control image", _images, MANY, 100, 5_000),
+    Campaign(
+        "damaged contents of NUM and ACR", partial(_damaged, own_contents.fuzz_contents), MANY, 100, 5_000
+    ),
+    Campaign(
+        "damaged unloads of a NUM control", partial(_damaged, own_contents.fuzz_unloads), MANY, 200, 5_000
+    ),
+    Campaign(
+        "odd keys and bytes at emulated NUM and ACR controls",
+        partial(_damaged_in, own_contents.fuzz_devices),
+        MANY,
+        50,
+        2_000,
+    ),
     Campaign("damaged frames", partial(_damaged, wire.fuzz_frames), MANY, 500, 5_000),
     Campaign("damaged messages", partial(_damaged, wire.fuzz_messages), MANY, 1_000, 5_000),
     Campaign("damaged telnet", partial(_damaged, wire.fuzz_telnet), MANY, 500, 5_000),

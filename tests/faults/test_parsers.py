@@ -51,6 +51,7 @@ READERS = {
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/parameters.py": "damaged digests",
     "transfer/client/verification.py": "damaged control image",
+    "transfer/content.py": "damaged control image",
     "transfer/emulated/emulator.py": "odd commands at an emulated control",
     "transfer/emulated/faults.py": "damaged practice faults",
     "transfer/emulated/memory.py": "damaged memory of an emulated control",

@@ -17,6 +17,7 @@ from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
     AtControl,
     CancelledError,
+    ConnectionCutError,
     ControlFullError,
     ImageDamagedError,
     ImageRejectedError,
@@ -46,6 +47,8 @@ from .terminal import Terminal
 USUAL = SerialSettings(baud=9_600)
 """As delivered (Communications, page 66)."""
 ASKED = 6  # times a query is sent until two answers in a row are the same
+SET_TRIES = 3
+SAVES = 6  # times a setting is looked for and saved again where the line broke meanwhile
 SAVE_WAIT = 30.0  # seconds ESAVE may take
 CAN_BE_OFF = ("LOPASS", "NOTCH")
 AXES = "XYZABCUV"
@@ -198,27 +201,35 @@ class TerminalDriver(AcrContent):
             self._waiting.look()
             self._set(sending, name)
             self._waiting.notify("download", number, len(sending.names))
-        if self._terminal.cuts != cuts:
-            self._set_again(sending)
-        rows = self._terminal.obey("ESAVE", SAVE_WAIT, sending.begin_save)
-        if rows:
-            raise ControlFullError(
-                f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has not saved"
-            )
+        for _ in range(SAVES):
+            if self._terminal.cuts != cuts:
+                cuts = self._terminal.cuts
+                self._set_again(sending)
+                continue
+            rows = self._terminal.obey("ESAVE", SAVE_WAIT, sending.begin_save)
+            if rows:
+                raise ControlFullError(
+                    f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has not saved"
+                )
+            if self._terminal.cuts == cuts:
+                return
+        raise ConnectionCutError("the line breaks each time the card is to save")
 
     def _set(self, sending: _Sending, name: str) -> None:
-        """Send the command of one setting, and read it back; raises ImageRejectedError with its line."""
-        line, wanted = sending.lines[name], sending.wanted[name]
-        where = f"line {sending.numbers[name]} of the script, '{line}'"
-        with self._terminal.seen_through():
-            rows = self._terminal.obey(line, sent=partial(sending.is_sent, name))
-            if rows:
-                raise ImageRejectedError(f"{where}: the card answers '{rows[0][:SHOWN]}'")
-            present = self._present(name, len(wanted))
-        if present is None or not same_figures(present, wanted):
+        """Send the command of one setting until it is read back; raises ImageRejectedError with its line."""
+        line, wanted, fault = sending.lines[name], sending.wanted[name], ""
+        for _ in range(SET_TRIES):
+            with self._terminal.seen_through():
+                rows = self._terminal.obey(line, sent=partial(sending.is_sent, name))
+                present = self._present(name, len(wanted))
+            if not rows and present is not None and same_figures(present, wanted):
+                sending.is_proved(name)
+                return
             shown = "nothing" if not present else ", ".join(present)
-            raise ImageRejectedError(f"{where}: the card takes it and shows {shown}")
-        sending.is_proved(name)
+            fault = (
+                f"the card answers '{rows[0][:SHOWN]}'" if rows else f"the card takes it and shows {shown}"
+            )
+        raise ImageRejectedError(f"line {sending.numbers[name]} of the script, '{line}': {fault}")
 
     def _set_again(self, sending: _Sending) -> None:
         """Set once more what a card has forgotten that lost its power meanwhile: half of it is not saved."""

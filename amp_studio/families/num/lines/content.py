@@ -79,8 +79,15 @@ class NumTableContent:
 
 
 def content_of_table(table: str) -> bytes:
-    """Return the content of a table that has come; what a person typed behind the job reference is left out of it."""
+    """Return the content of a table that has come.
+
+    What a person typed behind the job reference is left out of it, and Xoff is on a line alone: both would be another
+    content of the same control.
+    """
     first, end, rest = table.partition("\n")
+    if end and not rest.endswith("\n\x13") and rest != "\x13":
+        ending = "\r\n" if first.endswith("\r") else "\n"
+        rest = f"{rest.removesuffix(chr(0x13)).removesuffix(ending[:-1])}{ending}\x13"
     if found := re.match(r"%[0-9]{8}", first):
         ending = "\r" if first.endswith("\r") else ""
         first = f"{found[0]};09{ending}"
