@@ -52,6 +52,8 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.img",
     ),
     "restore": ("amp-studio restore uploaded.img --to tcp://127.0.0.1:8193",),
+    "send": (f"amp-studio send {MILL} --to tcp://127.0.0.1:8194 --protocol xmodem-1k",),
+    "receive": ("amp-studio receive --from tcp://127.0.0.1:8195 -o received.txt --protocol ymodem",),
     "simulate": (
         f"amp-studio simulate {MILL} --list",
         f"amp-studio simulate {MILL} step --axis X",

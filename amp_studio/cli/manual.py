@@ -22,7 +22,7 @@ EXIT_CODES = (
 )
 _FAMILY = ("schema", "show", "tables", "calculate", "new", "import", "emulate")
 _PARAM = ("show", "set", "get", "fix", "simulate")
-_ADDRESS = ("diff", "emulate", "identify", "download", "verify", "upload", "restore")
+_ADDRESS = ("diff", "emulate", "identify", "download", "verify", "upload", "restore", "send", "receive")
 _PARAMETERS = (
     "1300                 the number in the manual",
     "home.calibration@X   id and axis, by letter or number",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -43,6 +44,11 @@ _USUAL = {
     "shell": "bash, zsh or fish",
 }
 """Name of an argument -> its help where a verb has no other."""
+
+
+SENDING = ("xmodem", "xmodem-1k", "ymodem", "raw")
+RECEIVING = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
+"""Protocols of plain files, the usual one first; here, because help loads no room (a test compares them)."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -140,6 +146,20 @@ def parser(asked: str = "") -> argparse.ArgumentParser:
                          help="only where the control contains the image with this digest, as verify and upload print it")  # fmt: skip
         sub.add_argument(
             "--keep", type=_folder, metavar="DIR", help=f"where to keep what the control contained ({kept})"
+        )
+
+    def plain(sub: argparse.ArgumentParser, protocols: tuple[str, ...]) -> None:
+        sub.add_argument(
+            "--protocol", choices=protocols, help=f"how the file is carried (default: {protocols[0]})"
+        )
+        sub.add_argument("--wait", type=_seconds, default=60.0, metavar="SECONDS",
+                         help="how long the other end may take to begin (default: 60)")  # fmt: skip
+        sub.add_argument("--percent", action="store_true", help="raw: %% before and after the text")
+        sub.add_argument(
+            "--leader", type=_count, default=0, metavar="N", help="raw: blank signs before and after"
+        )
+        sub.add_argument(
+            "--blank", choices=("nul", "space"), default="nul", help="raw: the blank sign (default: nul)"
         )
 
     sub = verb("families", "facts", "list the control families")
@@ -323,6 +343,30 @@ def parser(asked: str = "") -> argparse.ArgumentParser:
     sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
     json_option(sub)
     secrets_option(sub)
+    sub = verb("send", "plain_files", "send a plain file to any control that takes one")
+    sub.add_argument("files", nargs="+", type=_path, metavar="FILE", help="several with ymodem only")
+    sub.add_argument("--to", required=True, metavar="ADDRESS")
+    plain(sub, SENDING)
+    sub = verb(
+        "receive", "plain_files", "receive a plain file from any control that sends one", writes="output"
+    )
+    sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
+    sub.add_argument(
+        "-o",
+        "--output",
+        type=_path,
+        required=True,
+        help="new file; with ymodem also a folder, which gets every file",
+    )
+    plain(sub, RECEIVING)
+    sub.add_argument("--keep-padding", action="store_true", help="leave the 1Ah that fill the last block up")
+    sub.add_argument(
+        "--idle",
+        type=_seconds,
+        default=5.0,
+        metavar="SECONDS",
+        help="silence that ends a raw text (default: 5)",
+    )
     sub = verb("simulate", "motion", "check settings in motion", writes="output")
     sub.add_argument("path", type=_path)
     sub.add_argument("scenario", nargs="?")
@@ -386,6 +430,12 @@ def verbs_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]
 
 
 def _count(text: str) -> int:
-    if not (text.isdecimal() and int(text) > 0):
-        raise argparse.ArgumentTypeError(f"{text} is no number of processes")
+    if not (text.isdecimal() and 0 < int(text) <= 100_000):
+        raise argparse.ArgumentTypeError(f"{text} is no number from 1 to 100000")
     return int(text)
+
+
+def _seconds(text: str) -> float:
+    if not re.fullmatch(r"\d{1,5}(\.\d{1,3})?", text, re.ASCII) or float(text) <= 0:
+        raise argparse.ArgumentTypeError(f"{text} is no number of seconds")
+    return float(text)

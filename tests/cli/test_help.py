@@ -6,9 +6,11 @@ import os
 import re
 import shlex
 import shutil
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -21,6 +23,12 @@ from amp_studio.cli.parser import parser, verbs_of
 from amp_studio.scenarios import scenario_names
 from amp_studio.schema import family_ids
 from amp_studio.sim import SCENARIOS as SIMULATED
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links.tcp import TcpLink
+from amp_studio.transfer.plain.line import ByteLine
+from amp_studio.transfer.plain.receiver import BlockReceiver
+from amp_studio.transfer.plain.sender import BlockSender
+from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / MILL
 AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore")
@@ -88,7 +96,12 @@ def test_the_parser_of_one_verb_is_the_one_among_all() -> None:
 
 def offline() -> Iterator[str]:
     """Yield the examples that need no control, in their order."""
-    yield from (line for verb, lines in EXAMPLES.items() if verb not in AT_A_CONTROL for line in lines)
+    yield from (
+        line
+        for verb, lines in EXAMPLES.items()
+        if verb not in (*AT_A_CONTROL, "send", "receive")
+        for line in lines
+    )
 
 
 @pytest.mark.parametrize("line", [line for line in offline() if " demo " not in line])
@@ -114,6 +127,28 @@ def test_the_examples_at_a_control_work_word_for_word_one_after_the_other(here: 
                     assert done.returncode == 0, (line, done.stderr)
         finally:
             control.kill()
+
+
+def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
+    def receive(line: ByteLine) -> None:
+        receiver = BlockReceiver(line)
+        assert receiver.receive(None).startswith((here / "MILL_1394.amp").read_bytes())
+        receiver.finish()
+
+    def send(line: ByteLine) -> None:
+        send_batch(BlockSender(line, long_blocks=True), [PlainFile("received.txt", b"N1")])
+
+    for verb, port, end in (("send", 8194, receive), ("receive", 8195, send)):
+        (example,) = EXAMPLES[verb]
+        try:
+            listening = socket.create_server(("127.0.0.1", port))
+        except OSError:
+            pytest.skip("the port of the example is taken")
+        with listening, ThreadPoolExecutor(1) as pool:
+            served = pool.submit(lambda: end(ByteLine(TcpLink(Endpoint("tcp"), listening.accept()[0]))))  # noqa: B023
+            assert cli.run(shlex.split(example)[1:]) == 0
+            served.result(10)
+    assert (here / "received.txt").read_bytes() == b"N1"
 
 
 # -- wrong names ------------------------------------------------------------------------------------------------

@@ -28,6 +28,7 @@ READERS = {
     "cli/files.py": "damaged control image",
     "cli/identify.py": "damaged control image",
     "cli/out_of_range.py": "",  # whether somebody is at the terminal
+    "cli/plain_files.py": "",  # carries any bytes as they are
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
     "demo.py": "",  # whether there is a display

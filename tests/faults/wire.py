@@ -5,10 +5,16 @@ from __future__ import annotations
 import dataclasses
 import random
 from collections.abc import Iterator
+from unittest import mock
 
 from amp_studio.transfer.house.frame import MAX_ENCODED, MAX_PAYLOAD, Frame, FrameDecoder, encode_frame
 from amp_studio.transfer.house.message import LAYOUTS, MESSAGES, Message, RefusalError, pack, unpack
 from amp_studio.transfer.links.telnet import LONGEST_OPTION, Data, TelnetReader
+from amp_studio.transfer.plain.line import ByteLine, PlainFileError
+from amp_studio.transfer.plain.raw import Tape, read_tape
+from amp_studio.transfer.plain.sender import BlockSender
+from amp_studio.transfer.plain.ymodem import PlainFile, receive_batch, send_batch
+from tests.transfer.plain.ends import Wild
 
 from .texts import violations
 
@@ -136,3 +142,27 @@ def fuzz_telnet(seed: int, count: int) -> list[str]:
 
     streams = (damaged(b"".join(chance.choices(_TELNET, k=6)), chance) for _ in range(count))
     return violations(streams, look, ())
+
+
+def fuzz_plain_files(seed: int, count: int) -> list[str]:
+    """Send to and receive from ends that say anything: each transfer ends, by a sentence where it fails, and takes no memory."""
+
+    def look(number: int) -> None:
+        wild = Wild(number)
+        line = ByteLine(wild, clock=wild.clock)
+        try:
+            if number % 3 == 0:
+                receive_batch(line)
+            elif number % 3 == 1:
+                send_batch(BlockSender(line, long_blocks=True), [PlainFile("x", bytes(2_000))])
+            else:
+                read_tape(line, Tape(percent=wild.chance.random() < 0.5), 1.0)
+        finally:
+            assert wild.now < 2_000, f"it took {wild.now:.0f} s"
+            assert len(line._rest) <= 70_000
+
+    with (
+        mock.patch("amp_studio.transfer.plain.receiver.LARGEST", 5_000),
+        mock.patch("amp_studio.transfer.plain.raw.LARGEST", 90_000),
+    ):
+        return violations(iter(range(seed * count, (seed + 1) * count)), look, (PlainFileError,))

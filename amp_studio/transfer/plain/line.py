@@ -1,0 +1,149 @@
+"""A link as these protocols use it: so many bytes within so many seconds, and a person who may break off."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.progress import SILENT, Progress, quiet
+
+from .blocks import CAN, CANCEL
+
+LOOK = 0.1  # seconds between two looks at whoever may break off
+STORED = 65_536  # bytes that are kept while nobody reads
+SILENT_AFTER = 1.8  # seconds without a byte until whoever waits is notified
+SILENT_EVERY = 1.0  # seconds until he is notified again
+
+
+class PlainFileError(TransferError):
+    """A file that did not get through; ``what`` includes what is known of the other end."""
+
+    def __str__(self) -> str:
+        return self.what
+
+
+@dataclass(frozen=True)
+class Patience:
+    """Seconds. ``start`` until the other end begins, ``answer`` for an answer, ``ask`` between two requests to begin,
+    ``gap`` between two bytes of a block, ``noise`` for an answer that was disturbed, ``quiet`` after which a disturbed line has come to rest, ``stall`` without
+    progress until the transfer is given up.
+    """
+
+    start: float = 60.0
+    answer: float = 10.0
+    ask: float = 3.0
+    gap: float = 1.0
+    noise: float = 1.0
+    quiet: float = 0.3
+    stall: float = 60.0
+
+
+class ByteLine:
+    """Reads and writes bytes; every wait has an end. Raises PlainFileError when the line is gone or ``cancel`` is set."""
+
+    def __init__(
+        self,
+        link: Link,
+        patience: Patience | None = None,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.patience = patience or Patience()
+        self.progress = progress
+        self.now = clock
+        self._link = link
+        self._cancel = cancel
+        self._rest = bytearray()
+        self._heard_at = self._told_at = clock()
+
+    def get(self, count: int, seconds: float) -> bytes:
+        """Return ``count`` bytes, or fewer where no further one has come for so long."""
+        end = self.now() + seconds
+        while len(self._rest) < count:
+            self.look()
+            left = end - self.now()
+            if left <= 0:
+                break
+            came = self._read(min(left, LOOK))
+            if came:
+                self._rest += came
+                end = self.now() + seconds
+        data = bytes(self._rest[:count])
+        del self._rest[:count]
+        return data
+
+    def waiting(self) -> bytes:
+        """Return what has come already."""
+        data = bytes(self._rest) or self._read(0)
+        self._rest.clear()
+        return data
+
+    def put_back(self, data: bytes) -> None:
+        """Have bytes read again."""
+        self._rest[:0] = data
+
+    def put(self, data: bytes) -> float:
+        """Write, and return when the last byte has left this end: a slow line takes its time after that."""
+        began = self.now()
+        try:
+            self._link.write(data)
+        except LinkError as error:
+            raise self._lost(error) from None
+        self.look()
+        rate = self._link.bytes_per_second
+        gone = max(self.now(), began + (len(data) / rate if rate else 0.0))
+        self._heard_at = self._told_at = gone  # nobody can answer before
+        return gone
+
+    def await_time(self, when: float) -> None:
+        """Wait until a time."""
+        while (left := when - self.now()) > 0:
+            self._rest += self._read(min(left, LOOK))
+            del self._rest[:-STORED]
+            self.look()
+
+    def give_up(self) -> None:
+        """Tell the other end that nothing more comes, if it still hears."""
+        with contextlib.suppress(OSError):
+            self._link.write(CANCEL)
+
+    def drop(self) -> bool:
+        """Forget what has come; returns whether the other end gives up in it (two CAN)."""
+        return bytes([CAN, CAN]) in self.waiting()
+
+    def rest(self) -> None:
+        """Forget what comes until the line is at rest, for some seconds at most."""
+        end = self.now() + max(3.0, 10 * self.patience.quiet)
+        while self.now() < end and (self._rest or self.get(1, self.patience.quiet)):
+            self._rest.clear()
+
+    def look(self) -> None:
+        """Raise PlainFileError where somebody has broken off; notify of silences."""
+        if self._cancel is not None and self._cancel.is_set():
+            raise PlainFileError("stopped")
+        now = self.now()
+        silent = now - self._heard_at
+        if silent >= SILENT_AFTER and now - self._told_at >= SILENT_EVERY:
+            self._told_at = now
+            self.progress(SILENT, round(silent), round(self.patience.stall))
+
+    def _read(self, seconds: float) -> bytes:
+        try:
+            came = self._link.read(seconds)
+        except LinkError as error:
+            raise self._lost(error) from None
+        if came:
+            was_silent = self._told_at > self._heard_at
+            self._heard_at = self._told_at = self.now()
+            if was_silent:
+                self.progress(SILENT, 0, round(self.patience.stall))
+        return came
+
+    def _lost(self, error: LinkError) -> PlainFileError:
+        return PlainFileError(f"the line is cut ({error})")
