@@ -102,7 +102,7 @@ def _line(
     progress: Progress,
     cancel: threading.Event | None,
 ) -> Iterator[tuple[ByteLine, Link]]:
-    """Give the open line; what goes wrong on it tells the other end that nothing more comes."""
+    """Give the open line; after an error the other end is notified that nothing more comes."""
 
     def look() -> None:
         if cancel is not None and cancel.is_set():

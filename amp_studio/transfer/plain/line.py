@@ -14,9 +14,9 @@ from amp_studio.transfer.progress import SILENT, Progress, quiet
 
 from .blocks import CAN, CANCEL
 
-LOOK = 0.1  # seconds between two looks at whoever may break off
+LOOK = 0.1  # seconds between two looks at the cancel event
 STORED = 65_536  # bytes that are kept while nobody reads
-SILENT_AFTER = 1.8  # seconds without a byte until whoever waits is notified
+SILENT_AFTER = 1.8  # seconds without a byte until the person who waits is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
 
 
@@ -29,9 +29,9 @@ class PlainFileError(TransferError):
 
 @dataclass(frozen=True)
 class Patience:
-    """Seconds. ``start`` until the other end begins, ``answer`` for an answer, ``ask`` between two requests to begin,
+    """Limits in seconds. ``start`` until the other end begins, ``answer`` for an answer, ``ask`` between two requests to begin,
     ``gap`` between two bytes of a block, ``noise`` for an answer that was disturbed, ``quiet`` after which a disturbed line has come to rest, ``stall`` without
-    progress until the transfer is given up.
+    progress until the transfer is cancelled.
     """
 
     start: float = 60.0
@@ -109,7 +109,7 @@ class ByteLine:
             self.look()
 
     def give_up(self) -> None:
-        """Tell the other end that nothing more comes, if it still hears."""
+        """Cancel the transfer at the other end, if that still hears."""
         with contextlib.suppress(OSError):
             self._link.write(CANCEL)
 

@@ -25,7 +25,7 @@ class Tape:
 
 
 def punch(line: ByteLine, content: bytes, tape: Tape, rate: float | None) -> None:
-    """Send a text; it has left this end at the return, and nobody says whether it has arrived."""
+    """Send a text; it has left this end at the return, and whether it has arrived is not confirmed."""
     data = punched(content, tape)
     piece = PIECE if rate is None else max(1, min(PIECE, int(rate * PIECE_SECONDS)))
     for at in range(0, len(data), piece):

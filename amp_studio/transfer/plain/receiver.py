@@ -32,7 +32,7 @@ class BlockReceiver:
         self.room = LARGEST
 
     def receive(self, total: int | None) -> bytes:
-        """Return a whole file, with its padding; ``total`` is its size where that is known."""
+        """Return a whole file, with its padding; ``total`` is its size if known."""
         content, number = bytearray(), 1
         while (block := self.block(number, is_first=number == 1 and not content)) is not None:
             content += block

@@ -1,4 +1,4 @@
-"""Two ends in one process: links that pass bytes between threads, and one that says what a seed wants."""
+"""Two ends in one process: links that pass bytes between threads, and one that sends what a seed chooses."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def both(
 
 
 class Wild:
-    """An end that says anything, in a time of its own: whole blocks, answers, cancels, floods, nothing."""
+    """An end that sends anything, in virtual time: whole blocks, answers, cancels, floods, nothing."""
 
     bytes_per_second: float | None = None
 
