@@ -22,6 +22,7 @@ import machine
 import rules
 import screen
 import sim
+import sim_laws
 import warm
 from measure import Measure, table
 
@@ -50,6 +51,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from warm.measures(folder, full, example, times)
     yield from rules.measures(folder, full, times)
     yield from sim.measures(folder, times)
+    yield from sim_laws.measures(times)
     yield from screen.measures(folder, full, times)
     yield from exchange.measures(folder, example, max(1, times // 3))
 

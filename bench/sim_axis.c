@@ -17,7 +17,8 @@ static double after(const Mass *mass, double speed, double push) {
 }
 
 static double counted(double position, double count, double counts) {
-    return floor(position * counts + 0.5) * count;
+    const double whole = 6755399441055744.0;
+    return (position * counts + whole - whole) * count;
 }
 
 static double stretch(double gap, double twist, double half) {
@@ -77,13 +78,12 @@ long run(const double *p, const double *m, const double *profile, double period,
                 torque = target + (torque - target) * m[20];
                 xm += 0.5 * h * vm;
                 xl += 0.5 * h * vl;
-                double weight = -m[18] - m[19] * xl, coupling = 0.0;
+                double weight = -m[17] - m[18] * xl, coupling = 0.0;
                 double stretched = stretch(m[14], xm - xl, 0.5 * h * (vm - vl));
                 if (stretched != 0.0) {
-                    double elastic = m[12] * stretched;
-                    double kick = m[15] * mean - m[16] * weight - m[17] * elastic;
-                    coupling = elastic + m[13] * ((vm - vl) + kick);
-                    if (m[14] > 0.0 && coupling * elastic < 0.0) coupling = 0.0;
+                    coupling = m[12] * stretched + (m[13] * (vm - vl) - m[16] * weight);
+                    coupling += m[15] * mean;
+                    if (m[14] > 0.0 && coupling * stretched < 0.0) coupling = 0.0;
                 }
                 vm = after(&motor_mass, vm, mean - coupling);
                 vl = after(&load_mass, vl, coupling + weight);

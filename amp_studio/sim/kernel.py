@@ -10,12 +10,11 @@ machine code; both give equal results.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import numpy.typing as npt
 
 from .arrays import Vector
+from .counts import nearest
 from .machine import (
     DELAY_SHARE,
     DELAY_STEPS,
@@ -82,12 +81,11 @@ TIMING_SIZE = 15
 STANDSTILL = 1e-9
 """u/s: an axis that runs out is at rest below; a drive with a velocity loop brings it to 0 in no finite time."""
 
-SAMPLES, COMMAND_TIME, SHARE, PIECE, RESTLESS, ENDED, ALARM_ROW = range(7)
-"""State of the run: servo samples since the start; time, s, share of the feedrate and piece of the command; sample of the last
-motion; sample at which the command ended and row of the alarm, both -1 before."""
-PLANT = 7
-"""State of the plant: the first of the six figures of `plant.State`."""
-STATE_SIZE = 13
+ENDED, ALARM_ROW = 0, 1
+"""Of a run: sample at which the command ended and row of the alarm, both -1 before."""
+PLANT = 2
+"""State of the plant: the first of the seven figures of `plant.State`."""
+STATE_SIZE = 9
 
 BOUNDLESS = 1e12
 """Positions beyond are no motion of a machine any more, u."""
@@ -105,30 +103,14 @@ def counted(m: Vector, position: float, count: int, counts: int) -> float:
     """Return a position in whole counts, the nearest one; as it is for an ideal device (count 0)."""
     if m[count] == 0.0:
         return position
-    return math.floor(position * m[counts] + 0.5) * m[count]
+    return nearest(position * m[counts]) * m[count]
 
 
-def feed(x: Vector, timing: Vector, wanted: float) -> None:
-    """Move the time of the command by a servo period; its share of the feedrate goes towards the wanted one."""
-    share = x[SHARE]
+def fed(timing: Vector, time: float, share: float, wanted: float) -> tuple[float, float]:
+    """Return the time of the command a servo period later, and its share of the feedrate, which goes towards the wanted one."""
     most = timing[SHARE_RATE] * timing[SERVO_PERIOD]
     after = min(max(wanted, share - most), share + most)
-    x[COMMAND_TIME] += 0.5 * (share + after) * timing[SERVO_PERIOD]
-    x[SHARE] = after
-
-
-def over(x: Vector, timing: Vector, profile: Vector, error: float) -> bool:
-    """Return whether the run is over: at rest long enough after the end of the command, or not within the time for it."""
-    if int(x[PIECE]) < len(profile) // WIDTH - 1:
-        x[RESTLESS] = x[SAMPLES]
-        return False
-    if x[ENDED] < 0.0:
-        x[ENDED] = x[SAMPLES]
-    if error > timing[REST_BAND]:
-        x[RESTLESS] = x[SAMPLES]
-    if (x[SAMPLES] - x[RESTLESS]) * timing[SERVO_PERIOD] > timing[REST_TIME]:
-        return True
-    return (x[SAMPLES] - x[ENDED]) * timing[SERVO_PERIOD] > timing[SETTLE_TIME]
+    return time + 0.5 * (share + after) * timing[SERVO_PERIOD], after
 
 
 def run(
@@ -154,14 +136,16 @@ def run(
     late = delay > 0 or part > 0.0
     on_load = m[LOAD_SENSOR] == 1.0
     motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
-    load, torque, error_sum = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5]
+    load, torque, error_sum, against = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5], x[PLANT + 6]
     row, since, coasting = 0, stride, 0.0
-    most = int(timing[DRIVEN_ROWS])
+    most, last = int(timing[DRIVEN_ROWS]), len(profile) // WIDTH - 1
+    # Servo samples since the start, that of the last motion, that of the end of the command (-1 before).
+    sample, restless, ended = 0, 0, -1
+    piece, moment, share = 0, 0.0, 1.0
     while True:
-        start = x[SAMPLES] * period
-        piece = piece_at(profile, int(x[PIECE]), x[COMMAND_TIME])
-        begun, share = x[COMMAND_TIME], x[SHARE]
-        x[PIECE] = float(piece)
+        start = sample * period
+        piece = piece_at(profile, piece, moment)
+        begun = moment
         command(profile, piece, begun, io)
         io[COMMAND_VELOCITY] *= share * timing[FORWARD]
         io[COMMAND_ACCELERATION] *= share * share * timing[FORWARD]
@@ -176,15 +160,23 @@ def run(
                 return row
         else:
             position_sample(p, s, io)
-            if over(x, timing, profile, abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])):
-                return row
+            error = abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])
+            if piece < last or error > timing[REST_BAND]:
+                restless = sample
+            if piece == last:
+                if ended < 0:
+                    ended = sample
+                    x[ENDED] = float(ended)
+                if (sample - restless) * period > timing[REST_TIME]:
+                    return row
+                if (sample - ended) * period > timing[SETTLE_TIME]:
+                    return row
             if start >= timing[EMERGENCY]:
                 io[STOP] = EMERGENCY_STOP
-            waits = profile[piece * WIDTH + KIND] == IN_POSITION
-            if not waits or abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION]) <= timing[IN_POSITION_BAND]:
-                feed(x, timing, io[FEED_SHARE])
+            if profile[piece * WIDTH + KIND] != IN_POSITION or error <= timing[IN_POSITION_BAND]:
+                moment, share = fed(timing, begun, share, io[FEED_SHARE])
         sampled, velocity = io[COMMAND], io[COMMAND_VELOCITY]
-        rate = (x[COMMAND_TIME] - begun) / period
+        rate = (moment - begun) / period
         for k in range(samples):
             if coasting == 0.0:
                 if k > 0:
@@ -199,8 +191,8 @@ def run(
                     since = 0
                     passed = (k * substeps + j) * h
                     if passed > 0.0:
-                        moment = begun + passed * rate
-                        command(profile, piece_at(profile, piece, moment), moment, io)
+                        between = begun + passed * rate
+                        command(profile, piece_at(profile, piece, between), between, io)
                         io[COMMAND_VELOCITY] *= rate
                     measured = counted(
                         m, load_position if on_load else motor_position, POSITION_COUNT, POSITION_COUNTS
@@ -225,7 +217,7 @@ def run(
                         return row
                     # The control takes the output away and goes on with the command no more.
                     io[OUTPUT] = output = rate = 0.0
-                    io[COMMAND_VELOCITY] = velocity = x[SHARE] = 0.0
+                    io[COMMAND_VELOCITY] = velocity = share = 0.0
                     most = rows.shape[0]
                     brake(m)
                 since += 1
@@ -233,9 +225,9 @@ def run(
                 if late:
                     held = delayed(line, slot, delay, part, output)
                     slot = slot + 1 if slot + 1 < len(line) else 0
-                motor_position, motor, load_position, load, torque, error_sum = advance(
-                    m, motor_position, motor, load_position, load, torque, error_sum, held, h
+                motor_position, motor, load_position, load, torque, error_sum, against = advance(
+                    m, motor_position, motor, load_position, load, torque, error_sum, against, held, h
                 )
         if not abs(motor_position) < BOUNDLESS:
             io[STOP] = DIVERGED
-        x[SAMPLES] += 1.0
+        sample += 1

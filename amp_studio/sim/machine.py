@@ -153,22 +153,25 @@ KEEP, KICK, COULOMB, STATIC = 0, 1, 2, 3
 friction in motion and at rest. Of motor and load of two masses the same four from MOTOR and LOAD on."""
 MOTOR, LOAD = 4, 8
 STIFFNESS, DAMPING, HALF_GAP = 12, 13, 14
-"""Of the coupling: torque for 1 u, torque for the mean of 1 u/s in a step, u."""
-MOTOR_KICK, LOAD_KICK, ELASTIC_KICK = 15, 16, 17
-"""u/s in half a step for one unit of torque on the motor, on the load, between both."""
-GRAVITY, SPRING = 18, 19
+"""Of the coupling, by the mean difference of speeds in a step: torque for 1 u of stretch, for 1 u/s at its start, u."""
+FROM_TORQUE, FROM_WEIGHT = 15, 16
+"""Torque in the coupling for one unit of torque on the motor, on the load."""
+GRAVITY, SPRING = 17, 18
 LAG, LAG_MEAN = 20, 21
 """What is left of a difference between wanted and present torque after one physics step, and its mean in the step."""
 DELAY_STEPS, DELAY_SHARE = 22, 23
 """Delay as whole physics steps and the share of one more."""
 OUTPUT_LIMIT, TORQUE_POSITIVE, TORQUE_NEGATIVE = 24, 25, 26
-VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL = 27, 28, 29
-"""u/s for one unit of output, torque for 1 u/s, 1/s."""
+VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL, TORQUE_PER_OUTPUT = 27, 28, 29, 19
+"""u/s for one unit of output, torque for 1 u/s, torque for 1 u of the integral, torque for one unit of output."""
 MOTOR_COUNT, POSITION_COUNT, LOAD_SENSOR, TWO_MASSES = 30, 31, 32, 33
 MOTOR_COUNTS, POSITION_COUNTS = 34, 35
 """Counts in 1 u."""
 BRAKE = 36
-SIZE = 37
+GIVEN_BACK, TORQUE_OF_CHANGE, HALF_CHANGE = 37, 38, 39
+"""Of a drive with a velocity loop: share of the torque against it in a step, torque for a change of 1 u/s in a step, u/s in half a
+step for one unit of torque."""
+SIZE = 40
 
 
 def machine_array(machine: Machine, step: float) -> list[float]:
@@ -182,9 +185,11 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     m[LOAD : LOAD + STATIC + 1] = _mass(machine, load, 1.0 - own, step)
     rate = 2.0 * math.pi * frequency
     damping = 2.0 * damping_ratio * rate / (motor + load)
-    m[STIFFNESS], m[HALF_GAP] = rate * rate / (motor + load), 0.5 * machine.backlash
+    m[HALF_GAP] = 0.5 * machine.backlash
+    # The damping acts on the mean difference of speeds in the step, so that it takes energy out at any step.
     m[DAMPING] = damping / (1.0 + 0.5 * step * (motor + load) * damping)
-    m[MOTOR_KICK], m[LOAD_KICK], m[ELASTIC_KICK] = (0.5 * step * each for each in (motor, load, motor + load))
+    m[STIFFNESS] = rate * rate / (motor + load) * (1.0 - 0.5 * step * (motor + load) * m[DAMPING])
+    m[FROM_TORQUE], m[FROM_WEIGHT] = (0.5 * step * each * m[DAMPING] for each in (motor, load))
     m[GRAVITY], m[SPRING], m[BRAKE] = machine.gravity, machine.spring, machine.brake
     if machine.bandwidth > 0.0:
         lag = 2.0 * math.pi * machine.bandwidth * step
@@ -198,11 +203,15 @@ def machine_array(machine: Machine, step: float) -> list[float]:
             min(limit, machine.output_limit) for limit in m[TORQUE_POSITIVE : TORQUE_NEGATIVE + 1]
         )
     else:
-        # With this gain an ideal current loop makes the velocity an exact first-order lag, whatever the step is.
-        share = -math.expm1(-2.0 * math.pi * machine.velocity_bandwidth * step)
+        # So an ideal current loop makes the velocity an exact first-order lag, whatever the step is, and exact under a constant load.
+        rate = 2.0 * math.pi * machine.velocity_bandwidth
+        share = -math.expm1(-rate * step)
+        m[GIVEN_BACK], m[TORQUE_OF_CHANGE] = 1.0 - share / (rate * step), 1.0 / (step * total)
+        m[HALF_CHANGE] = 0.5 * step * total
         m[VELOCITY_PER_OUTPUT] = machine.velocity_per_output
         m[VELOCITY_GAIN] = share / step / total
-        m[VELOCITY_INTEGRAL] = machine.velocity_integral
+        m[VELOCITY_INTEGRAL] = m[VELOCITY_GAIN] * machine.velocity_integral
+        m[TORQUE_PER_OUTPUT] = m[VELOCITY_GAIN] * machine.velocity_per_output
     m[MOTOR_COUNT], m[POSITION_COUNT] = machine.motor_count, machine.position_count
     m[MOTOR_COUNTS], m[POSITION_COUNTS] = (
         1.0 / count if count > 0.0 else 0.0 for count in (machine.motor_count, machine.position_count)

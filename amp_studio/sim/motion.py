@@ -21,7 +21,7 @@ IO, STATE, TIMING = 2, 4, 6
 """Places of vectors that `prepared` returns."""
 Engine = Literal["auto", "plain", "compiled"]
 
-LONGEST_STEP = 0.25e-3
+LONGEST_STEP = 0.4e-3
 """Longest physics step in s."""
 STIFFEST_STEP = 0.25
 """Physics step times the fastest rate of the machine."""
@@ -143,7 +143,7 @@ def prepared(
     timing[kernel.SHARE_RATE], timing[kernel.EMERGENCY], timing[kernel.FORWARD] = math.inf, math.inf, 1.0
     io, x = [0.0] * (MONITOR + len(axis.monitors)), [0.0] * kernel.STATE_SIZE
     io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
-    x[kernel.SHARE], x[kernel.ENDED], x[kernel.ALARM_ROW] = 1.0, -1.0, -1.0
+    x[kernel.ENDED] = x[kernel.ALARM_ROW] = -1.0
     machine = machine_array(axis.machine, step)
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size

@@ -16,22 +16,25 @@ from .machine import (
     BRAKE,
     COULOMB,
     DAMPING,
-    ELASTIC_KICK,
+    FROM_TORQUE,
+    FROM_WEIGHT,
+    GIVEN_BACK,
     GRAVITY,
+    HALF_CHANGE,
     HALF_GAP,
     KEEP,
     KICK,
     LAG,
     LAG_MEAN,
     LOAD,
-    LOAD_KICK,
     MOTOR,
-    MOTOR_KICK,
     OUTPUT_LIMIT,
     SPRING,
     STATIC,
     STIFFNESS,
     TORQUE_NEGATIVE,
+    TORQUE_OF_CHANGE,
+    TORQUE_PER_OUTPUT,
     TORQUE_POSITIVE,
     TWO_MASSES,
     VELOCITY_GAIN,
@@ -39,9 +42,9 @@ from .machine import (
     VELOCITY_PER_OUTPUT,
 )
 
-State = tuple[float, float, float, float, float, float]
-"""Motor position and speed, load position and speed, torque of the motor at the end of the last step, integral of the velocity
-error in a drive with a velocity loop (u)."""
+State = tuple[float, float, float, float, float, float, float]
+"""Motor position and speed, load position and speed, torque of the motor at the end of the last step; in a drive with a velocity
+loop the integral of the velocity error (u) and the torque of friction and load in the last step."""
 
 
 def delayed(line: Vector, slot: int, steps: int, share: float, output: float) -> float:
@@ -60,13 +63,21 @@ def delayed(line: Vector, slot: int, steps: int, share: float, output: float) ->
     return (1.0 - share) * line[newer] + share * line[older]
 
 
-def wanted_torque(m: Vector, output: float, speed: float, error_sum: float, h: float) -> tuple[float, float]:
-    """Return the torque that the drive asks its current loop for, limited, and the integral of the velocity error."""
+def wanted_torque(
+    m: Vector, output: float, speed: float, error_sum: float, against: float, h: float
+) -> tuple[float, float]:
+    """Return the torque that the drive asks its current loop for, limited, and the integral of the velocity error.
+
+    ``against`` is the torque of friction and load: the speed that it takes in a step the loop gives back in the same step.
+    """
     torque, error = output, 0.0
     if m[VELOCITY_PER_OUTPUT] > 0.0:
-        output = min(max(output, -m[OUTPUT_LIMIT]), m[OUTPUT_LIMIT])
+        if abs(output) > m[OUTPUT_LIMIT]:
+            output = math.copysign(m[OUTPUT_LIMIT], output)
         error = m[VELOCITY_PER_OUTPUT] * output - speed
-        torque = m[VELOCITY_GAIN] * (error + m[VELOCITY_INTEGRAL] * error_sum)
+        torque = m[VELOCITY_INTEGRAL] * error_sum - m[VELOCITY_GAIN] * speed + m[GIVEN_BACK] * against
+        torque += m[TORQUE_PER_OUTPUT] * output
+        error -= m[HALF_CHANGE] * (torque - against)  # in the middle of the step
     # At its limit a drive does not sum what would go further.
     if torque > m[TORQUE_POSITIVE]:
         return m[TORQUE_POSITIVE], error_sum + min(error, 0.0) * h
@@ -120,16 +131,13 @@ def coupling_torque(
 ) -> float:
     """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load, ``half`` the change of the
     twist in half a step.
-
-    The damping acts on the mean difference of speeds in the step, so that it takes energy out at any step.
     """
     stretched = stretch(m[HALF_GAP], twist, half)
     if stretched == 0.0:
         return 0.0
-    elastic = m[STIFFNESS] * stretched
-    kick = m[MOTOR_KICK] * torque - m[LOAD_KICK] * weight - m[ELASTIC_KICK] * elastic
-    coupling = elastic + m[DAMPING] * (difference + kick)
-    if m[HALF_GAP] > 0.0 and coupling * elastic < 0.0:
+    coupling = m[STIFFNESS] * stretched + (m[DAMPING] * difference - m[FROM_WEIGHT] * weight)
+    coupling += m[FROM_TORQUE] * torque
+    if m[HALF_GAP] > 0.0 and coupling * stretched < 0.0:
         return 0.0
     return coupling
 
@@ -142,25 +150,28 @@ def advance(
     load: float,
     torque: float,
     error_sum: float,
+    against: float,
     output: float,
     h: float,
 ) -> State:
     """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the drive."""
-    target, error_sum = wanted_torque(m, output, motor, error_sum, h)
+    target, error_sum = wanted_torque(m, output, motor, error_sum, against, h)
     mean = target + (torque - target) * m[LAG_MEAN]
     torque = target + (torque - target) * m[LAG]
     motor_position += 0.5 * h * motor
     if m[TWO_MASSES] == 0.0:
         push = mean - m[GRAVITY] - m[SPRING] * motor_position
-        motor = speed_after(m, 0, motor, push)
+        before, motor = motor, speed_after(m, 0, motor, push)
         motor_position += 0.5 * h * motor
-        return motor_position, motor, motor_position, motor, torque, error_sum
+        against = mean - m[TORQUE_OF_CHANGE] * (motor - before)
+        return motor_position, motor, motor_position, motor, torque, error_sum, against
     load_position += 0.5 * h * load
     weight = -m[GRAVITY] - m[SPRING] * load_position
     twist, difference = motor_position - load_position, motor - load
     coupling = coupling_torque(m, twist, 0.5 * h * difference, difference, mean, weight)
-    motor = speed_after(m, MOTOR, motor, mean - coupling)
+    before, motor = motor, speed_after(m, MOTOR, motor, mean - coupling)
     load = speed_after(m, LOAD, load, coupling + weight)
     motor_position += 0.5 * h * motor
     load_position += 0.5 * h * load
-    return motor_position, motor, load_position, load, torque, error_sum
+    against = mean - m[TORQUE_OF_CHANGE] * (motor - before)
+    return motor_position, motor, load_position, load, torque, error_sum, against

@@ -43,7 +43,12 @@ def command(profile: Vector, piece: int, time: float, io: Vector) -> None:
     t = time - profile[k + START]
     p, v, a = profile[k + POSITION], profile[k + VELOCITY], profile[k + ACCELERATION]
     kind, figure = profile[k + KIND], profile[k + FIGURE]
-    if kind == EXPONENTIAL:
+    if kind in (POLYNOMIAL, IN_POSITION):
+        j = profile[k + JERK]
+        io[COMMAND] = p + t * (v + t * (0.5 * a + t * j * SIXTH))
+        io[COMMAND_VELOCITY] = v + t * (a + 0.5 * t * j)
+        io[COMMAND_ACCELERATION] = a + t * j
+    elif kind == EXPONENTIAL:
         rest = math.exp(-t / figure)
         gone = a * figure * (1.0 - rest)
         io[COMMAND] = p + (v + a * figure) * t - gone * figure
@@ -55,14 +60,9 @@ def command(profile: Vector, piece: int, time: float, io: Vector) -> None:
         io[COMMAND] = p + t * (v + 0.25 * a * t) - a * wave * wave / (rate * rate)
         io[COMMAND_VELOCITY] = v + 0.5 * a * (t - math.sin(rate * t) / rate)
         io[COMMAND_ACCELERATION] = a * wave * wave
-    elif kind == SINE:
+    else:
         j = profile[k + JERK]
         angle, rate = figure + t * (a + 0.5 * j * t), a + j * t
         io[COMMAND] = p + v * math.sin(angle)
         io[COMMAND_VELOCITY] = v * rate * math.cos(angle)
         io[COMMAND_ACCELERATION] = v * (j * math.cos(angle) - rate * rate * math.sin(angle))
-    else:
-        j = profile[k + JERK]
-        io[COMMAND] = p + t * (v + t * (0.5 * a + t * j * SIXTH))
-        io[COMMAND_VELOCITY] = v + t * (a + 0.5 * t * j)
-        io[COMMAND_ACCELERATION] = a + t * j

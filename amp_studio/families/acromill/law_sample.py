@@ -5,7 +5,8 @@ page 128; FBVEL, taken off where the PID goes into the filters, page 135. The pi
 lost. What is not printed and assumed: both feed-forwards are added where FBVEL is taken off; the integral keeps its value during I Delay; the derivative is constant
 between its samples; the output is rounded to whole words of the converter.
 
-``position_sample`` is ordinary Python over arrays of floats that numba can compile; it calls no other function.
+``position_sample`` is ordinary Python over arrays of floats that numba can compile. It reads first and puts the output out last, and what
+divides does not depend on the motion: the time of a sample is that of the longest chain of operations in it.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from __future__ import annotations
 import math
 
 from amp_studio.sim.arrays import Vector
+from amp_studio.sim.counts import nearest
 from amp_studio.sim.signals import (
     COMMAND,
     COMMAND_ACCELERATION,
@@ -63,26 +65,34 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
         io[OUTPUT] = min(max(io[COMMAND], -p[TORQUE_LIMIT]), p[TORQUE_LIMIT])
         return
     velocity, acceleration = io[COMMAND_VELOCITY] * p[PULSES], io[COMMAND_ACCELERATION] * p[PULSES]
-    motor = io[MOTOR] * p[PULSES]
+    position, motor = io[POSITION] * p[PULSES], io[MOTOR] * p[PULSES]
     if io[MODE] == VELOCITY_LOOP:  # D Gain alone controls the speed, as in steps 8 and 9 of page 115
         s[RUN] += velocity * p[PERIOD]
-        error, closed = s[RUN] - io[POSITION] * p[PULSES], 0.0
+        error, closed = s[RUN] - position, 0.0
     else:
-        error, closed = (io[COMMAND] - io[POSITION]) * p[PULSES], 1.0
+        error, closed = io[COMMAND] * p[PULSES] - position, 1.0
 
-    s[RESTING] = s[RESTING] + p[PERIOD] if velocity == 0.0 and acceleration == 0.0 else 0.0
-    if p[I_DELAY] == 0.0 or s[RESTING] > p[I_DELAY]:
-        wanted = s[INTEGRAL] + closed * p[I_GAIN] * error * p[PERIOD]
-        s[INTEGRAL] = min(max(wanted, -p[I_LIMIT]), p[I_LIMIT])
-    s[SAMPLE_IN] -= 1.0
-    if s[SAMPLE_IN] <= 0.0:
-        s[DERIVATIVE] = p[D_GAIN] * (error - s[ERROR_SAMPLED]) / (p[D_PERIODS] * p[PERIOD])
-        s[ERROR_SAMPLED], s[SAMPLE_IN] = error, p[D_PERIODS]
+    resting = s[RESTING] + p[PERIOD] if velocity == 0.0 and acceleration == 0.0 else 0.0
+    integral, derivative = s[INTEGRAL], s[DERIVATIVE]
+    speed = motor - s[MOTOR_BEFORE]
+    s[RESTING], s[MOTOR_BEFORE] = resting, motor
+    if p[I_DELAY] == 0.0 or resting > p[I_DELAY]:
+        integral += closed * p[I_GAIN] * p[PERIOD] * error
+        if abs(integral) > p[I_LIMIT]:
+            integral = math.copysign(p[I_LIMIT], integral)
+        s[INTEGRAL] = integral
+    wait = s[SAMPLE_IN] - 1.0
+    if wait <= 0.0:
+        derivative = p[D_GAIN] / (p[D_PERIODS] * p[PERIOD]) * (error - s[ERROR_SAMPLED])
+        s[DERIVATIVE], s[ERROR_SAMPLED], wait = derivative, error, p[D_PERIODS]
+    s[SAMPLE_IN] = wait
     proportional = closed * p[P_GAIN] * error
     forward = p[VEL_FFWD] * velocity + p[ACC_FFWD] * acceleration
-    volts = proportional + s[INTEGRAL] + s[DERIVATIVE] + forward
-    volts -= p[FBVEL] * (motor - s[MOTOR_BEFORE]) / p[PERIOD]
-    s[MOTOR_BEFORE] = motor
+    volts = forward + integral + proportional + derivative - p[FBVEL] / p[PERIOD] * speed
+    io[MONITOR], io[MONITOR + 1] = proportional, integral
+    io[MONITOR + 2], io[MONITOR + 3] = derivative, forward
+    if p[EXCESS] > 0.0 and closed * abs(error) > p[EXCESS]:
+        io[STOP] = EXCESS_ERROR
 
     for k in range(2):
         f, m = FILTERS + 5 * k, FILTER_STATE + 2 * k
@@ -91,12 +101,11 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
         s[m + 1] = p[f + 2] * volts + p[f + 4] * passed
         volts = passed
 
-    volts = min(max(volts, -p[TORQUE_LIMIT]), p[TORQUE_LIMIT])
-    volts = min(max(volts * p[DAC_SHARE], -FULL_VOLTS), FULL_VOLTS)
+    if abs(volts) > p[TORQUE_LIMIT]:
+        volts = math.copysign(p[TORQUE_LIMIT], volts)
+    volts *= p[DAC_SHARE]
+    if abs(volts) > FULL_VOLTS:
+        volts = math.copysign(FULL_VOLTS, volts)
     if p[DAC_WORDS] > 0.0:
-        volts = math.floor(volts * p[DAC_WORDS] + 0.5) / p[DAC_WORDS]
+        volts = nearest(volts * p[DAC_WORDS]) * (1.0 / p[DAC_WORDS])
     io[OUTPUT] = volts
-    io[MONITOR], io[MONITOR + 1] = proportional, s[INTEGRAL]
-    io[MONITOR + 2], io[MONITOR + 3] = s[DERIVATIVE], forward
-    if p[EXCESS] > 0.0 and closed * abs(error) > p[EXCESS]:
-        io[STOP] = EXCESS_ERROR

@@ -56,12 +56,13 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     if io[MODE] == OUTPUT_TEST:
         io[OUTPUT] = io[COMMAND]
         return
+    position, gain = io[POSITION], 60.0 * p[GAIN]
     reference = sent(p, s, io) if p[WHOLE] != 0.0 else late(s, io[COMMAND])
-    error = reference - io[POSITION]
-    io[OUTPUT] = 60.0 * p[GAIN] * error
     io[REFERENCE_LAG] = io[COMMAND] - reference
+    error = reference - position
     if io[STOP] == 0.0 and abs(error) > p[LIMIT]:
         io[STOP] = EXCESS_ERROR if abs(error) <= p[FATAL_LIMIT] else FATAL_ERROR
+    io[OUTPUT] = gain * error
 
 
 def sent(p: Vector, s: Vector, io: Vector) -> float:
