@@ -51,7 +51,12 @@ class TransferError(OSError):
         """Return what the control contains now, in words."""
         if self.at_control == "mixed" and self.new:
             return f"the control contains the new {', '.join(map(visible, self.new))} and the old values of the rest"
-        return AT_CONTROL_TEXT[self.at_control]
+        but = (
+            f", but the new {', '.join(map(visible, self.new))}"
+            if self.at_control == "defaults" and self.new
+            else ""
+        )
+        return AT_CONTROL_TEXT[self.at_control] + but
 
 
 class NoConnectionError(TransferError):

@@ -8,5 +8,8 @@ REGISTRATION = Registration(
     family="grblhal",
     formulas="amp_studio.families.grblhal.formulas:FORMULAS",
     formats=("amp_studio.families.grblhal.formats.listing:FORMAT",),
+    drivers={"grbl": "amp_studio.families.grblhal.driver:GrblDriver.at"},
+    contents={"grblHAL settings 1": "amp_studio.families.grblhal.kind:GrblContentKind"},
+    emulators={"grbl": "amp_studio.families.grblhal.emulated.control:emulate_grbl"},
     describe="amp_studio.families.grblhal.described:schema_of",
 )

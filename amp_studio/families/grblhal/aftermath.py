@@ -1,0 +1,92 @@
+"""What a control contains after a download broke off: read from it, setting by setting, or not known."""
+
+from __future__ import annotations
+
+from amp_studio.transfer.break_state import state_after_break
+from amp_studio.transfer.errors import AtControl, TransferError
+
+from .content import GrblContent
+from .kind import HOMING, JOG_LIMITS, LOCATE_RATE, PER_AXIS_RATES, RESET_ACTIONS, SEEK_RATE, SOFT_LIMITS
+from .numbers import is_shown_as
+from .offsets import PUT_BACK, offset_differences
+from .writing import Writing
+
+_MOVED = {
+    f"${n}" for n in (HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE, *PER_AXIS_RATES)
+}
+"""Settings that another one may have moved."""
+_MANY = 3
+"""Settings nobody has touched that are others now: more than a byte that the line has changed can do."""
+
+
+def after_break(
+    error: TransferError,
+    writing: Writing,
+    found: GrblContent | None,
+    *,
+    has_lost_memory: bool = False,
+    is_answered: bool = False,
+) -> TransferError:
+    """Return the error with what the control contains: as it was read since, else what its answers prove.
+
+    ``is_answered`` is whether the line was whole to the end: then the control has what it has answered ``ok`` to.
+    """
+    if found is not None:
+        at, new = state_of(writing, found, has_lost_memory=has_lost_memory)
+    elif is_answered:
+        at, new = answered_state(writing)
+    else:
+        at, new = ("unknown", tuple(writing.taken)) if writing.has_begun else ("old", ())
+    if error.at_control == "unknown" and at != "defaults":
+        at = "unknown"
+    error.at_control, error.new = at, new
+    return error
+
+
+def answered_state(writing: Writing) -> tuple[AtControl, tuple[str, ...]]:
+    """Return what a control contains by its answers alone, and which settings are new."""
+    new = tuple(writing.taken)
+    if writing.unanswered:
+        return "unknown", new
+    if not new:
+        return "old", ()
+    return ("mixed" if len(new) < len(writing.settings) + len(writing.others) else "new"), new
+
+
+def state_of(
+    writing: Writing, found: GrblContent, *, has_lost_memory: bool = False
+) -> tuple[AtControl, tuple[str, ...]]:
+    """Return what a control that shows ``found`` contains of a download, and which settings are new."""
+    held, wanted = _items(writing.present), _items(writing.wanted)
+    names = {f"${n}" for n in writing.settings} | writing.others.keys()
+    wanted = {name: text for name, text in wanted.items() if name in names or name in held}
+    wanted |= {name: text for name, text in held.items() if name not in names}
+    now = _items(found)
+    for name in {*held, *wanted}:
+        if name in names:
+            is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
+            if is_new and (now.get(name) != held.get(name) or name in writing.taken):
+                now[name] = wanted[name]
+        elif name in _MOVED:
+            now[name] = held[name]
+    changed = [n for n in held if n not in names and now.get(n) != held[n]]
+    at, new = state_after_break(held, wanted, {n: t for n, t in now.items() if n in held or n in wanted})
+    if (has_lost_memory and at != "old") or len(changed) >= _MANY:
+        after = writing.unanswered  # what a control that has just restarted has still taken
+        return "defaults", (after,) if after and now.get(after) == wanted.get(after) else ()
+    return at, new
+
+
+def _items(content: GrblContent) -> dict[str, str]:
+    """Return what can be written of a content, by name."""
+    return {
+        **{f"${n}": text for n, text in content.settings.items()},
+        **{n: text for n, text in content.offsets.items() if n in PUT_BACK},
+        **{f"$N{n}": line for n, line in content.startup.items()},
+    }
+
+
+def _is_shown(writing: Writing, found: GrblContent, name: str, text: str, shown: str) -> bool:
+    if name in PUT_BACK:
+        return name not in offset_differences(writing.wanted, found)
+    return is_shown_as(text, shown) if name[1:].isdigit() else text == shown

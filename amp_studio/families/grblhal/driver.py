@@ -1,0 +1,214 @@
+"""Grbl and grblHAL as one of the ways to speak to a control: settings go one line at a time, and are read back."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ImageChangedError,
+    ProtocolMismatchError,
+    TransferError,
+    WrongFamilyError,
+)
+from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.waiting import OpenLink
+
+from .aftermath import after_break, answered_state
+from .content import GrblContent, read_content, write_content
+from .kind import FAMILY, GrblContentKind, described
+from .line import GrblLine, GrblRefusalError, GrblRestartedError
+from .offsets import left_notes
+from .reading import read_control, read_identity
+from .refusals import refusal_text
+from .writing import Writing, coarse_notes, restart_notes
+
+PROTOCOL = "grbl"
+SETTLE = 0.3  # seconds between the last answer and the reading back: the memory is written after the answer, and surely
+# before the next command is executed (protocol.c ``protocol_execute_realtime``)
+RECONNECT = 10.0  # seconds in which a cut line is tried again to read what the control contains
+PAUSE = 0.3  # seconds between two tries
+RESTING = ("Idle", "Alarm", "Check")
+"""States in which settings are taken (system.c ``system_execute_line``)."""
+
+
+class GrblDriver(GrblContentKind):
+    """Speaks to a control over its text line (docs/protocols/grblhal.md)."""
+
+    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True)
+
+    def __init__(
+        self,
+        open_link: OpenLink,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
+        self._open_link, self._clock, self._sleep = open_link, clock, sleep
+        self._line: GrblLine | None = None
+        self._has_lost_memory = False  # on any line of this driver
+        self._last: GrblContent | None = None
+
+    @classmethod
+    def at(cls, endpoint: Endpoint, family: str = "") -> GrblDriver:
+        """Return the driver of an endpoint; ``family`` is the one the control must be of, "" for any."""
+        if family not in {"", FAMILY}:
+            raise WrongFamilyError(
+                f"the protocol {PROTOCOL} is that of the family {FAMILY}, not of {family}", ""
+            )
+        return cls(lambda look: connect(endpoint, look=look))
+
+    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+        """Return what ``$I`` answers."""
+        with self._conversation(progress, cancel) as line:
+            who = read_identity(line)
+            name = who.said("FIRMWARE") or "Grbl"
+            board = who.said("BOARD") or who.said("DRIVER")
+            return ControlIdentity(
+                FAMILY,
+                PROTOCOL,
+                f"{name} on {board}" if board else name,
+                who.version,
+                axes=who.axes,
+            )
+
+    def fetch(
+        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+    ) -> bytes:
+        """Return all that the control contains, as it shows it."""
+        end = self._clock() + RECONNECT
+        while True:
+            try:
+                with self._conversation(progress, cancel) as line:
+                    if stage == "verify":
+                        line.rest(SETTLE)
+                    return write_content(self._read(line, progress, stage))
+            except ConnectionCutError:
+                if stage != "verify" or self._clock() >= end:
+                    raise
+                self._sleep(PAUSE)
+
+    def send(
+        self,
+        content: bytes,
+        *,
+        signature: str,  # noqa: ARG002 -- settings go by their numbers
+        expected: bytes,
+        held: bytes,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+    ) -> Receipt:
+        """Send what differs, one line at a time, until the control shows it; offsets and harmless start-up lines too."""
+        wanted, present = read_content(content), read_content(held)
+        writing = Writing(wanted, present, described(held))
+        try:
+            with self._conversation(progress, cancel) as line:
+                self._check_rest(line)
+                found = self._read(line)
+                if hashlib.sha256(write_content(found)).digest() != expected:
+                    raise ImageChangedError("somebody has changed the settings since they were read")
+                line.messages, line.has_lost_memory, self._has_lost_memory = [], False, False
+                writing.run(line, progress)
+                self._check_memory(line)
+        except GrblRefusalError as refusal:
+            why = refusal_text(refusal, writing.names, present)
+            raise self._told(TransferError(why), writing, progress, is_answered=True) from None
+        except CancelledError as error:
+            error.at_control, error.new = answered_state(writing)
+            raise
+        except ImageChangedError:
+            raise
+        except TransferError as error:
+            if not writing.has_begun:
+                raise
+            raise self._told(error, writing, progress) from None
+        settings = writing.settings
+        notes = (
+            *coarse_notes(settings, present.settings, writing.names),
+            *restart_notes(settings, described(held)),
+            *left_notes(wanted, present),
+        )
+        needs_restart = bool(restart_notes(settings, described(held)))
+        return Receipt(restart_needed=needs_restart, notes=notes)
+
+    def wait_restarted(
+        self,
+        receipt: Receipt,  # noqa: ARG002
+        seconds: float,  # noqa: ARG002
+        progress: Progress = quiet,  # noqa: ARG002
+        cancel: threading.Event | None = None,  # noqa: ARG002
+    ) -> bool:
+        """A Grbl control never restarts by itself, and is never made to: some builds do not take a setting afterwards."""
+        return True
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._line is not None:
+            self._has_lost_memory |= self._line.has_lost_memory
+            self._line.close()
+            self._line = None
+
+    # -- inside --------------------------------------------------------------------------------------
+
+    @contextlib.contextmanager
+    def _conversation(self, progress: Progress, cancel: threading.Event | None) -> Iterator[GrblLine]:
+        """Give the line there is, or a new one; a line that broke is hung up, and its errors are those of a transfer."""
+        try:
+            if self._line is None:
+                self._line = GrblLine(
+                    self._open_link, progress=progress, cancel=cancel, clock=self._clock, sleep=self._sleep
+                )
+            self._line.serve(progress, cancel)
+            yield self._line
+        except (LinkError, GrblRestartedError) as error:
+            self.close()
+            raise ConnectionCutError(f"the line to the control broke ({error})") from None
+        except TransferError:
+            self.close()
+            raise
+
+    def _read(self, line: GrblLine, progress: Progress = quiet, stage: str = "upload") -> GrblContent:
+        """Return what the control contains; how it describes itself is asked once, and again when it has other settings."""
+        try:
+            content = read_control(line, self._last, progress, stage)
+        except GrblRefusalError as refusal:
+            raise ProtocolMismatchError(
+                f"the control does not show its settings: {refusal_text(refusal, {}, None)}"
+            ) from None
+        self._last = content
+        return content
+
+    def _check_rest(self, line: GrblLine) -> None:
+        state = line.state()
+        if state not in RESTING:
+            raise TransferError(f"the control is in the state {state}: stop the machine before a download")
+
+    def _check_memory(self, line: GrblLine) -> None:
+        """Notice that the control could not write its memory, of which there is only a message."""
+        failed = next((text for text in line.messages if "write failed" in text.casefold()), None)
+        if failed:
+            raise TransferError(f"the control cannot write its memory ({failed})", "unknown")
+
+    def _told(
+        self, error: TransferError, writing: Writing, progress: Progress, *, is_answered: bool = False
+    ) -> TransferError:
+        """Read everything again after a break, where the control answers, and return the error with what is true now."""
+        end = self._clock() + RECONNECT
+        found: GrblContent | None = None
+        while writing.has_begun and found is None and self._clock() < end:
+            with contextlib.suppress(TransferError), self._conversation(progress, None) as line:
+                line.rest(SETTLE)
+                found = self._read(line)
+            if found is None:
+                self._sleep(PAUSE)
+        lost = self._has_lost_memory or (self._line is not None and self._line.has_lost_memory)
+        return after_break(error, writing, found, has_lost_memory=lost, is_answered=is_answered)

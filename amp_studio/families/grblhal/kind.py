@@ -1,0 +1,191 @@
+"""What a copy of Grbl settings means: between a parameter file and all that a control contains, by the numbers of settings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from decimal import Decimal
+
+from amp_studio.files import Header, ParameterFile
+from amp_studio.schema import InvalidValueError, Schema, Value, load_schema
+from amp_studio.schema.described import DescriptionError, described_schema
+from amp_studio.transfer.image import ImageError
+
+from .bounds import BoundsError, check_text
+from .content import GrblContent, read_content, write_content
+from .description import Setting, description_of, read_description
+from .fitting import fit_to
+from .numbers import decimals_of, is_shown_as, read_number, shown_number, written_number
+from .offsets import PUT_BACK, offset_differences
+from .settings import settings_of_file, values_of_settings
+
+FAMILY, CLASSIC = "grblhal", "grbl-1.1"
+HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE = 22, 20, 40, 676, 24, 25
+AXIS_LOCATE_RATE, AXIS_SEEK_RATE = 180, 190
+PER_AXIS_RATES = range(180, 200)
+"""Settings that are there only while bit 9 of $22 is set (settings.c ``is_setting_available``)."""
+_PER_AXIS, _KEEP_HOMED = 1 << 9, 1 << 7
+_SHOWN = 5
+"""Differences that a message names."""
+
+
+class GrblContentKind:
+    """``grblHAL settings 1`` (docs/protocols/grblhal.md)."""
+
+    has_header = False
+
+    def decode(self, content: bytes) -> ParameterFile:
+        """Return the settings as a file, with the schema that the control describes; raises ImageError."""
+        read = read_content(content)
+        machine = "" if read.describes_itself else CLASSIC
+        try:
+            schema = _schema_of(read, content)
+            file = ParameterFile(
+                schema, Header(revision=read.version, machine=machine, signature=schema.signature)
+            )
+            values, others = values_of_settings(schema, read.settings, machine)
+        except (InvalidValueError, DescriptionError) as error:
+            raise ImageError(str(error)) from None
+        file.take({**values, ("build.axes", ""): Value("".join(read.axes))})
+        file.unknown.update({f"${number}": text for number, text in others.items()})
+        return file
+
+    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+        """Return what a control contains after a download: the file's settings by their numbers, else what is in ``held``.
+
+        Raises ImageError for a setting that the control does not have, and for a value that it would not store as it is.
+        """
+        if file.schema.family.family != FAMILY:
+            raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
+        present = read_content(held)
+        try:
+            wanted = _wanted(file, _schema_of(present, held))
+        except (InvalidValueError, DescriptionError) as error:
+            raise ImageError(str(error)) from None
+        settings = _fitted(wanted, present, described(held))
+        return write_content(replace(present, settings=settings))
+
+    def refit(self, content: bytes, held: bytes) -> bytes:
+        """Return what a control contains once a copy is put back: its settings, offsets and start-up lines; raises ImageError.
+
+        How the control describes itself stays, so that a copy of another build goes back too, by the numbers.
+        """
+        copy, present = read_content(content), read_content(held)
+        settings = _fitted(copy.settings, present, described(held))
+        offsets = {
+            **present.offsets,
+            **{n: at for n, at in copy.offsets.items() if n in present.offsets},
+        }
+        if copy.axes != present.axes and copy.offsets != present.offsets:
+            offsets = dict(present.offsets)  # coordinates of other axes
+        startup = {**present.startup, **{n: line for n, line in copy.startup.items() if n in present.startup}}
+        return write_content(replace(present, settings=settings, offsets=offsets, startup=startup))
+
+    def difference(self, content: bytes, found: bytes) -> str:
+        """Return which settings, offsets and start-up lines differ as far as the control shows them."""
+        wanted, present = read_content(content), read_content(found)
+        told = [
+            f"in ${n}, which is {present.settings.get(n, 'not there')} and not {text}"
+            for n, text in wanted.settings.items()
+            if not is_shown_as(text, present.settings.get(n, ""))
+        ]
+        told += [
+            f"in {name}, which is {present.offsets.get(name, 'not there')} and not {wanted.offsets[name]}"
+            for name in offset_differences(wanted, present)
+            if name in PUT_BACK
+        ]
+        more = [f"and in {len(told) - _SHOWN} more"] if len(told) > _SHOWN else []
+        return ", ".join(told[:_SHOWN] + more)
+
+
+def described(content: bytes) -> Mapping[int, Setting]:
+    """Return number -> what the control describes of a setting; nothing of one that does not."""
+    try:
+        return read_description(content).settings
+    except DescriptionError:
+        return {}
+
+
+def _schema_of(read: GrblContent, content: bytes) -> Schema:
+    """Return the schema that a control describes, the family's own for a Grbl 1.1; raises DescriptionError."""
+    return described_schema(FAMILY, description_of(content)) if read.describes_itself else load_schema(FAMILY)
+
+
+def _wanted(file: ParameterFile, schema: Schema) -> dict[int, str]:
+    """Return number -> text of what a file sets; raises ImageError where a control of another build cannot take it."""
+    if file.schema.signature != schema.signature:
+        fitted = fit_to(file, schema)
+        if fitted.misfits:
+            named = "; ".join(map(str, fitted.misfits[:_SHOWN]))
+            more = f" and {len(fitted.misfits) - _SHOWN} more" if len(fitted.misfits) > _SHOWN else ""
+            raise ImageError(f"this control cannot take all of the file: {named}{more}")
+        file = fitted.file
+    others = {int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)}
+    return {**others, **settings_of_file(file)}
+
+
+def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int, Setting]) -> dict[int, str]:
+    """Return the settings of a control after these are written; raises ImageError."""
+    settings = dict(present.settings)
+    homing = wanted.get(HOMING, settings.get(HOMING, "0"))
+    has_rates = homing.isdecimal() and bool(int(homing) & _PER_AXIS)
+    comes = {n for n in PER_AXIS_RATES if has_rates and n % 10 < len(present.axes)}
+    lacking = [n for n in wanted if n not in settings and n not in comes and n not in PER_AXIS_RATES]
+    if lacking:
+        raise ImageError(_lacking_text(lacking))
+    for number, text in wanted.items():
+        if number not in settings and number not in comes:
+            continue
+        shown = settings.get(number, "")
+        if is_shown_as(text, shown) and _is_as_fine(text, shown):
+            continue
+        try:
+            check_text(known.get(number), number, text, len(present.axes))
+        except BoundsError as error:
+            raise ImageError(str(error)) from None
+        settings[number] = _as_shown(text, shown)
+    return _moved(settings, wanted, has_rates=has_rates)
+
+
+def _lacking_text(numbers: list[int]) -> str:
+    named = ", ".join(f"${n}" for n in numbers[:20]) + (
+        f" and {len(numbers) - 20} more" if len(numbers) > 20 else ""
+    )
+    return f"the control does not have {named}: set {'it' if len(numbers) == 1 else 'them'} to not-set in the file to send the rest"
+
+
+def _is_as_fine(text: str, shown: str) -> bool:
+    """Whether what is shown is all of it: of 0.0004 a control shows 0.000, and may contain either."""
+    return text == shown or (decimals_of(shown) is not None and Decimal(text) == Decimal(shown))
+
+
+def _as_shown(text: str, shown: str) -> str:
+    """Return a text in the form in which the control will show it, if it is the same number."""
+    decimals = decimals_of(shown)
+    if decimals is None:
+        return text
+    will_show = shown_number(read_number(text), decimals)
+    return will_show if Decimal(will_show) == Decimal(text) else written_number(float(text))
+
+
+def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bool) -> dict[int, str]:
+    """Return the settings with those that others move and nobody has set (settings.c ``set_homing_enable``)."""
+    moved: dict[int, str] = {}
+    if HOMING in wanted and wanted[HOMING].isdecimal():
+        homing = int(wanted[HOMING])
+        if not homing & 1:
+            moved |= {SOFT_LIMITS: "0", JOG_LIMITS: "0"}
+        if settings.get(RESET_ACTIONS, "").isdecimal():
+            keeps = homing & 1 and homing & _KEEP_HOMED
+            moved[RESET_ACTIONS] = str(int(settings[RESET_ACTIONS]) & ~1 | (0 if keeps else 1))
+    if has_rates:
+        for number, first in ((LOCATE_RATE, AXIS_LOCATE_RATE), (SEEK_RATE, AXIS_SEEK_RATE)):
+            if first in settings:
+                settings[number] = _as_shown(settings[first], settings.get(number, ""))
+    else:
+        settings = {n: text for n, text in settings.items() if n not in PER_AXIS_RATES}
+    for number, text in moved.items():
+        if number in settings and number not in wanted:
+            settings[number] = text
+    return settings

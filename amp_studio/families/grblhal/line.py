@@ -1,0 +1,249 @@
+"""The line to a Grbl control: one command at a time, its answer up to ``ok`` or ``error:N``, and what comes unasked.
+
+The control may push an alarm, a message, a status report or the greeting of a start between any two lines. A client that was
+lost may have left half a line: it is erased before the first command (``docs/protocols/grblhal.md``).
+"""
+
+from __future__ import annotations
+
+import re
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+
+from amp_studio.schema.visible import visible
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ControlSilentError,
+    NoConnectionError,
+    ProtocolMismatchError,
+)
+from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.waiting import OpenLink, Waiting
+
+ERASE = b"\x7f" * 260 + b"\n"
+"""More DEL than a line of the firmware is long; a Grbl 1.1 takes them for too long a line, which it refuses as well."""
+
+SLICE = 0.05  # seconds a read may last between two looks at the cancel event
+START = 8.0  # seconds a control that has just been connected may take to answer: an Arduino restarts
+AGAIN = 2.5  # seconds after which the first line is sent once more: a boot loader has swallowed it
+QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
+ANSWER = 5.0  # seconds without a byte of an answer
+ANSWER_ENDS = 60.0  # seconds for the whole answer
+LINGER = 0.15  # seconds a command that writes is seen through after somebody has asked to stop
+LONGEST_LINE = 8_192  # bytes
+LONGEST_ANSWER = 1 << 20  # bytes
+MESSAGES = 100  # pushed lines that are remembered
+
+_GREETING = re.compile(r"Grbl(HAL)? ", re.IGNORECASE)
+_ERROR = re.compile(r"error:(\d{1,3})")
+_ALARM = re.compile(r"ALARM:(\d{1,3})")
+
+
+class GrblRefusalError(Exception):
+    """The control has answered ``error:N``."""
+
+    def __init__(self, code: int, command: str) -> None:
+        super().__init__(f"error:{code}")
+        self.code, self.command = code, command
+
+
+class GrblRestartedError(OSError):
+    """The control has restarted while an answer was waited for."""
+
+
+class GrblLine:
+    """One open line to a control.
+
+    ``messages`` are the texts of ``[MSG:…]`` that came unasked, ``alarm`` the number of the last alarm; ``has_lost_memory``
+    whether the control has reported that it could not read its settings and begins with the defaults (``error:7``).
+    """
+
+    def __init__(
+        self,
+        open_link: OpenLink,
+        *,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
+        self._waiting = Waiting(clock)
+        self.messages: list[str] = []
+        self.alarm: int | None = None
+        self.has_lost_memory = False
+        self._clock, self._sleep = clock, sleep
+        self._rest = b""
+        self._lines: deque[str] = deque()
+        self._begin(START, lingers=False)
+        self.serve(progress, cancel)
+        try:
+            self._link = open_link(self.look)
+        except LinkError as error:
+            raise NoConnectionError(f"no connection to the control ({error})") from None
+        try:
+            self._erase()
+        except BaseException:
+            self.close()
+            raise
+
+    def serve(self, progress: Progress, cancel: threading.Event | None) -> None:
+        """Obey another call from here on: whom to notify, and what stops it."""
+        self._waiting.begin(progress, cancel)
+
+    def rest(self, seconds: float) -> None:
+        """Wait; raises CancelledError."""
+        self._begin(seconds + ANSWER, lingers=False)
+        end = self._clock() + seconds
+        while (left := end - self._clock()) > 0:
+            self.look()
+            self._sleep(min(left, SLICE))
+
+    def close(self) -> None:
+        """Hang up."""
+        self._link.close()
+
+    def go_on(self) -> None:
+        """Raise CancelledError where somebody has asked to stop before anything more is sent."""
+        self._begin(ANSWER_ENDS, lingers=False)
+        self.look()
+
+    def ask(self, command: str, *, writes: bool = False) -> list[str]:
+        """Send a command and return the lines of its answer, without ``ok``.
+
+        With ``writes`` the answer is waited for a moment even after somebody has asked to stop. Raises GrblRefusalError,
+        GrblRestartedError, LinkError, ControlSilentError, ProtocolMismatchError, CancelledError.
+        """
+        self.go_on()
+        self._begin(ANSWER_ENDS, lingers=writes)
+        self._link.write(command.encode() + b"\n")
+        answer: list[str] = []
+        size = 0
+        while True:
+            line = self._line(ANSWER)
+            if line == "ok":
+                self._waiting.heard()
+                return answer
+            found = None if self._lost_memory(line) else _ERROR.fullmatch(line)
+            if found:
+                self._waiting.heard()
+                raise GrblRefusalError(int(found[1]), command)
+            if _GREETING.match(line):
+                raise GrblRestartedError("the control has restarted meanwhile")
+            if self._is_pushed(line) or self._lost_memory(line):
+                continue
+            answer.append(line)
+            size += len(line) + 2
+            if size > LONGEST_ANSWER:
+                raise ProtocolMismatchError("the control answers without an end")
+
+    def state(self) -> str:
+        """Return the state that the control reports: Idle, Run, Hold, Alarm …; raises as ``ask``."""
+        self.go_on()
+        self._begin(ANSWER, lingers=False)
+        self._link.write(b"?")
+        while True:
+            line = self._line(ANSWER)
+            if line.startswith("<"):
+                self._waiting.heard()
+                return re.split(r"[|:>]", line[1:])[0]
+            if _GREETING.match(line):
+                raise GrblRestartedError("the control has restarted meanwhile")
+            self._is_pushed(line)
+
+    # -- lines ---------------------------------------------------------------------------------------
+
+    def _erase(self) -> None:
+        """Erase what a lost client may have left of a line, and read all that is still to come of earlier commands."""
+        self._begin(START, lingers=False)
+        sent_at = -AGAIN
+        while True:
+            if self._clock() - sent_at >= AGAIN:
+                self._link.write(ERASE)
+                sent_at = self._clock()
+            line = self._next(AGAIN, sent_at)
+            if line is None:
+                continue
+            self._is_pushed(line)
+            if self._lost_memory(line):
+                continue
+            if line == "ok" or _ERROR.fullmatch(line):
+                break
+        quiet_since = self._clock()
+        while self._clock() - quiet_since < QUIET:
+            self.look()
+            if data := self._link.read(SLICE):
+                self._take(data)
+                quiet_since = self._clock()
+            while self._lines:
+                line = self._lines.popleft()
+                self._is_pushed(line)
+                self._lost_memory(line)
+        self._rest = b""
+        self._waiting.heard()
+
+    def _next(self, seconds: float, since: float) -> str | None:
+        """Return the next line, None after so many seconds since a time."""
+        while not self._lines:
+            self.look()
+            if self._clock() - since >= seconds:
+                return None
+            self._take(self._link.read(SLICE))
+        return self._lines.popleft()
+
+    def _line(self, patience: float) -> str:
+        """Return the next line; raises ControlSilentError where no byte has come for so many seconds."""
+        heard_at = self._clock()
+        while not self._lines:
+            self.look()
+            if data := self._link.read(SLICE):
+                self._take(data)
+                heard_at = self._clock()
+            elif self._clock() - heard_at >= patience:
+                raise ControlSilentError(f"the control has not answered for {patience:g} s")
+        return self._lines.popleft()
+
+    def _take(self, data: bytes) -> None:
+        """Part what has come into lines; empty ones mean nothing."""
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        if len(self._rest) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
+            raise ProtocolMismatchError("the control sends a line without an end")
+        texts = (line.strip(b"\r\0").decode("utf-8", errors="replace") for line in lines)
+        self._lines.extend(text for text in texts if text.strip())
+
+    def _lost_memory(self, line: str) -> bool:
+        """Notice ``error:7``: it comes of a start, before the greeting, and answers nothing."""
+        self.has_lost_memory |= line == "error:7"
+        return line == "error:7"
+
+    def _is_pushed(self, line: str) -> bool:
+        """Remember what came unasked; returns whether this line did."""
+        if line.startswith("[MSG:"):
+            self.messages = [*self.messages[-MESSAGES:], visible(line[5:].removesuffix("]"))[:200]]
+            return True
+        if found := _ALARM.fullmatch(line):
+            self.alarm = int(found[1])
+            return True
+        return line.startswith("<")
+
+    # -- patience ------------------------------------------------------------------------------------
+
+    def _begin(self, seconds: float, *, lingers: bool) -> None:
+        self._until = self._clock() + seconds
+        self._lingers = lingers
+        self._stopped_at: float | None = None
+        self._waiting.heard()
+
+    def look(self) -> None:
+        """Be called by everything that waits, at least every 0.1 s; raises CancelledError, ControlSilentError."""
+        now = self._clock()
+        try:
+            self._waiting.look()
+        except CancelledError:
+            self._stopped_at = now if self._stopped_at is None else self._stopped_at
+            if not self._lingers or now - self._stopped_at >= LINGER:
+                raise
+        if now >= self._until:
+            raise ControlSilentError("the control has not finished its answer in time")

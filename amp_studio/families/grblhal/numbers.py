@@ -1,0 +1,94 @@
+"""How the firmware reads, keeps and shows a number: nuts_bolts.c ``read_float``, ``ftoa``; a 32-bit float in between.
+
+It knows no exponents: of ``1e-05`` it reads the 1. It takes nine digits from the first that is not zero.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from decimal import Decimal
+
+DIGITS = 9
+LARGEST = 4_000_000_000.0
+"""Beyond it the whole part is not shown any more (32 bits)."""
+
+_NUMBER = re.compile(r"[+-]?(\d*)(?:\.(\d*))?")
+
+
+def single(number: float) -> float:
+    """Return the 32-bit float nearest to a number."""
+    return float(struct.unpack("<f", struct.pack("<f", number))[0])
+
+
+def written_number(number: float) -> str:
+    """Return the text from which the firmware reads a number as exactly as it can: no exponent, nine digits at most.
+
+    Raises ValueError for a number that it cannot read or show.
+    """
+    exact = Decimal(repr(number))
+    if not exact.is_finite() or abs(number) > LARGEST:
+        raise ValueError(f"{number:g} is too large")
+    digits = len(exact.as_tuple().digits)
+    rounded = round(exact, DIGITS - 1 - exact.adjusted()) if digits > DIGITS else exact
+    text = format(rounded, "f")
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def read_number(text: str) -> float:
+    """Return the 32-bit float that the firmware reads from a text; raises ValueError where it reads none."""
+    found = _NUMBER.match(text)
+    if found is None or not (found[1] or found[2]):
+        raise ValueError(f"'{text[:40]}' is no number")
+    exponent, number = 0, 0
+    for digit in (found[1] + (found[2] or "")).lstrip("0")[:DIGITS]:
+        number = number * 10 + int(digit)
+    whole, fraction = found[1].lstrip("0"), found[2] or ""
+    if len(whole) >= DIGITS:
+        exponent = len(whole) - DIGITS
+    else:
+        zeros = len(fraction) - len(fraction.lstrip("0")) if not whole else 0
+        exponent = -min(len(fraction), zeros + DIGITS - len(whole))
+    value = single(float(number))
+    if value and (exponent > DIGITS or value * 10.0**exponent > LARGEST):
+        raise ValueError(f"{text[:20]} is too large")
+    if value:
+        while exponent <= -2:
+            value, exponent = single(value * single(0.01)), exponent + 2
+        if exponent < 0:
+            value = single(value * single(0.1))
+        while exponent > 0:
+            value, exponent = single(value * 10.0), exponent - 1
+    return -value if text.startswith("-") else value
+
+
+def shown_number(value: float, decimals: int) -> str:
+    """Return the text that the firmware shows of a 32-bit float with so many decimals."""
+    rest = single(abs(value) + single(0.5 * 10.0**-decimals))
+    whole = int(rest)
+    rest, left = single(rest - whole), decimals
+    while left >= 2:
+        rest, left = single(rest * 100.0), left - 2
+    if left:
+        rest = single(rest * 10.0)
+    digits = f"{int(rest):0{decimals}d}"[-decimals:] if decimals else ""
+    return f"{'-' if value < 0 else ''}{whole}.{digits}"
+
+
+def decimals_of(shown: str) -> int | None:
+    """Return with how many decimals a number is shown; None for a whole number or a text."""
+    found = re.fullmatch(r"-?\d+\.(\d*)", shown)
+    return len(found[1]) if found else None
+
+
+def is_shown_as(sent: str, shown: str) -> bool:
+    """Whether a control that shows a setting so may have got it so."""
+    if sent == shown:
+        return True
+    decimals = decimals_of(shown)
+    try:
+        if decimals is None:
+            return re.fullmatch(r"\d+", shown) is not None and single(float(shown)) == read_number(sent)
+        return shown_number(read_number(sent), decimals) == shown
+    except ValueError:
+        return False

@@ -1,0 +1,86 @@
+"""Offsets and start-up lines: what is lost with the memory too, and what of it can be put back without moving anything."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from .content import GrblContent
+from .numbers import written_number
+
+PUT_BACK = (*(f"G{n}" for n in range(54, 60)), "G59.1", "G59.2", "G59.3")
+"""Set by ``G10 L2 P1`` to ``P9`` whatever the position is. G28, G30 and G92 are set by where the machine is."""
+REPORTS_INCHES = 13
+_INCH = 25.4
+_NEAR = 0.0026  # mm; a ten thousandth of an inch is shown
+_COORDINATE = re.compile(r"-?\d{1,9}(\.\d{1,6})?")
+_HARMLESS = re.compile(
+    r"(G(1[789]|2[01]|40|49|5[4-9](\.[1-3])?|61|64|80|9[013457](\.1)?)|M0?[59](?!\d)|F\d+(\.\d*)?)*",
+    re.IGNORECASE,
+)
+
+
+def reports_inches(content: GrblContent) -> bool:
+    """Whether the control shows offsets in inches."""
+    return content.settings.get(REPORTS_INCHES, "0") == "1"
+
+
+def offset_differences(a: GrblContent, b: GrblContent) -> list[str]:
+    """Return the names of the offsets that differ by more than is shown."""
+    return [n for n in a.offsets if not _is_near(a, b, n)]
+
+
+def _is_near(a: GrblContent, b: GrblContent, name: str) -> bool:
+    one, other = a.offsets[name], b.offsets.get(name)
+    if other is None or reports_inches(a) == reports_inches(b):
+        return one == other
+    first, second = _millimeters(a, one), _millimeters(b, other)
+    return len(first) == len(second) and all(abs(x - y) <= _NEAR for x, y in zip(first, second, strict=True))
+
+
+def _millimeters(content: GrblContent, text: str) -> list[float]:
+    factor = _INCH if reports_inches(content) else 1.0
+    return [float(part) * factor for part in text.split(",") if _COORDINATE.fullmatch(part)]
+
+
+def offset_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple[str, str]]:
+    """Yield name and command of each offset that is to be put back; a command is in the unit that it names."""
+    unit = "G20" if reports_inches(wanted) else "G21"
+    for name in offset_differences(wanted, present):
+        parts = wanted.offsets[name].split(",")
+        if name in PUT_BACK and len(parts) == len(wanted.axes) and all(map(_COORDINATE.fullmatch, parts)):
+            words = "".join(
+                f"{axis}{written_number(float(part))}" for axis, part in zip(wanted.axes, parts, strict=True)
+            )
+            yield name, f"{unit}G10L2P{PUT_BACK.index(name) + 1}{words}"
+
+
+def startup_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple[str, str]]:
+    """Yield name and command of each start-up line that is to be put back and moves nothing.
+
+    The control executes a line that it stores (system.c ``set_startup_line``).
+    """
+    for number, line in wanted.startup.items():
+        if line != present.startup.get(number) and is_harmless(line):
+            yield f"$N{number}", f"$N{number}={line}"
+
+
+def is_harmless(line: str) -> bool:
+    """Whether a start-up line sets modes only: no motion, spindle, coolant, tool or output."""
+    return _HARMLESS.fullmatch(re.sub(r"[\s|]", "", line)) is not None
+
+
+def left_notes(wanted: GrblContent, present: GrblContent) -> list[str]:
+    """Return sentences about what is not put back, because it would move the machine or depends on where it is."""
+    notes = [
+        f"{name} was {wanted.offsets[name]} and is {present.offsets.get(name, 'not there')}: it is not put back, "
+        "because it is set by moving there."
+        for name in offset_differences(wanted, present)
+        if name not in PUT_BACK
+    ]
+    for number, line in wanted.startup.items():
+        if line != present.startup.get(number) and not is_harmless(line):
+            notes.append(
+                f"The start-up line $N{number}={line} is not put back: the control would execute it now."
+            )
+    return notes

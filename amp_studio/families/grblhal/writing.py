@@ -1,0 +1,133 @@
+"""Writing what differs: one line at a time, in an order that the firmware takes, until the control shows all of it.
+
+Settings move each other (settings.c): $22=0 clears $20 and $40, bit 7 of $22 is the opposite of bit 0 of $676, bit 9 of
+$22 brings the rates of each axis and takes $24 and $25 away; $20 and $40 need $22, and $0, $100 and $110 allow each other.
+So $22 is first, what is refused is tried again after the others, and what was moved is written again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import chain
+
+from amp_studio.transfer.progress import Progress
+
+from .content import GrblContent
+from .description import Setting
+from .kind import HOMING, LOCATE_RATE, PER_AXIS_RATES, SEEK_RATE
+from .line import GrblLine, GrblRefusalError
+from .numbers import decimals_of, is_shown_as, read_number, shown_number
+from .offsets import offset_commands, startup_commands
+from .reading import read_settings
+from .refusals import MAY_WAIT
+
+ROUNDS = 4
+"""How often what was moved is written again; dependences of the firmware are two deep."""
+
+
+class Writing:
+    """One download on its way: ``settings`` are those that differ, ``taken`` what the control has answered ``ok`` to.
+
+    ``unanswered`` is the command under way, of which it is not known whether the control has taken it.
+    """
+
+    def __init__(self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting]) -> None:
+        self.wanted, self.present = wanted, present
+        self.names = {number: setting.name for number, setting in known.items()}
+        has_rates = any(n in wanted.settings for n in PER_AXIS_RATES)
+        self._moved = {LOCATE_RATE, SEEK_RATE} if has_rates else set()
+        self.settings = {
+            n: text
+            for n, text in wanted.settings.items()
+            if present.settings.get(n) != text and n not in self._moved
+        }
+        self.others = dict(chain(offset_commands(wanted, present), startup_commands(wanted, present)))
+        self.taken: list[str] = []
+        self.unanswered = ""
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether anything was sent that the control may have taken."""
+        return bool(self.taken or self.unanswered)
+
+    def run(self, line: GrblLine, progress: Progress) -> None:
+        """Send it all; raises GrblRefusalError for what the control refuses in the end, and as ``GrblLine.ask``."""
+        total = len(self.settings) + len(self.others)
+        left = dict(self.settings)
+        for _ in range(ROUNDS):
+            if not left:
+                break
+            self._round(line, left, progress, total)
+            shown = read_settings(line, self.present)
+            left = {n: text for n, text in self.wanted.settings.items() if not self._is_there(n, text, shown)}
+        if self.others:
+            self._write_others(line, progress, total)
+
+    def _is_there(self, number: int, text: str, shown: Mapping[int, str]) -> bool:
+        return number in self._moved or is_shown_as(text, shown.get(number, ""))
+
+    def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress, total: int) -> None:
+        """Write settings; what is refused is tried again as long as another one was taken meanwhile."""
+        waiting = dict(sorted(left.items(), key=lambda entry: (entry[0] != HOMING, entry[0])))
+        refusal: GrblRefusalError | None = None
+        while waiting:
+            taken = 0
+            for number, text in list(waiting.items()):
+                try:
+                    self._write(line, f"${number}", f"${number}={text}")
+                except GrblRefusalError as error:
+                    if error.code not in MAY_WAIT:
+                        raise
+                    refusal = error
+                    continue
+                del waiting[number]
+                taken += 1
+                progress("download", min(len(self.taken), total), total)
+            if waiting and not taken:
+                assert refusal is not None
+                raise refusal
+
+    def _write_others(self, line: GrblLine, progress: Progress, total: int) -> None:
+        """Put back offsets and start-up lines, and the unit of the program as it was."""
+        modes = " ".join(line.ask("$G"))
+        for name, command in self.others.items():
+            self._write(line, name, command)
+            progress("download", min(len(self.taken), total), total)
+        unit = "G20" if " G20 " in f"{modes} " else "G21"
+        line.ask(unit, writes=True)
+
+    def _write(self, line: GrblLine, name: str, command: str) -> None:
+        line.go_on()
+        self.unanswered = name
+        try:
+            line.ask(command, writes=True)
+        except GrblRefusalError:
+            self.unanswered = ""
+            raise
+        self.unanswered = ""
+        if name not in self.taken:
+            self.taken.append(name)
+
+
+def coarse_notes(
+    settings: Mapping[int, str], shown: Mapping[int, str], names: Mapping[int, str]
+) -> Iterator[str]:
+    """Yield a sentence for each setting that the control shows coarser than it keeps it."""
+    for number, text in settings.items():
+        decimals = decimals_of(shown.get(number, ""))
+        if decimals is None:
+            continue
+        shows = shown_number(read_number(text), decimals)
+        if float(shows) != float(text):
+            name = f" {names[number]}" if number in names else ""
+            yield f"${number}{name} is shown as {shows}: what was sent, {text}, is finer than the control shows, and active."
+
+
+def restart_notes(settings: Mapping[int, str], known: Mapping[int, Setting]) -> list[str]:
+    """Return a sentence about the settings that become active only when the control is switched on again."""
+    waiting = [f"${n} {known[n].name}" for n in settings if n in known and known[n].needs_restart]
+    if not waiting:
+        return []
+    return [
+        f"{', '.join(waiting)} become{'s' if len(waiting) == 1 else ''} active when the control is switched off and on."
+    ]

@@ -1,0 +1,405 @@
+"""Downloads, uploads and restores over the Grbl driver, against an emulated control on a bench."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from amp_studio.families.grblhal.content import GrblContent, read_content, write_content
+from amp_studio.families.grblhal.driver import GrblDriver
+from amp_studio.families.grblhal.line import GrblLine
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Value
+from amp_studio.transfer.client.exchange import Outcome, download
+from amp_studio.transfer.content import decode_content, kind_of
+from amp_studio.transfer.errors import (
+    CancelledError,
+    ConnectionCutError,
+    ControlSilentError,
+    ImageChangedError,
+    ProtocolMismatchError,
+    TransferError,
+    WrongFamilyError,
+)
+from amp_studio.transfer.image import ImageError
+from amp_studio.transfer.links.endpoint import parse_endpoint
+from tests.families.grblhal.bench import Bench, Clock
+from tests.families.grblhal.conversation import Player, answers, recorded
+from tests.families.grblhal.faulty_grbl import download_with_faults
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path)
+
+
+def held(bench: Bench) -> GrblContent:
+    return read_content(bench.driver.fetch())
+
+
+def put(bench: Bench, settings: Mapping[int, str], **others: object) -> Outcome:
+    """Download the settings that the control has, with these changed."""
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, **settings}, **others)  # type: ignore[arg-type]
+    return download(bench.driver, write_content(wanted), lambda _: "kept", signature="")
+
+
+def sent(bench: Bench) -> list[str]:
+    """Return the settings that were sent."""
+    return [line for line in bench.lines if "=" in line]
+
+
+def edited(bench: Bench, **values: float) -> ParameterFile:
+    """Return what the control contains as a file, with numbers changed: ``n130=5`` is $130."""
+    file = decode_content(bench.driver.fetch())
+    for name, value in values.items():
+        address = file.find("$" + name[1:])
+        file.take({**file.values, address: replace(file.values[address], value=value)})
+    return file
+
+
+def test_the_control_is_identified_by_what_it_says(bench: Bench) -> None:
+    who = bench.driver.identify()
+    assert (who.family, who.protocol, who.name) == ("grblhal", "grbl", "grblHAL on Emulated")
+    assert (who.revision, who.axes, who.in_estop) == ("1.1f.20260817", ("X", "Y", "Z"), None)
+    assert sent(bench) == []
+
+
+def test_the_same_control_gives_the_same_bytes_and_its_file_gives_them_back(bench: Bench) -> None:
+    first = bench.driver.fetch()
+    file = decode_content(first)
+    assert file.values[file.find("$130")].value == 200.0
+    assert file.values[file.find("$22")].value == 0
+    assert kind_of(first).encode(file, first) == first
+    bench.driver.close()
+    assert bench.driver.fetch() == first
+
+
+def test_only_what_differs_is_sent_homing_before_what_needs_it(bench: Bench) -> None:
+    outcome = put(bench, {130: "301.500", 20: "1", 22: "3", 110: "500.000"})
+    assert outcome.verified
+    assert sent(bench) == ["$22=3", "$20=1", "$130=301.500"]
+
+
+def test_a_file_is_sent_by_the_numbers_of_its_settings(bench: Bench) -> None:
+    file = edited(bench, n130=301.5, n11=0.0004)
+    outcome = download(
+        bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature=file.schema.signature
+    )
+    assert sent(bench) == ["$11=0.0004", "$130=301.500"]
+    assert "$11 Junction deviation is shown as 0.000: what was sent, 0.0004, is finer" in outcome.text
+    assert bench.firmware.settings.all[11].value == pytest.approx(0.0004)
+
+
+def test_a_second_download_of_the_same_file_sends_nothing(bench: Bench) -> None:
+    file = edited(bench, n130=301.5)
+    send = partial(download, bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    assert send().written
+    assert not send().written
+
+
+@pytest.mark.parametrize(
+    ("number", "value", "text"),
+    [("n26", 70000, r"\$26 Homing switch debounce delay takes 0 to 65535, not 70000"),
+     ("n1", 70000, r"\$1 Step idle delay takes 0 to 65535, not 70000"),
+     ("n44", 8, r"\$44 Axes homing, first phase takes 0 to 7, not 8"),
+     ("n100", -1.0, r"\$100 X-axis travel resolution takes 0 and more, not -1"),
+     ("n0", 1.5, r"\$0 Step pulse time takes 2 and more, not 1.5"),
+     ("n130", 1e300, "is too large")],
+)  # fmt: skip
+def test_what_the_control_would_not_store_as_it_is_is_never_sent(
+    bench: Bench, number: str, value: float, text: str
+) -> None:
+    file = edited(bench, **{number: value})
+    with pytest.raises(ImageError, match=text):
+        download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    assert sent(bench) == []
+
+
+def test_disabling_homing_takes_soft_limits_along_and_the_copy_brings_them_back(bench: Bench) -> None:
+    put(bench, {22: "1", 20: "1", 40: "1"})
+    copy = bench.driver.fetch()
+    assert put(bench, {22: "0", 20: "0", 40: "0", 676: "15"}).verified
+    assert [held(bench).settings[n] for n in (20, 22, 40)] == ["0", "0", "0"]
+    outcome = download(
+        bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="", what="Restore"
+    )
+    assert outcome.verified
+    assert bench.driver.fetch() == copy
+
+
+def test_a_file_that_sets_only_homing_says_what_goes_with_it(bench: Bench) -> None:
+    put(bench, {22: "1", 20: "1", 676: "15"})
+    file = edited(bench)
+    for address in [a for a in file.values if a != file.find("$22")]:
+        del file.values[address]
+    file.take({file.find("$22"): Value(0)})
+    outcome = download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    assert outcome.verified, outcome.text
+
+
+def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
+    before = bench.driver.fetch()
+    assert 180 not in read_content(before).settings
+    assert put(
+        bench, {22: "513", 180: "30.0", 181: "25.0", 182: "25.0", 190: "500.0", 24: "30.0", 676: "15"}
+    ).verified
+    assert held(bench).settings[180] == "30.0"
+    assert download(
+        bench.driver, partial(bench.driver.refit, before), lambda _: "kept", signature=""
+    ).verified
+    assert bench.driver.fetch() == before
+
+
+def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_old(bench: Bench) -> None:
+    present = held(bench)
+    wanted = write_content(replace(present, settings={**present.settings, 32: "1", 30: "250.000"}))
+    bench.firmware.settings.all[32].labels = ("Normal",)  # it lists a mode that it refuses
+    with pytest.raises(TransferError) as caught:
+        download(bench.driver, wanted, lambda _: "copy", signature="")
+    assert str(caught.value) == (
+        "the control refuses $32=1 (Mode of operation): the value is out of range (error 52); the control contains the new "
+        "$30 and the old values of the rest (what it contained before is kept in copy)"
+    )
+    assert (caught.value.at_control, caught.value.new) == ("mixed", ("$30",))
+
+
+def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
+    content = bench.driver.fetch()
+    bench.firmware.command("state Run")
+    with pytest.raises(TransferError, match="the machine moves"):
+        bench.driver.fetch()
+    bench.firmware.command("state Idle")
+    wanted = write_content(
+        replace(read_content(content), settings={**read_content(content).settings, 130: "5.000"})
+    )
+
+    def starts(_: bytes) -> str:
+        bench.firmware.command("state Run")
+        return "kept"
+
+    with pytest.raises(
+        TransferError,
+        match="the control is in the state Run: stop the machine before a download; nothing was",
+    ):
+        download(bench.driver, wanted, starts, signature="")
+    assert sent(bench) == []
+
+
+def test_what_somebody_has_changed_meanwhile_is_not_overwritten(bench: Bench) -> None:
+    present = held(bench)
+    wanted = write_content(replace(present, settings={**present.settings, 130: "5.000"}))
+
+    def person(_: bytes) -> str:
+        bench.firmware.settings.store(131, "7")
+        return "kept"
+
+    with pytest.raises(
+        ImageChangedError,
+        match="somebody has changed the settings since they were read; nothing was replaced",
+    ):
+        download(bench.driver, wanted, person, signature="")
+    assert sent(bench) == []
+
+
+def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_told(bench: Bench) -> None:
+    bench.firmware.offsets |= {"G54": "1.500,-2.250,3.000", "G28": "5.000,0.000,0.000"}
+    bench.firmware.startup.update({0: "G21G54", 1: "M3S100"})
+    copy = bench.driver.fetch()
+    bench.firmware.offsets |= {"G54": "0.000,0.000,0.000", "G28": "0.000,0.000,0.000"}
+    bench.firmware.startup.update({0: "", 1: ""})
+    outcome = download(
+        bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="", what="Restore"
+    )
+    assert sent(bench) == ["$N0=G21G54"]
+    assert "G21G10L2P1X1.5Y-2.25Z3" in bench.lines
+    assert (bench.firmware.offsets["G54"], bench.firmware.startup) == (
+        "1.500,-2.250,3.000",
+        {0: "G21G54", 1: ""},
+    )
+    assert "G28 was 5.000,0.000,0.000 and is 0.000,0.000,0.000: it is not put back" in outcome.text
+    assert "The start-up line $N1=M3S100 is not put back: the control would execute it now." in outcome.text
+
+
+def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -> None:
+    bench.firmware.settings.store(13, "1")
+    bench.firmware.offsets["G55"] = "25.400,0.000,-50.800"
+    copy = bench.driver.fetch()
+    bench.firmware.offsets["G55"] = "0.000,0.000,0.000"
+    assert download(bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="").verified
+    assert bench.firmware.offsets["G55"] == "25.400,0.000,-50.800"
+    assert bench.lines[-30:].count("G21") == 1, "the unit of the program is as it was"
+
+
+@pytest.mark.parametrize("line", ["M3S100", "G0X10", "G28", "$H", "G1F100X1", "M8", "T1M6", "G10L2P1X0", "G92X0", "G53G0Z0", "G4P1",
+                                  "M62P1", "G38.2Z-5F10", "(G21)", "#1=2", "G2 0X1", "M30", "S1000"])  # fmt: skip
+def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str) -> None:
+    present = held(bench)
+    outcome = download(
+        bench.driver,
+        write_content(replace(present, startup={0: line, 1: ""})),
+        lambda _: "kept",
+        signature="",
+    )
+    assert sent(bench) == []
+    assert f"$N0={line} is not put back" in outcome.text
+
+
+def test_a_copy_of_another_build_goes_back_by_the_numbers_or_says_what_is_not_there(tmp_path: Path) -> None:
+    three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
+    three.firmware.settings.store(130, "300")
+    copy = three.driver.fetch()
+    assert download(four.driver, partial(four.driver.refit, copy), lambda _: "kept", signature="").verified
+    assert held(four).settings[130] == "300.000"
+    assert held(four).axes == ("X", "Y", "Z", "A")
+    with pytest.raises(ImageError, match=r"^the control does not have \$47, \$103, \$113, \$123, \$133"):
+        download(
+            three.driver, partial(three.driver.refit, four.driver.fetch()), lambda _: "kept", signature=""
+        )
+
+
+def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(tmp_path: Path) -> None:
+    three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
+    file = edited(three, n130=300.0)
+    assert download(four.driver, partial(four.driver.encode, file), lambda _: "kept", signature="").verified
+    assert held(four).settings[130] == "300.000"
+    with pytest.raises(
+        ImageError, match=r"cannot take all of the file: .*\$103 .*: this control does not have the setting"
+    ):
+        download(three.driver, partial(three.driver.encode, edited(four)), lambda _: "kept", signature="")
+    assert sent(three) == []
+
+
+def test_grbl_1_1_is_served_with_the_bundled_description(tmp_path: Path) -> None:
+    bench = Bench(tmp_path, "grbl-1.1")
+    who = bench.driver.identify()
+    assert (who.name, who.revision, who.axes) == ("Grbl", "1.1h.20190830", ("X", "Y", "Z"))
+    file = edited(bench, n130=301.5)
+    assert file.machine == "grbl-1.1"
+    assert download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="").verified
+    assert sent(bench) == ["$130=301.500"]
+    with pytest.raises(ImageError, match=r"\$1 takes 0 to 255, not 300"):
+        download(
+            bench.driver, partial(bench.driver.encode, edited(bench, n1=300)), lambda _: "kept", signature=""
+        )
+
+
+def test_settings_that_need_a_restart_are_named_and_nothing_is_restarted(bench: Bench) -> None:
+    outcome = put(bench, {398: "120"})
+    assert outcome.restart == "needed"
+    assert (
+        "$398 Planner buffer blocks becomes active when the control is switched off and on." in outcome.text
+    )
+    put(bench, {398: "100"})
+    everything = b"".join(bench.received)
+    assert b"\x18" not in everything
+    assert b"RST" not in everything
+
+
+def test_power_lost_while_the_memory_is_written_is_told_as_defaults(bench: Bench) -> None:
+    put(bench, {130: "300.000", 131: "300.000", 132: "300.000", 30: "24000.000"})
+    bench.firmware.answer()
+    bench.spoil_out = _power_off_at_save(bench)
+    with pytest.raises(ConnectionCutError) as caught:
+        put(bench, {110: "600.000"})
+    assert caught.value.at_control == "defaults"
+    assert "the control has lost its memory and contains its defaults" in str(caught.value)
+    assert held(bench).settings[130] == "200.000"
+
+
+def _power_off_at_save(bench: Bench) -> Callable[[bytes], bytes]:
+    def cut(data: bytes) -> bytes:
+        if bench.firmware.is_writing:
+            bench.firmware.power_cycle()
+            bench.spoil_out = lambda data: data
+            return b""
+        return data
+
+    return cut
+
+
+def test_a_cable_that_is_out_for_good_leaves_it_unknown(bench: Bench) -> None:
+    def pull(stage: str, done: int, total: int) -> None:
+        bench.is_cut = bench.is_cut or (stage, done) == ("download", 1)
+
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
+    with pytest.raises(ConnectionCutError) as caught:
+        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=pull)
+    assert (caught.value.at_control, caught.value.kept) == ("unknown", "copy")
+    assert bench.clock.now < 60
+
+
+def test_a_setting_that_is_never_answered_is_read_and_not_guessed(bench: Bench) -> None:
+    present = held(bench)
+    bench.firmware._is_deaf = True  # as this build is after a soft reset
+    wanted = replace(present, settings={**present.settings, 110: "600.000"})
+    with pytest.raises(ControlSilentError) as caught:
+        download(bench.driver, write_content(wanted), lambda _: "copy", signature="")
+    assert caught.value.at_control == "old"
+
+
+def test_who_stops_between_two_settings_reads_which_are_new(bench: Bench) -> None:
+    cancel = threading.Event()
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000", 112: "600.000"})
+
+    def stop(stage: str, done: int, total: int) -> None:
+        if (stage, done) == ("download", 2):
+            cancel.set()
+
+    with pytest.raises(CancelledError) as caught:
+        download(
+            bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=stop, cancel=cancel
+        )
+    assert (caught.value.at_control, caught.value.new) == ("mixed", ("$110", "$111"))
+    assert [held(bench).settings[n] for n in (110, 111, 112)] == ["600.000", "600.000", "500.000"]
+
+
+def test_a_line_that_changes_bytes_now_and_then_is_read_until_two_readings_agree(bench: Bench) -> None:
+    first = held(bench)
+    turns = iter([True] + [False] * 10_000)
+
+    def spoil(data: bytes) -> bytes:
+        return data.replace(b"$130=200", b"$130=300") if b"$130=200" in data and next(turns) else data
+
+    bench.spoil_out = spoil
+    assert held(bench) == first
+
+
+def test_what_is_no_grbl_is_told(bench: Bench) -> None:
+    bench.spoil_out = lambda data: data.replace(b"[VER:", b"[XYZ:")
+    with pytest.raises(ProtocolMismatchError, match="what answers there is no Grbl control"):
+        bench.driver.identify()
+
+
+def test_another_family_is_refused_before_anything_is_connected() -> None:
+    with pytest.raises(WrongFamilyError, match="that of the family grblhal, not of num"):
+        GrblDriver.at(parse_endpoint("tcp://127.0.0.1:1"), "num")
+
+
+def test_the_driver_reads_the_recorded_firmware() -> None:
+    from amp_studio.families.grblhal.driver import GrblDriver
+
+    clock = Clock()
+    content = read_content(GrblDriver(Player(clock.sleep).open, clock=clock, sleep=clock.sleep).fetch())
+    assert (content.version, content.axes, len(content.settings)) == ("1.1f.20260817", ("X", "Y", "Z"), 83)
+    assert len(content.enumerations["$ES"]) == 83
+
+
+def test_the_emulated_control_does_with_settings_what_the_recorded_firmware_did(bench: Bench) -> None:
+    line = GrblLine(bench.open, clock=bench.clock, sleep=bench.clock.sleep)
+    own_words = {"$I", "$EG", "$ES", "$ESH", "$EA", "$EE", "$G", "$SED=22"}
+    for (command, said), (_, real) in zip(answers(line), recorded(), strict=True):
+        if command not in own_words:
+            assert said == [text for text in real if not text.startswith("[HOME:")], command
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_whatever_fails_the_copy_is_whole_and_what_is_told_is_true(seed: int, tmp_path: Path) -> None:
+    assert download_with_faults(seed, tmp_path) == []
