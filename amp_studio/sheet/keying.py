@@ -106,7 +106,7 @@ class Keying:
     ``stages``, ``stage``  the order in which values are keyed in where no rule needs another one: the stage of a value by
     what the control contains before and after
     ``before``, ``after``  what a person does around it
-    ``only_way`` a sentence for whoever wants to exchange with a control that takes values at its screens only
+    ``only_way`` a sentence for exchanges with a control that takes values at its screens only
     """
 
     title: str = "Sheet for entering values"

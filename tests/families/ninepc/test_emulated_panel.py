@@ -179,7 +179,7 @@ def test_equal_limits_are_corrected_only_where_the_manual_asks_for_less(mill) ->
 def test_patch_amp_is_behind_two_passwords(mill, at) -> None:
     operator = at(mill)
     assert "not visible" in operator.keys("patch-amp LOCK")
-    assert operator.keys("password ABCD") == "refused: this password is none of the control"
+    assert operator.keys("password ABCD") == "refused: this is not the password of the control"
     assert operator.keys("password AB-D4") == "access level 0"
     assert "second password" in operator.keys("patch-amp lock")
     assert operator.keys("patch-amp LOCK") == "patch AMP"

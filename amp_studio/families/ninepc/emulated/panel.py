@@ -1,6 +1,6 @@
 """The emulated 9/PC at its own screen: password, Patch AMP, and what it shows at each start (chapters 2, 33 and 37).
 
-Commands stand for keys: ``password AB-D4`` is {PASSWORD}, ``patch-amp LOCK`` the softkey {PATCH AMP} with its second
+Commands are keys: ``password AB-D4`` is {PASSWORD}, ``patch-amp LOCK`` the softkey {PATCH AMP} with its second
 password, ``search 1750`` is {SEARCH NUMBER}, ``replace 1750 40`` {REPLACE VALUE}, ``update`` {UPDATE & EXIT}, ``leave``
 goes without it, and ``can`` is the key [CAN]. ``patch KEY=VALUE`` of every emulated control does all of it at once.
 """
@@ -97,7 +97,7 @@ class NinePcPanel:
 
     def _password(self, control: Control, word: str) -> str:
         if word.ljust(_CHARACTERS) != _master_password(control):
-            raise ValueError("this password is none of the control")
+            raise ValueError("this is not the password of the control")
         self._has_level_0 = True
         return "access level 0"
 
