@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from .content import ContentKind
 from .links.endpoint import Endpoint
@@ -114,6 +114,15 @@ class ControlDriver(ContentKind, Protocol):
 
     def close(self) -> None:
         """Hang up. Closing twice is no fault."""
+
+
+@runtime_checkable
+class ReadsBackPartly(Protocol):
+    """A driver that may prove what it has sent without reading all of it, where the line is slow."""
+
+    @property
+    def read_back(self) -> str:
+        """How the last fetch was proven, in words; "" where every byte was read."""
 
 
 DriverFactory = Callable[[Endpoint, str], ControlDriver]

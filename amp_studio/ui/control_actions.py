@@ -105,14 +105,15 @@ class ControlActions:
         if address is None:
             return
         file, path = workspace.file.copy(), workspace.path
-        approved = self._preview(workspace, address)
-        if approved is None:
+        present = self._preview(workspace, address)
+        if present is None:
             return
 
         def work(progress: Progress, cancel: threading.Event) -> Outcome:
-            from amp_studio.transfer.client.parameters import download_file
+            from amp_studio.transfer.client.parameters import download_file, sha256
 
-            return download_file(file, address, path.parent, path.stem, progress, cancel, expected=approved)
+            return download_file(file, address, path.parent, path.stem, progress, cancel,
+                                 expected=sha256(present), known=present)  # fmt: skip
 
         if self.exchanges.run("Download", work).verified:
             self.exchanges.remember(workspace, file)
@@ -135,9 +136,8 @@ class ControlActions:
         )
         return answer == "&Download"
 
-    def _preview(self, workspace: Workspace, address: str) -> str | None:
-        """Show what the download would change in the control; returns the digest of the image to replace, or None."""
-        from amp_studio.transfer.client.parameters import sha256
+    def _preview(self, workspace: Workspace, address: str) -> bytes | None:
+        """Show what the download would change in the control; returns the image to replace, or None."""
         from amp_studio.transfer.client.verification import verify_content
         from amp_studio.transfer.content import decode_content
         from amp_studio.transfer.image import ImageError
@@ -145,9 +145,8 @@ class ControlActions:
         from .compare_dialog import DownloadPreview
 
         image = self.exchanges.fetch(address, "Download", workspace.file.schema.family.family)
-        approved = sha256(image)
         if not image:
-            return approved
+            return image
         try:
             present = decode_content(image)
             if present.schema.family.family != workspace.file.schema.family.family:
@@ -155,14 +154,14 @@ class ControlActions:
         except ImageError as error:
             question = f"{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
-            return approved if answer == "&Download" else None
+            return image if answer == "&Download" else None
         self.exchanges.remember(workspace, present)
         found = verify_content(workspace.file, image).values
         if (
             not found.differences
             or DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets).exec()
         ):
-            return approved
+            return image
         return None
 
     def verify(self) -> None:

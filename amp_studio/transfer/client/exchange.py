@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.transfer.driver import ControlDriver, ControlIdentity, Receipt
+from amp_studio.transfer.driver import ControlDriver, ControlIdentity, ReadsBackPartly, Receipt
 from amp_studio.transfer.errors import (
     AT_CONTROL_TEXT,
     AtControl,
@@ -40,7 +40,7 @@ class Outcome:
     """How a download ended.
 
     ``at_control``  what the control contains now: the "old" content, the "new" one, "mixed", or "unknown"
-    ``verified``    whether all of the new content was read back and is equal
+    ``verified``    whether the new content was read back and is equal: all of it, or on a slow line its digest and some of it
     ``written``     whether the control had to take anything
     ``kept``        where the image before it is kept, byte for byte; None when nothing was replaced or it was empty
     ``restart``     "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
@@ -91,8 +91,10 @@ def download(
     *,
     signature: str,
     expected: bytes | None = None,
+    known: bytes | None = None,
     is_return: bool = False,
     what: str = "Download",
+    meanwhile: Callable[[], None] = lambda: None,
     progress: Progress = quiet,
     cancel: threading.Event | None = None,
     restart_wait: float = RESTART_WAIT,
@@ -103,8 +105,9 @@ def download(
     returns where it has kept it, before anything is replaced; when one of them raises, nothing is written. Then sends,
     waits up to ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
     schema's under which the content was made. ``expected`` is the SHA-256 of what may be replaced; None
-    for whatever is there. ``is_return`` means that the control has contained this image before: one that remembers
-    what it contained decides by itself whether it takes it. ``what`` is the first word of the result. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
+    for whatever is there. ``known`` was fetched from this control before: it is not fetched again if the control states
+    its digest, as it must for the commit too. ``is_return`` means that the control has contained this image before: one that remembers
+    what it contained decides by itself whether it takes it. ``what`` is the first word of the result. ``meanwhile`` is done while the control restarts. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
     where its old image is.
     """
     make: Wanted = wanted if callable(wanted) else lambda _: wanted
@@ -115,7 +118,8 @@ def download(
         _check_signature(control, signature)
     _check_expected(expected, control.sha256)
     _check_stop(control, make)
-    old = driver.fetch(progress, cancel, "keep")
+    is_known = known is not None and control.sha256 == hashlib.sha256(known).digest()
+    old = known if known is not None and is_known else driver.fetch(progress, cancel, "keep")
     _check_expected(expected, hashlib.sha256(old).digest())
     content = make(old)
     if content == old:
@@ -134,6 +138,8 @@ def download(
         error.kept = kept
         raise
     try:
+        if receipt.restarting:
+            meanwhile()
         return _prove(driver, content, receipt, kept, progress, cancel, restart_wait, what)
     except TransferError as error:
         # Without a commit, what was taken last may not have reached the memory of a control that is gone.
@@ -226,5 +232,7 @@ def _prove(
         text = f"The control took the image, but what it contains differs {where}; "
         text += f"{AT_CONTROL_TEXT[at_control]}."
         return Outcome(at_control, False, True, kept, restart, digest, text + before)
-    text = f"{what} complete and read back equal{_RESTART_TEXT[restart]}"
+    partly = driver.read_back if isinstance(driver, ReadsBackPartly) else ""
+    proof = f"complete: {partly}" if partly else "complete and read back equal"
+    text = f"{what} {proof}{_RESTART_TEXT[restart]}"
     return Outcome("new", True, True, kept, restart, digest, text + before)

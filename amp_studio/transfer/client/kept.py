@@ -53,10 +53,11 @@ class Copy:
     is_kept: bool
 
 
-def keep_image(image: bytes, folder: Path, stem: str) -> Path:
+def keep_image(image: bytes, folder: Path, stem: str, *, readable: bool = True) -> Path:
     """Keep an image under a name that was free, and where possible a parameter file beside it; returns the image's path.
 
-    Raises OSError, and then nothing is left behind.
+    Without ``readable`` the parameter file is left to ``keep_readable``, for which there is time later: the image is the
+    copy. Raises OSError, and then nothing is left behind.
     """
     stem = stem.encode()[:_STEM].decode(errors="ignore")
     stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
@@ -69,7 +70,8 @@ def keep_image(image: bytes, folder: Path, stem: str) -> Path:
         except FileExistsError:
             number += 1
             continue
-        _keep_readable(image, path.with_suffix(ENDING))
+        if readable:
+            keep_readable(image, path)
         return path
 
 
@@ -95,8 +97,9 @@ def _need_free(path: Path) -> None:
         raise FileExistsError(f"{path} exists already")
 
 
-def _keep_readable(image: bytes, path: Path) -> None:
-    """Write the parameter file of an image where it comes back as the same bytes; the image itself is kept already."""
+def keep_readable(image: bytes, kept: Path) -> None:
+    """Write the parameter file of an image, which is ``kept``, beside it where it comes back as the same bytes."""
+    path = kept.with_suffix(ENDING)
     with contextlib.suppress(ImageError, ParameterFileError, OSError):
         kind = kind_of(image)
         file = kind.decode(image)

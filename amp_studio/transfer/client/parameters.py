@@ -8,6 +8,7 @@ import threading
 from contextlib import closing
 from functools import partial
 from pathlib import Path
+from typing import Self
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema.quoting import quoted
@@ -15,8 +16,8 @@ from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.progress import Progress, quiet
 
 from .drivers import open_driver
-from .exchange import Keep, Outcome, download, upload
-from .kept import BEFORE, Copy, keep_image, open_copy
+from .exchange import Outcome, download, upload
+from .kept import BEFORE, Copy, keep_image, keep_readable, open_copy
 
 __all__ = [
     "Copy",
@@ -33,18 +34,19 @@ __all__ = [
 
 def download_file(
     file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,
-    cancel: threading.Event | None = None, *, expected: str | None = None,
+    cancel: threading.Event | None = None, *, expected: str | None = None, known: bytes | None = None,
 ) -> Outcome:  # fmt: skip
     """Put a file into the control at ``address``; what it contained is kept in ``folder`` before anything is replaced.
 
-    ``expected`` is the digest of what may be replaced, None for whatever is there. Raises TransferError, whose
+    ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was fetched from this
+    control just before. Raises TransferError, whose
     text names what the control contains, ImageError for a file no image can carry or that sets what the control does not have, and ValueError for an address or
     a digest that is none.
     """
     approved = read_digest(expected)
-    with closing(open_driver(address, file.schema.family.family)) as driver:
-        return download(driver, partial(driver.encode, file), _keep_in(folder, stem), signature=file.schema.signature,
-                        expected=approved, progress=progress, cancel=cancel)  # fmt: skip
+    with closing(open_driver(address, file.schema.family.family)) as driver, _Keeping(folder, stem) as copy:
+        return download(driver, partial(driver.encode, file), copy.keep, signature=file.schema.signature,
+                        expected=approved, known=known, meanwhile=copy.finish, progress=progress, cancel=cancel)  # fmt: skip
 
 
 def restore_copy(
@@ -57,16 +59,39 @@ def restore_copy(
     """
     family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
     approved = read_digest(expected)
-    with closing(open_driver(address, family)) as driver:
+    with closing(open_driver(address, family)) as driver, _Keeping(folder, stem) as before:
         wanted = partial(driver.refit, copy.image)
         if copy.file is not None and not copy.is_kept:
             wanted = partial(driver.encode, copy.file)
-        return download(driver, wanted, _keep_in(folder, stem), signature=copy.signature, expected=approved,
-                        is_return=copy.is_kept, what="Restore", progress=progress, cancel=cancel)  # fmt: skip
+        return download(driver, wanted, before.keep, signature=copy.signature, expected=approved,
+                        is_return=copy.is_kept, what="Restore", meanwhile=before.finish, progress=progress,
+                        cancel=cancel)  # fmt: skip
 
 
-def _keep_in(folder: Path, stem: str) -> Keep:
-    return lambda image: str(keep_image(image, folder, stem.partition(BEFORE)[0]))
+class _Keeping:
+    """Keeps what a control contained in a folder: its bytes at once, the parameter file beside them when there is time."""
+
+    def __init__(self, folder: Path, stem: str) -> None:
+        self._folder, self._stem = folder, stem.partition(BEFORE)[0]
+        self._kept: tuple[bytes, Path] | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.finish()
+
+    def keep(self, content: bytes) -> str:
+        """Keep the bytes and return where."""
+        path = keep_image(content, self._folder, self._stem, readable=False)
+        self._kept = content, path
+        return str(path)
+
+    def finish(self) -> None:
+        """Write the parameter file, unless it is there already."""
+        kept, self._kept = self._kept, None
+        if kept is not None:
+            keep_readable(*kept)
 
 
 def sha256(image: bytes) -> str:

@@ -85,6 +85,11 @@ class Connection:
         self._stopped_at: float | None = None
         self._is_cut = False  # and that was notified
 
+    @property
+    def rate(self) -> float | None:
+        """Bytes a second of the present line; None where nobody knows it."""
+        return None if self._talk is None else self._talk.link.bytes_per_second
+
     def close(self) -> None:
         """Hang up."""
         if self._talk is not None:

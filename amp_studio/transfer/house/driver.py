@@ -20,6 +20,7 @@ class HouseDriver(HouseContent):
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._sent: bytes | None = None
 
     @classmethod
     def at(cls, endpoint: Endpoint, family: str = "") -> HouseDriver:
@@ -44,8 +45,20 @@ class HouseDriver(HouseContent):
     def fetch(
         self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
     ) -> bytes:
-        """Return the control's active image."""
-        return self.session.fetch(progress, cancel, stage)
+        """Return the control's active image; on a slow line only some of what was sent is read back."""
+        sent = self._sent if stage == "verify" else None
+        return self.session.fetch(progress, cancel, stage, sent)
+
+    @property
+    def read_back(self) -> str:
+        """How the last upload was proven, where not every byte was read; "" where it was."""
+        if self.session.sampled is None:
+            return ""
+        some, all_of_them = self.session.sampled
+        return (
+            f"the control states the digest of the new image for what it contains, and {some} of {all_of_them} pieces, "
+            "chosen at random, were read back equal (amp-studio verify reads everything)"
+        )
 
     def send(
         self,
@@ -61,6 +74,7 @@ class HouseDriver(HouseContent):
         sent = self.session.send(
             content, signature=signature, expected=expected, progress=progress, cancel=cancel
         )
+        self._sent = content
         notes = (f"It was taken up again at byte {sent.resumed_at}.",) if sent.resumed_at else ()
         return Receipt(sent.committed.restarting, sent.committed.incarnation, notes=notes)
 

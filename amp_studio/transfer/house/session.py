@@ -19,7 +19,7 @@ from amp_studio.transfer.links.opening import connect
 from amp_studio.transfer.progress import Progress, quiet
 
 from .broken_transfers import BrokenTransfers, NoBrokenTransfers
-from .connection import PAUSE, Connection, OpenLink, OutOfTimeError
+from .connection import Connection, OpenLink, OutOfTimeError
 from .download_transfer import DownloadTransfer, Sent
 from .message import (
     RefusalError,
@@ -36,6 +36,8 @@ from .transaction import NoAnswerError, Transaction
 from .upload_transfer import UploadTransfer
 
 Result = TypeVar("Result")
+
+RESTART_PAUSE = 0.05  # seconds between two calls to a control that restarts
 
 
 __all__ = ["Progress", "Session", "quiet"]
@@ -65,6 +67,7 @@ class Session:
         broken: BrokenTransfers | None = None,
     ) -> None:
         self._broken = broken or NoBrokenTransfers()
+        self.sampled: tuple[int, int] | None = None
         self._line = Connection(
             open_link,
             family=family,
@@ -158,17 +161,28 @@ class Session:
                     line.notify("restart", 1, 1)
                     return welcome
             with contextlib.suppress(OutOfTimeError):
-                line.pause(PAUSE)
+                line.pause(RESTART_PAUSE)
         return None
 
     # -- images ------------------------------------------------------------------------------------
 
     def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
+        self,
+        progress: Progress = quiet,
+        cancel: threading.Event | None = None,
+        stage: str = "upload",
+        sent: bytes | None = None,
     ) -> bytes:
-        """Return the control's active image, checked against its digest; raises TransferError."""
+        """Return the control's active image, checked against its digest; raises TransferError.
+
+        ``sent`` is what was committed before: on a slow line only some of it is read, and ``sampled`` is how many pieces of
+        how many; None after every other upload.
+        """
         self._line.cancel, self._line.progress = cancel, progress
-        return UploadTransfer(self._line, stage).run()
+        upload = UploadTransfer(self._line, stage, sent)
+        image = upload.run()
+        self.sampled = upload.sampled
+        return image
 
     def send(
         self,

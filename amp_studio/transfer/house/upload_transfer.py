@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import random
 
 from amp_studio.transfer.errors import ImageDamagedError, ProtocolMismatchError
 
@@ -18,12 +19,25 @@ MAX_PIECES = 1 << 16
 ATTEMPTS = 3  # how often reading may be broken off by the control, start again, or end with another digest
 
 
-class UploadTransfer:
-    """Fetches the active image; ``stage`` is the name it gives to ``progress``."""
+SLOW = 5.0  # seconds that a line of known rate may take for an image until only some of it is read back
+ONE_OF = 16  # pieces of which one is read back then
+FEWEST = 6  # pieces that are read back at least
 
-    def __init__(self, line: Connection, stage: str) -> None:
+
+class UploadTransfer:
+    """Fetches the active image; ``stage`` is the name it gives to ``progress``.
+
+    ``sent`` is an image that the control has committed in this session, after the digest it stated was right for everything
+    it had before. Where a line of known rate would take longer than ``SLOW`` and the control states the digest of ``sent``
+    for what it contains now, only pieces chosen at random are read, and ``sampled`` is their number and that of all.
+    Whatever does not fit is read whole.
+    """
+
+    def __init__(self, line: Connection, stage: str, sent: bytes | None = None) -> None:
         self._line = line
         self._stage = stage
+        self._sent = sent
+        self.sampled: tuple[int, int] | None = None
         self._opened: tuple[UploadReady, int] | None = None
         self._pieces: dict[int, bytes] = {}
         self._begun = 0  # how often reading has begun
@@ -46,7 +60,7 @@ class UploadTransfer:
             if hashlib.sha256(image).digest() == ready.sha256:
                 self._line.notify(self._stage, len(image), len(image))
                 return image
-            self._opened = None
+            self._opened, self._sent, self.sampled = None, None, None
             spoilt += 1
             if spoilt >= ATTEMPTS:
                 raise ImageDamagedError("what the control sends does not have the digest it states")
@@ -79,7 +93,24 @@ class UploadTransfer:
             raise ImageDamagedError("the image changes again and again while it is read")
         self._opened = (ready, chunk)
         self._pieces.clear()
+        self.sampled = None
+        if self._sent is not None and self._may_sample(ready):
+            self._take_as_read(self._sent, chunk)
         self._line.begin()
+
+    def _may_sample(self, ready: UploadReady) -> bool:
+        rate = self._line.rate
+        is_sent = self._sent is not None and ready.sha256 == hashlib.sha256(self._sent).digest()
+        return is_sent and rate is not None and ready.size / rate > SLOW
+
+    def _take_as_read(self, image: bytes, chunk: int) -> None:
+        """Leave only pieces to be read that nobody could know before: the first, the last, and some at random."""
+        offsets = range(0, len(image), chunk)
+        count = min(len(offsets), max(FEWEST, len(offsets) // ONE_OF))
+        chance = random.Random(self._line.random(16))  # noqa: S311  # seeded by what the control cannot know
+        chosen = {offsets[0], offsets[-1], *chance.sample(offsets, count - 2)} if count > 1 else set(offsets)
+        self._pieces.update((at, image[at : at + chunk]) for at in offsets if at not in chosen)
+        self.sampled = len(chosen), len(offsets)
 
     def _received(self) -> int:
         return sum(map(len, self._pieces.values()))

@@ -33,17 +33,15 @@ class Window:
         self._next = start  # no piece from here on was ever sent
         self._lost: list[int] = []  # a heap of the offsets to send again
         self._flying: dict[int, SentPiece] = {}  # by number, in the order of sending
+        self._number_at: dict[int, int] = {}  # offset -> the one sending of it that is under way
+        self.bytes_flying = 0
+        """The bytes that are under way."""
         self._numbers: set[int] = set()
 
     @property
     def is_done(self) -> bool:
         """Whether every piece has arrived."""
         return self._floor >= self.size
-
-    @property
-    def bytes_flying(self) -> int:
-        """The bytes that are under way."""
-        return sum(piece.length for piece in self._flying.values())
 
     @property
     def oldest(self) -> float | None:
@@ -64,6 +62,9 @@ class Window:
             self._ahead.add(offset)
         while self._floor in self._ahead:
             self._ahead.remove(self._floor)
+            number = self._number_at.get(self._floor)
+            if number in self._flying and self._flying[number].offset == self._floor:
+                self._landed(number)
             self._floor += self._chunk
 
     def next_piece(self) -> tuple[int, int] | None:
@@ -82,6 +83,8 @@ class Window:
     def sent(self, number: int, offset: int, length: int, now: float) -> None:
         """A piece has gone out under this number."""
         self._flying[number] = SentPiece(offset, length, now)
+        self._number_at[offset] = number
+        self.bytes_flying += length
         self._numbers.add(number)
 
     def arrived(self, number: int) -> SentPiece | None:
@@ -102,27 +105,29 @@ class Window:
         """Everything before ``offset`` has arrived."""
         while self._floor < self.size and min(self._floor + self._chunk, self.size) <= offset:
             self.have(self._floor)
-        for number in [n for n, piece in self._flying.items() if not self._is_missing(piece.offset)]:
-            del self._flying[number]
 
     def lose_all(self) -> None:
         """No answer came in time: everything under way is to be sent again."""
-        for piece in self._flying.values():
-            self._again(piece)
-        self._flying.clear()
+        for number in tuple(self._flying):
+            self._again(self._landed(number))
 
     def _answered(self, number: int) -> SentPiece | None:
         if number not in self._flying:
             return None
-        for earlier in list(self._flying):
-            piece = self._flying.pop(earlier)
-            if earlier == number:
-                return piece
-            self._again(piece)
-        return None
+        while (first := next(iter(self._flying))) != number:
+            self._again(self._landed(first))
+        return self._landed(number)
 
-    def _again(self, piece: SentPiece) -> None:
-        if self._is_missing(piece.offset):
+    def _landed(self, number: int | None) -> SentPiece | None:
+        """Take a sending from those under way, if it is one."""
+        piece = None if number is None else self._flying.pop(number, None)
+        if piece is not None:
+            self._number_at.pop(piece.offset, None)
+            self.bytes_flying -= piece.length
+        return piece
+
+    def _again(self, piece: SentPiece | None) -> None:
+        if piece is not None and self._is_missing(piece.offset):
             heapq.heappush(self._lost, piece.offset)
 
     def _is_missing(self, offset: int) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -114,3 +116,32 @@ def test_a_slow_line_has_little_under_way() -> None:
     assert window_limit(512, 16, 11_520) == 7
     assert window_limit(512, 16, 960) == 2
     assert window_limit(512, 1, 960) == 1, "never more than the control offers"
+
+
+def test_an_answer_costs_the_same_however_many_pieces_are_under_way() -> None:
+    """A control may offer 65,536 pieces of one byte: each answer looks at what it is about, not at all of them."""
+
+    pieces, number = 32_000, 0
+    window = Window(0, pieces, 1, pieces)
+    while (piece := window.next_piece()) is not None:
+        window.sent(number, *piece, 0.0)
+        number += 1
+    assert window.bytes_flying == pieces
+    begun = time.process_time()
+    for at in range(pieces):
+        window.arrived(at)
+        window.reached(at + 1)
+    assert (window.is_done, window.bytes_flying) == (True, 0)
+    assert time.process_time() - begun < 5, "a look at all of them at each answer takes minutes"
+
+
+def test_a_gap_that_reaches_far_takes_every_piece_before_it_from_those_under_way() -> None:
+    window = Window(0, 100, 10, 8)
+    for number in range(8):
+        window.sent(number, *window.next_piece(), 0.0)
+    window.reached(55)
+    assert [number for number in range(8) if window.flying(number)] == [5, 6, 7]
+    assert window.bytes_flying == 30
+    window.lose_all()
+    assert (window.bytes_flying, window.oldest) == (0, None)
+    assert [window.next_piece() for _ in range(3)] == [(50, 10), (60, 10), (70, 10)]
