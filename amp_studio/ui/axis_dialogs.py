@@ -35,7 +35,7 @@ class AxisDialog(QDialog):
         self._form.addRow("&Axis", self.axis_box)
         self.note = QLabel()
         self.note.setWordWrap(True)
-        buttons = QDialogButtonBox(
+        self._buttons = buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
         )
         buttons.accepted.connect(self.accept)
@@ -66,6 +66,7 @@ class AxisDialog(QDialog):
         ]
         box.setCurrentIndex(same[0] if same else box.currentIndex())
         self._form.addRow("&To axis", box)
+        QWidget.setTabOrder(self.axis_box, box)
         return box
 
     def _is_alike(self, axis: str) -> bool:
@@ -85,6 +86,10 @@ class AxisDialog(QDialog):
                 field = QLineEdit(write_value(parameter, file.get(address)))
             self._form.addRow(parameter.name, field)
             self._fields[parameter_id] = field
+        before: QWidget = self.axis_box
+        for after in (*self._fields.values(), self._buttons):  # fields are made after the buttons
+            QWidget.setTabOrder(before, after)
+            before = after
 
     def done(self, result: int) -> None:
         """Close the dialog; its input can be read until the next event."""

@@ -14,7 +14,14 @@ from PySide6.QtCore import (
     Qt,
     QTimer,
 )
-from PySide6.QtWidgets import QLineEdit, QStyledItemDelegate, QStyleOptionViewItem, QToolTip, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QLineEdit,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QToolTip,
+    QWidget,
+)
 
 from amp_studio.schema import Address, Limits, limits, shown
 
@@ -71,13 +78,19 @@ class ValueDelegate(QStyledItemDelegate):
         box = self.sender()
         assert isinstance(box, ChoiceBox)
         self.commitData.emit(box)
-        self.closeEditor.emit(box)
+        self._close(box)
 
     def _leave(self) -> None:
         """Close the editor with its list; a choice is committed before that."""
         box = self.sender()
         assert isinstance(box, ChoiceBox)
-        QTimer.singleShot(0, box, lambda: self.closeEditor.emit(box))
+        QTimer.singleShot(0, box, lambda: self._close(box))
+
+    def _close(self, box: ChoiceBox) -> None:
+        """Close a list that its view has not closed before."""
+        view = box.parent().parent()
+        if isinstance(view, QAbstractItemView) and view.indexWidget(view.currentIndex()) is box:
+            self.closeEditor.emit(box)
 
     def setEditorData(self, editor: QWidget, index: Index) -> None:
         if isinstance(editor, QLineEdit):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Value
@@ -47,6 +49,21 @@ def test_configure_type_takes_the_units_along_as_one_step(
     assert window.workspace.undo_stack.count() == 1
     window.edits.undo.trigger()
     assert file.values == before
+
+
+def test_tab_goes_through_the_fields_before_the_buttons(window: MainWindow, qtbot) -> None:
+    dialog = window.axes._dialog("Configure servo")
+    dialog.ask_for(["servo.hardware_type", "servo.loop_type"])
+    dialog.show()
+    dialog.axis_box.setFocus()
+    for parameter_id, row in (("servo.hardware_type", 0), ("servo.loop_type", 1)):
+        QTest.keyClick(dialog.focusWidget(), Qt.Key.Key_Tab)
+        field = dialog._fields[parameter_id]
+        assert dialog.focusWidget() is field
+        field.setCurrentIndex(row)
+        QTest.keyClick(field, Qt.Key.Key_Down)
+        assert field.currentIndex() == row + 1
+    dialog.close()
 
 
 def test_configure_servo(window: MainWindow, file: ParameterFile, accept) -> None:

@@ -299,6 +299,17 @@ def test_letters_add_up_and_a_label_goes_before_a_code(window: MainWindow, qtbot
     box.hidePopup()
 
 
+def test_no_list_is_closed_twice(window: MainWindow, qtbot, qtlog) -> None:
+    for key in (KEY.Key_Return, KEY.Key_Escape):
+        box = typed(window, qtbot, "dig")
+        QTest.keyClick(box.view(), key)
+        qtbot.waitUntil(lambda: not window.table_view.viewport().findChildren(ChoiceBox), timeout=WAIT_MS)
+    window.table_view.edit(window.table_view.currentIndex())
+    window.table_view.finish()
+    QApplication.processEvents()
+    assert not [record.message for record in qtlog.records if "closeEditor" in record.message]
+
+
 def test_a_click_on_a_name_selects_the_row(window: MainWindow) -> None:
     window.go_to(EXCESS)
     row = window.table.index_of(("servo.lead_screw_pitch", "1")).row()
