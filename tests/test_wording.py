@@ -79,6 +79,8 @@ DOCUMENTS = (
     "docs/simulation.md",
     "docs/protocols/image.md",
     "docs/protocols/exchange.md",
+    "docs/protocols/num-table.md",
+    "docs/protocols/acr-terminal.md",
     "Makefile",
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
 )

@@ -9,7 +9,7 @@ import hashlib
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from amp_studio.schema import load_schema
 from amp_studio.transfer.break_state import state_after_break
@@ -43,6 +43,7 @@ HELD_WAIT = 300.0  # seconds the control may stop a load: its operator corrects 
 GAP_WAIT = 20.0  # seconds between two characters of a table
 TABLE_WAIT = 900.0  # seconds a table may take to come; the largest takes 420 s at 300 bit/s
 LOAD_WAIT = 3_600.0  # seconds a load may take with all its stops
+CHECK_WAIT = 15.0  # seconds after which a check that is stopped has found a difference
 HELD_TOLD = 2.0  # seconds a load is stopped until the person reads why
 LISTEN = 0.01  # seconds between two looks whether the control stops the table
 SETTLE = 0.5  # seconds in which the control may still refuse the end of a load
@@ -57,6 +58,10 @@ UNLOAD_TEXT = (
 LOAD_TEXT = (
     "At the control: MACHINE SETUP DATA, 2 LOAD, Enter at READY? (page 13-10). The table is sent as soon as the "
     f"control asks for it, or in {READY_WAIT:g} s"
+)
+CHECK_TEXT = (
+    "At the control: MACHINE SETUP DATA, 4 CHECK, Enter at READY? (page 13-13). It compares the table with its memory. The "
+    f"table is sent as soon as the control asks for it, or in {READY_WAIT:g} s"
 )
 HELD_TEXT = (
     "The control has stopped the table. Where it shows a number with %, replace it by the job reference (page 13-10); "
@@ -74,12 +79,14 @@ class PeripheralDriver(NumTableContent):
         open_link: OpenLink,
         *,
         is_checked: bool = False,
+        has_checked: bool = False,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        """``is_checked``: the line itself finds damaged bytes, as TCP does."""
+        """``is_checked``: the line itself finds damaged bytes, as TCP does. ``has_checked``: the control checks each unload."""
         self._open_link = open_link
         self._is_checked = is_checked
+        self._has_checked = has_checked
         self._waiting = Waiting(clock, sleep)
         self._link: Link | None = None
         self._parity: Parity = "none"
@@ -89,7 +96,7 @@ class PeripheralDriver(NumTableContent):
         self._is_held = False
 
     @classmethod
-    def at(cls, endpoint: Endpoint, family: str = "") -> PeripheralDriver:
+    def at(cls, endpoint: Endpoint, family: str = "", *, has_checked: bool = False) -> PeripheralDriver:
         """Return the driver of an endpoint; raises WrongFamilyError where another family is asked for."""
         if family not in ("", FAMILY):
             raise WrongFamilyError(f"this is how NUM controls are spoken to, not {family}")
@@ -98,7 +105,9 @@ class PeripheralDriver(NumTableContent):
             # The same ten bits a character; so a damaged one is seen here, where the port would pass it on unnoticed.
             place = replace(place, bits=8, parity="none")
         return cls(
-            lambda look: connect(place, look=look, own_flow=True), is_checked=endpoint.kind in ("tcp", "tls")
+            lambda look: connect(place, look=look, own_flow=True),
+            is_checked=endpoint.kind in ("tcp", "tls"),
+            has_checked=has_checked,
         )
 
     # -- what a driver can be asked for -----------------------------------------------------------
@@ -109,7 +118,7 @@ class PeripheralDriver(NumTableContent):
         self._seen = self._unloaded("upload", PERSON_WAIT)
         return ControlIdentity(
             family=FAMILY,
-            protocol="peripheral",
+            protocol="peripheral-check" if self._has_checked else "peripheral",
             name=f"CNC with the job reference {reference_of(self._seen)}",
             signature=load_schema(FAMILY).signature,
             size=len(self._seen),
@@ -140,7 +149,7 @@ class PeripheralDriver(NumTableContent):
         self._waiting.begin(progress, cancel)
         self._seen = None
         lines = table_text(content).splitlines(keepends=True)
-        load = _Load(lines)
+        load = _Load(lines, LOAD_TEXT, "download", HELD_WAIT)
         try:
             self._push(load)
         except CancelledError as error:
@@ -188,6 +197,12 @@ class PeripheralDriver(NumTableContent):
                 fault, last = f"{error.what}: unload it once more. ", error
                 continue
             self._parity = reader.parity
+            if self._has_checked:
+                if self._check(content):
+                    return content
+                fault = "The control has found another table than its own: unload it once more. "
+                last = ImageDamagedError("the control found the table it had unloaded to be another")
+                continue
             if self._is_checked or reader.parity != "none" or content == before:
                 return content
             fault = "Nothing on this line (no parity) shows a damaged character: unload it once more, to compare. "
@@ -241,7 +256,22 @@ class PeripheralDriver(NumTableContent):
         if not self._is_within_line:
             self._waiting.look()
 
-    # -- load -------------------------------------------------------------------------------------
+    # -- load and check ---------------------------------------------------------------------------
+
+    def _check(self, content: bytes) -> bool:
+        """Have the control compare a table with its memory; returns whether it took it to its end (page 13-13).
+
+        Where a parameter differs the control stops there and shows FILE ERROR, and the person may stop here too.
+        """
+        lines = table_text(content).splitlines(keepends=True)
+        try:
+            self._push(_Load(lines, CHECK_TEXT, "verify", CHECK_WAIT))
+        except ImageRejectedError:
+            return False
+        except LinkError as error:
+            self.close()
+            raise ConnectionCutError(f"the line broke: {error.what}") from None
+        return True
 
     def _push(self, load: _Load) -> None:
         """Send a table line by line, as fast as the control takes it."""
@@ -250,13 +280,13 @@ class PeripheralDriver(NumTableContent):
         while drained < LARGEST_DRAIN and (data := link.read(0)):
             drained += len(data)
         self._is_held = False
-        waiting.ask(LOAD_TEXT)
+        waiting.ask(load.sentence)
         self._await_ready(link)
         rate = link.bytes_per_second or RATE
         due = began = waiting.now()
         for number, line in enumerate(load.lines, 1):
             waiting.look()
-            self._await_go_on(link)
+            self._await_go_on(link, load.held_wait)
             if waiting.now() > began + LOAD_WAIT:
                 raise ImageRejectedError(f"the control has not taken the table within {LOAD_WAIT:g} s")
             load.sent(line)
@@ -264,9 +294,9 @@ class PeripheralDriver(NumTableContent):
             due = max(due, waiting.now()) + len(line) / rate
             self._listen(link, due - waiting.now())
             waiting.heard()
-            waiting.notify("download", number, len(load.lines))
+            waiting.notify(load.stage, number, len(load.lines))
         self._listen(link, SETTLE)
-        self._await_go_on(link)
+        self._await_go_on(link, load.held_wait)
 
     def _write(self, link: Link, line: str) -> None:
         self._is_within_line = True
@@ -301,7 +331,7 @@ class PeripheralDriver(NumTableContent):
                 return
             waiting.sleep(min(left, LISTEN))
 
-    def _await_go_on(self, link: Link) -> None:
+    def _await_go_on(self, link: Link, seconds: float) -> None:
         """Wait while the control has stopped the table; raises ImageRejectedError where it does not go on."""
         began, is_told = self._waiting.now(), False
         while self._is_held:
@@ -310,8 +340,8 @@ class PeripheralDriver(NumTableContent):
             if waited >= HELD_TOLD and not is_told:
                 is_told = True
                 self._waiting.ask(HELD_TEXT)
-            if waited >= HELD_WAIT:
-                raise ImageRejectedError(f"the control has stopped the table for {HELD_WAIT:g} s")
+            if waited >= seconds:
+                raise ImageRejectedError(f"the control has stopped the table for {seconds:g} s")
 
     def _after_break(self, error: TransferError, held: bytes, content: bytes) -> TransferError:
         """Return the error with what the control contains now, which only one more unload can show."""
@@ -327,12 +357,15 @@ class PeripheralDriver(NumTableContent):
         return error
 
 
+@dataclass
 class _Load:
-    """The lines of a load, and whether one that changes the control is under way."""
+    """A table that is sent: its lines, what a person is to do for it, and whether a line that changes the control has gone out."""
 
-    def __init__(self, lines: list[str]) -> None:
-        self.lines = lines
-        self.has_changed = False
+    lines: list[str]
+    sentence: str
+    stage: str
+    held_wait: float
+    has_changed: bool = False
 
     def sent(self, line: str) -> None:
         """Take notice of a line that is about to be sent."""
@@ -347,3 +380,8 @@ def _checked(reader: TableReader) -> bytes:
     except ImageError as error:
         raise ImageDamagedError(f"the table has arrived damaged ({error})") from None
     return content
+
+
+def checking(endpoint: Endpoint, family: str = "") -> PeripheralDriver:
+    """Return the driver that has the control check each unload, as the manual asks for (page 13-13)."""
+    return PeripheralDriver.at(endpoint, family, has_checked=True)

@@ -18,7 +18,9 @@ from tests.transfer.null_modem import VirtualClock
 class NumBench:
     """``wrap`` may put faults on each line; ``unload_keys`` are pressed between Enter and start."""
 
-    def __init__(self, folder: Path, *, parity: str = "even", is_checked: bool = False) -> None:
+    def __init__(
+        self, folder: Path, *, parity: str = "even", is_checked: bool = False, has_checked: bool = False
+    ) -> None:
         self.folder = folder
         self.clock = VirtualClock()
         self.screen: list[str] = []
@@ -31,7 +33,11 @@ class NumBench:
         self.control = self.switch_on()
         self.press(f"parity {parity}")
         self.driver = PeripheralDriver(
-            self._open, is_checked=is_checked, clock=self.clock, sleep=self.clock.sleep
+            self._open,
+            is_checked=is_checked,
+            has_checked=has_checked,
+            clock=self.clock,
+            sleep=self.clock.sleep,
         )
 
     def switch_on(self) -> NumControl:
@@ -46,7 +52,7 @@ class NumBench:
         if total != PERSON:
             return
         self.told.append(stage)
-        for operation, menu in (("unload", "3 UNLOAD"), ("load", "2 LOAD")):
+        for operation, menu in (("unload", "3 UNLOAD"), ("load", "2 LOAD"), ("verify", "4 CHECK")):
             if menu in stage and operation not in self.refuses:
                 self.press("exit", operation, "enter")
                 if operation == "unload":

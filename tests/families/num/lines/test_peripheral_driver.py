@@ -9,7 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.families.num.lines.driver import HELD_TEXT, LOAD_TEXT, UNLOAD_TEXT, PeripheralDriver
+from amp_studio.families.num.lines.driver import (
+    CHECK_TEXT,
+    HELD_TEXT,
+    LOAD_TEXT,
+    UNLOAD_TEXT,
+    PeripheralDriver,
+)
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import load_schema
 from amp_studio.schema.storage import value_of_stored
@@ -91,6 +97,29 @@ def test_without_parity_on_a_serial_line_two_unloads_are_compared(tmp_path: Path
     upload(bench.driver, bench.progress)
     assert len(bench.told) == 2
     assert bench.told[1].startswith("Nothing on this line (no parity) shows a damaged character")
+
+
+def test_the_control_checks_each_unload_where_the_person_asks_for_it(tmp_path: Path) -> None:
+    bench = NumBench(tmp_path, parity="none", has_checked=True)
+    upload(bench.driver, bench.progress)
+    assert [text[:52] for text in bench.told] == [UNLOAD_TEXT[:52], CHECK_TEXT[:52]]
+    assert bench.screen[-3:] == ["(VERI) P119", "(VERI) P120", "MACHINE SETUP DATA"]
+
+
+def test_a_check_that_stops_at_a_word_has_the_table_unloaded_again(tmp_path: Path) -> None:
+    bench = NumBench(tmp_path, parity="none", has_checked=True)
+    bench.wrap = lambda link: OneFault(link, 9_003, 1)
+    content = upload(bench.driver, bench.progress)
+    assert bench.told[2].startswith("The control has stopped the table.")
+    assert bench.told[3].startswith("The control has found another table than its own: unload it once more. ")
+    assert [line for line in bench.screen if "FILE ERROR" in line] == [
+        "dialogue line: FILE ERROR (INCORRECT TAPE?)  [line 445: P89N12 differs]"
+    ]
+    bench.driver = bench.driver.__class__(
+        bench._open, is_checked=True, clock=bench.clock, sleep=bench.clock.sleep
+    )
+    bench.wrap = lambda link: link
+    assert upload(bench.driver, bench.progress) == content
 
 
 def test_what_the_operator_types_behind_the_job_reference_is_no_content(bench: NumBench) -> None:
