@@ -11,7 +11,6 @@ import contextlib
 import errno
 import hashlib
 import os
-import secrets
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -136,7 +135,7 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
     """Write and sync a temporary file beside ``path``, with owner and mode of ``like``; it is gone afterwards."""
     # Shortened, because a name may be as long as the system lets it be; the name is known before there is a file, so that
     # whatever stops the program finds it.
-    temporary = path.with_name(f".{path.name[:24]}.{secrets.token_hex(8)}.tmp")
+    temporary = path.with_name(f".{path.name[:24]}.{os.urandom(8).hex()}.tmp")
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_LINK | HARMLESS
     try:
         handle = os.open(temporary, flags, 0o666 if like is None else 0o600)
@@ -156,7 +155,7 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
 @contextlib.contextmanager
 def _put_back_unless_saved(kept: Path, temporary: Path) -> Iterator[None]:
     """Keep the older backup until the file itself has been replaced: a save that fails there has changed nothing."""
-    older, has_older = kept.with_name(f".{kept.name[:24]}.{secrets.token_hex(8)}.tmp"), os.path.lexists(kept)
+    older, has_older = kept.with_name(f".{kept.name[:24]}.{os.urandom(8).hex()}.tmp"), os.path.lexists(kept)
     with contextlib.suppress(OSError):  # a file system without a second name for a file
         os.link(kept, older, follow_symlinks=False)
     try:

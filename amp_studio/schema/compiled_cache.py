@@ -11,7 +11,6 @@ import hashlib
 import logging
 import os
 import re
-import tempfile
 from pathlib import Path
 
 from .regular_file import read_file
@@ -43,6 +42,8 @@ def report_unusable(path: Path, why: str) -> None:
 
 def write_cached(path: Path, kept: bytes, family: str) -> None:
     """Keep the compiled form of a family, and remove what older facts of it left."""
+    import tempfile  # most starts keep nothing
+
     temporary = ""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
