@@ -54,7 +54,7 @@ class Mutant:
         all_of_it = list(getattr(expressions, field))
         functions = rule_functions(rule.id.partition(".")[0])
         all_of_it[self.n] = (all_of_it[self.n][0], Expression(program(self.text), functions))
-        return Expressions(rule, functions, replace(expressions, **{field: tuple(all_of_it)}))
+        return Expressions(rule, functions, expressions._replace(**{field: tuple(all_of_it)}))
 
 
 def parts_of(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
