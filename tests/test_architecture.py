@@ -198,3 +198,19 @@ def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None
                 break
             here = found.body
     assert lost == []
+
+
+def test_a_class_or_alias_has_a_name_that_no_other_has(checkout: Path) -> None:
+    """A reader who finds ``State`` knows which one it is; names with an underscore are of one module."""
+    places: dict[str, list[str]] = {}
+    for path in sorted((checkout / "amp_studio").rglob("*.py")):
+        for node in ast.parse(path.read_text("utf-8")).body:
+            if isinstance(node, ast.ClassDef):
+                name = node.name
+            elif isinstance(node, ast.Assign) and isinstance(node.value, ast.Subscript):
+                name = ast.unparse(node.targets[0])  # an alias of a type: Literal[…], Callable[…]
+            else:
+                continue
+            if name[0].isupper() and not name.isupper():
+                places.setdefault(name, []).append(path.relative_to(checkout).as_posix())
+    assert {name: where for name, where in places.items() if len(where) > 1} == {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from amp_studio.files import ParameterFile
-from amp_studio.files.out_of_range import Decision, settle
+from amp_studio.files.out_of_range import RangeDecision, settle
 from amp_studio.schema import Address
 
 from .console import ask, note
@@ -19,7 +19,7 @@ class _AtTheTerminal:
         self._on_fault = "quit" if on_fault == "ask" and not sys.stdin.isatty() else on_fault
         self._by = by
 
-    def decide(self, problem: str) -> Decision:
+    def decide(self, problem: str) -> RangeDecision:
         if self._on_fault == "keep":
             return "keep"
         if self._on_fault == "quit":
@@ -39,7 +39,7 @@ class _AtTheTerminal:
         note(problem)
 
 
-_LETTERS: dict[str, Decision] = {"c": "keep", "e": "edit", "q": "quit"}
+_LETTERS: dict[str, RangeDecision] = {"c": "keep", "e": "edit", "q": "quit"}
 
 
 def settle_values(file: ParameterFile, on_fault: str, by: str) -> None:

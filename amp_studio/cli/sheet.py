@@ -12,10 +12,10 @@ from amp_studio.report.wording import counted
 from amp_studio.schema.regular_file import read_file
 from amp_studio.sheet import (
     STATES,
-    Entry,
     ReadBack,
     ReadBackError,
     Sheet,
+    SheetEntry,
     SheetError,
     Ticks,
     TicksError,
@@ -85,7 +85,7 @@ def _tick(options: argparse.Namespace, file: ParameterFile, sheet: Sheet, ticks:
             ticks.tick(_named(names, file, sheet), on)
 
 
-def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[Entry]:
+def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[SheetEntry]:
     """Return the entries of numbers or ids; raises UsageError, UnknownParameterError."""
     entries, found = {entry.address: entry for entry in sheet.entries}, []
     for name in names:
@@ -154,7 +154,9 @@ def _instructions(steps: Sequence[Any]) -> list[dict[str, str]]:
     return [{"text": each.text, "page": each.page} for each in steps]
 
 
-def _entry_json(step: int, entry: Entry, sheet: Sheet, ticks: Ticks, read: ReadBack | None) -> dict[str, Any]:
+def _entry_json(
+    step: int, entry: SheetEntry, sheet: Sheet, ticks: Ticks, read: ReadBack | None
+) -> dict[str, Any]:
     stage = sheet.stages[entry.stage]
     return {
         "step": step, "param": entry.number, "id": entry.address[0], "instance": entry.address[1], "name": entry.name,

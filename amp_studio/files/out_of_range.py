@@ -9,13 +9,13 @@ from amp_studio.schema import Address, InvalidValueError, fault, written
 from .lock import now
 from .parameter_file import ParameterFile, RangeError
 
-Decision = Literal["keep", "edit", "quit"]
+RangeDecision = Literal["keep", "edit", "quit"]
 
 
 class Person(Protocol):
     """Who decides about a value out of range: at a terminal, in dialogs, or an option of the command line."""
 
-    def decide(self, problem: str) -> Decision:
+    def decide(self, problem: str) -> RangeDecision:
         """Return what happens with the value that has this problem."""
         ...
 

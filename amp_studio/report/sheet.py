@@ -13,7 +13,7 @@ from pathlib import Path
 from amp_studio import __version__
 from amp_studio.files import Notify, write_atomic
 from amp_studio.files.spreadsheet import text_cell
-from amp_studio.sheet import Entry, Instruction, Sheet, Stage
+from amp_studio.sheet import Instruction, Sheet, SheetEntry, Stage
 
 from .model import printable
 from .page import filled_page
@@ -29,7 +29,7 @@ class Step:
     """One entry with its number in the order, whether it is ticked, and what was read back."""
 
     at: int
-    entry: Entry
+    entry: SheetEntry
     is_ticked: bool
     shown: str
 

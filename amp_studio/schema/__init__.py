@@ -14,7 +14,7 @@ from .evaluation import Evaluation, same_value
 from .expression import canonical_value, program
 from .file_error import FileError
 from .folder import database_folder
-from .load import DatabaseError, Entry, UnknownFamilyError, family_ids, read_entries
+from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
 from .machine_schema import MachineSchema, labelled
 from .model import (
     AxisProfile,
@@ -53,9 +53,9 @@ __all__ = [
     "Choice",
     "Condition",
     "DatabaseError",
-    "Entry",
     "Erratum",
     "Evaluation",
+    "FactEntry",
     "FileError",
     "Group",
     "InvalidValueError",

@@ -120,7 +120,7 @@ def _of(family: Family, folder: Path) -> list[Path]:
     return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
 
 
-class Entry(NamedTuple):
+class FactEntry(NamedTuple):
     """One item of a named list of a file, unchanged."""
 
     kind: str
@@ -130,7 +130,7 @@ class Entry(NamedTuple):
     """Return the line of a place in it."""
 
 
-def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[DatabaseError]]:
+def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[FactEntry], list[DatabaseError]]:
     """Read a file of named lists: every item of one, and what is wrong with the lists."""
     try:
         document = read_yaml_file(path, DatabaseError, most=_MOST_RULES)
@@ -139,12 +139,12 @@ def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[Entry], list[
     data = document.data
     if not isinstance(data, dict):
         return [], [] if data is None else [DatabaseError(path, 1, f"has no {' and no '.join(kinds)}")]
-    entries: list[Entry] = []
+    entries: list[FactEntry] = []
     faults: list[DatabaseError] = []
     for key, listed in data.items():
         if key in kinds and isinstance(listed, list):
             entries += [
-                Entry(key, item, partial(_line_of, document, (key, n))) for n, item in enumerate(listed)
+                FactEntry(key, item, partial(_line_of, document, (key, n))) for n, item in enumerate(listed)
             ]
         elif listed is not None or key not in kinds:
             name = short(str(key))

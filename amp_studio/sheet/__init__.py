@@ -7,19 +7,19 @@
 
 from .build import SheetError, make_sheet
 from .keying import Instruction, Keying, Stage, keying_of
-from .model import Entry, LeftOut, Sheet
+from .model import LeftOut, Sheet, SheetEntry
 from .read_back import STATES, ReadBack, ReadBackError, Shown, compare_shown, judged, read_shown
 from .ticks import Ticks, TicksError, ticks_path
 
 __all__ = [
     "STATES",
-    "Entry",
     "Instruction",
     "Keying",
     "LeftOut",
     "ReadBack",
     "ReadBackError",
     "Sheet",
+    "SheetEntry",
     "SheetError",
     "Shown",
     "Stage",

@@ -12,7 +12,7 @@ from amp_studio.validate.finding import Finding
 from amp_studio.validate.interim import Interim, NewValue
 
 from .keying import NOT_OFFERED, Keyed, Keying, keying_of
-from .model import Entry, LeftOut, Sheet
+from .model import LeftOut, Sheet, SheetEntry
 from .order import bad, safe_order
 
 
@@ -181,7 +181,7 @@ def _warnings(lines: Sequence[_Line], present: ParameterFile, own: BuilderRules)
     )
 
 
-def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> Entry:
+def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> SheetEntry:
     address, value = line.step.address, line.step.value
     assert value is not None
     parameter = wanted.schema.parameters[address[0]]
@@ -192,7 +192,7 @@ def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> Entry:
     elif line.new.is_rounded:
         meaning += ", rounded"
     page = parameter.pages.get(address[1]) or parameter.page
-    return Entry(
+    return SheetEntry(
         address, number, name, line.old, line.new, meaning, page, line.stage, line.order, tuple(line.until)
     )
 

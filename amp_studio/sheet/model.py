@@ -10,7 +10,7 @@ from .keying import Instruction, Keyed, Stage
 
 
 @dataclass(frozen=True)
-class Entry:
+class SheetEntry:
     """One value to key in.
 
     ``was``, ``keyed``  what the control's screen shows now (None if it is not known) and is to show
@@ -69,7 +69,7 @@ class Sheet:
     machine: str
     present: str
     wanted: str
-    entries: tuple[Entry, ...]
+    entries: tuple[SheetEntry, ...]
     left_out: tuple[LeftOut, ...]
     stages: tuple[Stage, ...]
     before: tuple[Instruction, ...]

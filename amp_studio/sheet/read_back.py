@@ -13,12 +13,12 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, UnknownParameterError
 from amp_studio.schema.quoting import quoted
 
-from .model import Entry, Sheet
+from .model import Sheet, SheetEntry
 
-State = Literal["same", "old", "other", "not read"]
+ReadBackState = Literal["same", "old", "other", "not read"]
 """``old``: the screen still shows what the control contained before."""
 
-STATES: dict[State, str] = {
+STATES: dict[ReadBackState, str] = {
     "same": "as keyed in",
     "old": "still the old value",
     "other": "another value",
@@ -51,9 +51,9 @@ class Shown:
 class ReadBack:
     """One entry and what the screen shows for it: ``shown`` is None where nobody has read it."""
 
-    entry: Entry
+    entry: SheetEntry
     shown: str | None
-    state: State
+    state: ReadBackState
 
 
 def read_shown(text: str) -> list[Shown]:
@@ -122,7 +122,7 @@ def compare_shown(sheet: Sheet, file: ParameterFile, shown: Iterable[Shown]) -> 
     return [judged(entry, given.get(address)) for address, entry in entries.items()]
 
 
-def judged(entry: Entry, shown: str | None) -> ReadBack:
+def judged(entry: SheetEntry, shown: str | None) -> ReadBack:
     """Compare one entry with what the screen shows; blank is not read."""
     if shown is None or not shown.strip():
         return ReadBack(entry, None, "not read")

@@ -13,7 +13,7 @@ from pathlib import Path
 from amp_studio.files import write_atomic
 from amp_studio.schema.regular_file import read_file
 
-from .model import Entry, Sheet
+from .model import Sheet, SheetEntry
 
 ENDING = ".ticks.json"
 _LARGEST = 1 << 22  # bytes
@@ -56,20 +56,20 @@ class Ticks:
                 self.shown[number] = shown
 
     def __contains__(self, entry: object) -> bool:
-        return isinstance(entry, Entry) and entry.number in self._ticked
+        return isinstance(entry, SheetEntry) and entry.number in self._ticked
 
     @property
     def done(self) -> int:
         """How many entries are ticked."""
         return len(self._ticked)
 
-    def tick(self, entries: Iterable[Entry], on: bool = True) -> None:
+    def tick(self, entries: Iterable[SheetEntry], on: bool = True) -> None:
         """Tick entries, or take their ticks away."""
         numbers = {entry.number for entry in entries}
         self._ticked = self._ticked | numbers if on else self._ticked - numbers
         self._save()
 
-    def read_back(self, entry: Entry, shown: str) -> None:
+    def read_back(self, entry: SheetEntry, shown: str) -> None:
         """Remember what the screen shows for an entry; "" for nothing."""
         self.shown.pop(entry.number, None)
         if shown.strip():

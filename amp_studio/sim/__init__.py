@@ -12,7 +12,7 @@ from . import one_thread as one_thread
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .errors import SimulationError
 from .law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source, law_of, simulated_families
-from .listing import Listing, listing
+from .listing import SimulationListing, listing
 from .machine import Machine
 from .model import model_settings
 from .scenarios import SCENARIOS, Scenario
@@ -30,7 +30,6 @@ __all__ = [
     "AxisParameters",
     "Figure",
     "Law",
-    "Listing",
     "Machine",
     "ParameterValue",
     "Prediction",
@@ -39,6 +38,7 @@ __all__ = [
     "Recommendation",
     "Scenario",
     "SimulationError",
+    "SimulationListing",
     "Source",
     "Trace",
     "address_of",

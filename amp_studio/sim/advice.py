@@ -131,7 +131,7 @@ def recommend(trial: Trial, scenario: str) -> tuple[Recommendation, ...]:
 
 def _sounder(trial: Trial, loops: Loops) -> Iterator[Recommendation]:
     """Yield the least change that makes the axis sound; where none does, the least that gives it some margin."""
-    tried = _Tried(trial)
+    tried = _TriedValue(trial)
     for aim in (LEAST, *LESS):
         if loops.inner_sound(min(aim[0], INNER[0]), min(aim[1], INNER[1])) and loops.sound(*aim):
             return
@@ -165,7 +165,7 @@ def _faster(trial: Trial, loops: Loops) -> Iterator[Recommendation]:
             return
 
 
-class _Tried:
+class _TriedValue:
     """The loops of an axis with a share of some of its gains, each computed once."""
 
     def __init__(self, trial: Trial) -> None:
@@ -181,7 +181,7 @@ class _Tried:
         return self._known[names, share]
 
 
-def _boundary(tried: _Tried, names: Sequence[str], good: Callable[[Loops], bool]) -> float | None:
+def _boundary(tried: _TriedValue, names: Sequence[str], good: Callable[[Loops], bool]) -> float | None:
     """Return the factor nearest to 1 that makes the gains good, found by doubling and halving; None for none."""
     best: list[float] = []
     for base in tried.bases:
@@ -196,7 +196,7 @@ def _boundary(tried: _Tried, names: Sequence[str], good: Callable[[Loops], bool]
 
 
 def _nearest(
-    tried: _Tried, names: Sequence[str], good: Callable[[Loops], bool], base: float, n: int
+    tried: _TriedValue, names: Sequence[str], good: Callable[[Loops], bool], base: float, n: int
 ) -> float:
     far, near = float(n), float(n - 1)
     for _ in range(HALVINGS):

@@ -12,14 +12,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
 from . import signals
 from .compiled import Sample
 from .law import AxisLaw
 from .sampled import Matrix, Places, SampledLoop, jacobian, plant_of, sampled
-
-Response = npt.NDArray[np.complex128]
+from .series import Response
 
 _POINTS = 2400
 """Points of the grid on which crossings are sought before they are refined."""

@@ -15,7 +15,7 @@ from .unit_system import described, length_unit
 
 
 @dataclass(frozen=True)
-class Entry:
+class ScenarioEntry:
     """One scenario."""
 
     name: str
@@ -25,13 +25,13 @@ class Entry:
 
 
 @dataclass(frozen=True)
-class Listing:
+class SimulationListing:
     """Scenarios and settings for one file."""
 
     axes: tuple[str, ...]
     letters: tuple[str, ...]
     """Of each axis; the axis itself where the file gives it none."""
-    scenarios: tuple[Entry, ...]
+    scenarios: tuple[ScenarioEntry, ...]
     model: dict[str, str]
     """Settings of the machine -> what they are."""
 
@@ -41,15 +41,15 @@ def known_settings(law: Law, scenario: str) -> dict[str, str]:
     return {**model_settings(), **law.settings, **{**SCENARIOS, **law.own}[scenario].settings}
 
 
-def listing(file: ParameterFile, system: str | None = None) -> Listing:
+def listing(file: ParameterFile, system: str | None = None) -> SimulationListing:
     """Return what can be simulated with a file, settings in a unit system (None: that of the file); raises SimulationError for a family without a law."""
     law, length = law_of(file.schema.family.family), length_unit(file, system)
     scenarios = [*(SCENARIOS[name] for name in law.scenarios), *law.own.values()]
-    entries = [Entry(each.name, each.title, _described(each.settings, length)) for each in scenarios]
+    entries = [ScenarioEntry(each.name, each.title, _described(each.settings, length)) for each in scenarios]
     model = _described({**model_settings(), **law.settings}, length)
     axes = tuple(law.axes(file))
     letters = tuple(axis_name(file.evaluation, axis) or axis for axis in axes)
-    return Listing(axes, letters, tuple(entries), model)
+    return SimulationListing(axes, letters, tuple(entries), model)
 
 
 def _described(settings: Mapping[str, str], length: str) -> dict[str, str]:

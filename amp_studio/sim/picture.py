@@ -12,12 +12,11 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from .rounding import shown
+from .series import Series
 from .trace import Trace
 
-Series = npt.NDArray[np.float64]
 Role = Literal["command", "actual", "other", "output", "before"]
 
 CLOSE = 10.0

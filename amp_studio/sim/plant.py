@@ -42,7 +42,7 @@ from .machine import (
     VELOCITY_PER_OUTPUT,
 )
 
-State = tuple[float, float, float, float, float, float, float]
+PlantState = tuple[float, float, float, float, float, float, float]
 """Motor position and speed, load position and speed, torque of the motor at the end of the last step; in a drive with a velocity
 loop the integral of the velocity error (u) and the torque of friction and load in the last step."""
 
@@ -153,7 +153,7 @@ def advance(
     against: float,
     output: float,
     h: float,
-) -> State:
+) -> PlantState:
     """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the drive."""
     target, error_sum = wanted_torque(m, output, motor, error_sum, against, h)
     mean = target + (torque - target) * m[LAG_MEAN]

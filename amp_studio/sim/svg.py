@@ -8,8 +8,9 @@ from html import escape
 
 import numpy as np
 
-from .picture import Curve, Panel, Picture, Ring, Series, banded, limits_outside, picture_of, thinned, unheld
+from .picture import Curve, Panel, Picture, Ring, banded, limits_outside, picture_of, thinned, unheld
 from .rounding import shown
+from .series import Series
 from .trace import Trace
 
 WIDTH = 960

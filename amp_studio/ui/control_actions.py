@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QMessageBox, QStyle
 
 from amp_studio.files import Document, ParameterFile
 from amp_studio.files.out_of_range import settle
+from amp_studio.transfer.progress import Progress
 
 from .control_exchange import ControlExchange
 from .emulated_control import EmulatedControl
@@ -21,7 +22,6 @@ from .questions import ask, show_message
 from .restore import restore
 from .sheet_actions import enter_by_hand
 from .studio_window import StudioWindow
-from .task import Progress
 from .workspace import Workspace
 
 if TYPE_CHECKING:

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 from amp_studio.files import ParameterFile
+from amp_studio.transfer.progress import Progress
 
 from .emulated_control import EmulatedControl
 from .questions import show_message
 from .studio_window import StudioWindow
-from .task import Progress, ProgressDialog
+from .task import ProgressDialog
 from .workspace import Workspace
 
 if TYPE_CHECKING:

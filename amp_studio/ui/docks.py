@@ -6,7 +6,7 @@ from PySide6.QtCore import QByteArray, Qt
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QStackedWidget
 
 from .file_page import FilePage
-from .settings import Settings
+from .settings import UserSettings
 
 _PANELS = (
     ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 248),
@@ -21,7 +21,7 @@ _LEAST_TABLE = 320
 class Docks:
     """One dock for each kind of panel. Nothing is docked while no file is open."""
 
-    def __init__(self, window: QMainWindow, settings: Settings) -> None:
+    def __init__(self, window: QMainWindow, settings: UserSettings) -> None:
         self._window, self._settings = window, settings
         self._stacks: dict[str, QStackedWidget] = {}
         self._arranged: QByteArray | None = None

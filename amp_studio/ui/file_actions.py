@@ -27,6 +27,7 @@ from amp_studio.files import (
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import EditLock
 from amp_studio.report.wording import counted
+from amp_studio.transfer.progress import Progress
 from amp_studio.validate import Validator, rules_beside
 
 from .file_page import FilePage
@@ -34,7 +35,7 @@ from .format_actions import FormatActions
 from .questions import ask
 from .settings import is_there
 from .studio_window import StudioWindow
-from .task import Progress, ProgressDialog, in_background
+from .task import ProgressDialog, in_background
 from .workspace import Workspace
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from .parameter_table import ParameterTable
 from .value_table import ValueTable
 from .workspace import Workspace
 
-Commit = Callable[[Workspace, Address, str], bool]
+CommitValue = Callable[[Workspace, Address, str], bool]
 """Sets a value of a file from typed text; returns whether it was set."""
 
 
@@ -40,7 +40,9 @@ class FilePage(QWidget):
     conflict = Signal()
     """A save was refused because another program has changed the file on disk."""
 
-    def __init__(self, workspace: Workspace, commit: Commit, cell_actions: Iterable[QAction] = ()) -> None:
+    def __init__(
+        self, workspace: Workspace, commit: CommitValue, cell_actions: Iterable[QAction] = ()
+    ) -> None:
         super().__init__()
         self.workspace = workspace
         commit_here = partial(commit, workspace)

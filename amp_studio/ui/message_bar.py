@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolBut
 
 from .theme import severity_ink
 
-Kind = Literal["information", "advice", "warning", "error"]
+MessageKind = Literal["information", "advice", "warning", "error"]
 READING_MS = 8_000
 """Milliseconds after which an information leaves by itself; anything else stays until it is answered or closed."""
 
@@ -42,7 +42,9 @@ class MessageBar(QFrame):
         self._leave.timeout.connect(self.hide)
         self.hide()
 
-    def say(self, text: str, kind: Kind = "information", *answers: tuple[str, Callable[[], object]]) -> None:
+    def say(
+        self, text: str, kind: MessageKind = "information", *answers: tuple[str, Callable[[], object]]
+    ) -> None:
         """Show a text with a button for each of at most two answers; a click hides the message first."""
         for button in self.buttons:
             self._layout.removeWidget(button)

@@ -11,8 +11,9 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QFont, QKeyEvent
 
-from amp_studio.sim.picture import Curve, Panel, Picture, Ring, Series, unheld
+from amp_studio.sim.picture import Curve, Panel, Picture, Ring, unheld
 from amp_studio.sim.rounding import shown
+from amp_studio.sim.series import Series
 from amp_studio.sim.svg import ring_levels
 
 from .theme import is_dark

@@ -37,14 +37,15 @@ from amp_studio.sim import (
     titled,
     write_trace,
 )
-from amp_studio.sim.listing import Listing
+from amp_studio.sim.listing import SimulationListing
 from amp_studio.sim.picture import picture_of, settling_span
+from amp_studio.transfer.progress import Progress
 
 from .motion_plot import MotionPlot
 from .motion_results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .motion_settings import SettingsForm, refill, scrolled
 from .pages import LINK
-from .task import Progress, Task
+from .task import Task
 from .theme import severity_ink
 from .workspace import Workspace
 
@@ -377,10 +378,10 @@ class MotionView(QWidget):
         super().closeEvent(event)
 
 
-def _possible(file: ParameterFile) -> tuple[Listing, SimulationError | None]:
+def _possible(file: ParameterFile) -> tuple[SimulationListing, SimulationError | None]:
     """Return what can be simulated with a file, and why nothing can, if so."""
     try:
         found = listing(file)
     except SimulationError as error:
-        return Listing((), (), (), {}), error
+        return SimulationListing((), (), (), {}), error
     return found, None if found.axes else SimulationError(law_of(file.schema.family.family).without_axes)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from amp_studio.files import ParameterFile
-from amp_studio.files.out_of_range import Decision
+from amp_studio.files.out_of_range import RangeDecision
 from amp_studio.schema import Address, write_value
 
 from .questions import ask, show_message
 
-_ANSWERS: dict[str, Decision] = {
+_ANSWERS: dict[str, RangeDecision] = {
     "&Continue checking": "keep",
     "&Edit parameter": "edit",
     "&Quit checking": "quit",
@@ -23,7 +23,7 @@ class AskInDialogs:
     def __init__(self, parent: QWidget) -> None:
         self._parent = parent
 
-    def decide(self, problem: str) -> Decision:
+    def decide(self, problem: str) -> RangeDecision:
         """Ask whether to keep the value, to edit it or to quit."""
         icon = QMessageBox.Icon.Warning
         return _ANSWERS[ask(self._parent, "Out of range", f"{problem}.", *_ANSWERS, icon=icon)]

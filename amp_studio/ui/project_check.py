@@ -14,9 +14,9 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWi
 from amp_studio.files import ParameterFileError, open_file
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address
+from amp_studio.transfer.progress import Progress
 from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
 
-from .task import Progress
 from .theme import severity_icon, severity_ink
 
 _GOES_TO = Qt.ItemDataRole.UserRole

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import compare
+from amp_studio.transfer.progress import Progress
 from amp_studio.validate import Validator, rules_beside
 
 from .control_exchange import ControlExchange
 from .questions import ask
-from .task import Progress, in_background
+from .task import in_background
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Copy, Outcome

@@ -17,7 +17,7 @@ _LEAST = 320, 200
 """Least useful width and height of the window in pixels."""
 
 
-class Settings:
+class UserSettings:
     """The settings of one user; an unusable entry is ignored."""
 
     def __init__(self) -> None:

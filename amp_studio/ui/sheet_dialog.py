@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.sheet import STATES, Entry, Instruction, Sheet, Ticks, judged
+from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, Ticks, judged
 
 from .questions import show_message
 from .task import in_background
@@ -143,7 +143,7 @@ class SheetDialog(QDialog):
         self.tabs.setTabVisible(2, bool(self.sheet.left_out))
         self._count()
 
-    def _row(self, at: int, entry: Entry, bold: QFont) -> QTreeWidgetItem:
+    def _row(self, at: int, entry: SheetEntry, bold: QFont) -> QTreeWidgetItem:
         item = QTreeWidgetItem([
             str(at), entry.number, entry.new, entry.unit, entry.old or "?",
             entry.name + (f" = {entry.meaning}" if entry.meaning else ""), self.ticks.shown.get(entry.number, ""), "",
@@ -181,7 +181,7 @@ class SheetDialog(QDialog):
 
     def _explain(self, item: QTreeWidgetItem | None, *_: object) -> None:
         entry = item.data(_STEP, _ENTRY) if item is not None else None
-        if isinstance(entry, Entry):
+        if isinstance(entry, SheetEntry):
             stage = self.sheet.stages[entry.stage]
             why = f"{stage.why} (page {stage.page})" if stage.page else stage.why
             self.details.setText(
@@ -195,13 +195,13 @@ class SheetDialog(QDialog):
     # -- what a person does --------------------------------------------------------
 
     def _type(self, item: QTreeWidgetItem) -> None:
-        if isinstance(item.data(_STEP, _ENTRY), Entry):
+        if isinstance(item.data(_STEP, _ENTRY), SheetEntry):
             self.list.editItem(item, _READ)
 
     def _edited(self, item: QTreeWidgetItem, column: int) -> None:
         """Keep a tick, or what was typed in, beside the file."""
         entry = item.data(_STEP, _ENTRY)
-        if not isinstance(entry, Entry) or column not in (_STEP, _READ):
+        if not isinstance(entry, SheetEntry) or column not in (_STEP, _READ):
             return
         try:
             if column == _STEP:

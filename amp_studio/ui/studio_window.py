@@ -25,7 +25,7 @@ from .findings_panel import FindingsPanel
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .questions import ask, show_message
-from .settings import Settings
+from .settings import UserSettings
 from .task import in_background
 from .theme import standard_icon
 from .value_table import ValueTable
@@ -45,7 +45,7 @@ class StudioWindow(QMainWindow):
         super().__init__()
         self._project: Project | None = None
         self.tabs = FileTabs()
-        self.settings = Settings()
+        self.settings = UserSettings()
         self.docks = Docks(self, self.settings)
         self.actions_needing: dict[Needs, list[QAction]] = {
             "": [],

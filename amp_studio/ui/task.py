@@ -9,9 +9,10 @@ from typing import Any, ClassVar, TypeVar
 from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
+from amp_studio.transfer.progress import Progress
+
 from .garbage import collect_by_timer
 
-Progress = Callable[[str, int, int], None]
 Work = Callable[[Progress, threading.Event], Any]
 Result = TypeVar("Result")
 

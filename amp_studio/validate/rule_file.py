@@ -21,8 +21,8 @@ from amp_studio.files.yaml_text import with_item
 from amp_studio.schema import (
     BuilderRule,
     DatabaseError,
-    Entry,
     Evaluation,
+    FactEntry,
     Schema,
     Suppression,
     family_ids,
@@ -100,7 +100,7 @@ class _RuleFileReader:
             tuple(self._rules.values()), used, tuple(self._findings()), self._places, self._costs
         )
 
-    def _fault(self, entry: Entry, place: KeyPath, what: str) -> None:
+    def _fault(self, entry: FactEntry, place: KeyPath, what: str) -> None:
         steps = " ".join(str(step + 1) if isinstance(step, int) else shown(step)[1:-1] for step in place)
         words = [word for word in (_named(entry.data), steps) if word]
         self._faults.append(DatabaseError(self._path, entry.line(place), ": ".join([*words, what])))
@@ -114,7 +114,7 @@ class _RuleFileReader:
 
     # -- rules -----------------------------------------------------------------
 
-    def _rule(self, entry: Entry) -> None:
+    def _rule(self, entry: FactEntry) -> None:
         rule, slips = entry_model(entry.data, BuilderRule)
         family = rule.family if rule else ""
         if family and family not in self._families:
@@ -132,7 +132,7 @@ class _RuleFileReader:
         for place, what in slips:
             self._fault(entry, place, what)
 
-    def _same_id(self, entry: Entry, rule: BuilderRule) -> list[Slip]:
+    def _same_id(self, entry: FactEntry, rule: BuilderRule) -> list[Slip]:
         line = self._lines.setdefault(rule.id, entry.line(()))
         if rule.id in _ids(self._schema):
             return [(("id",), f"a rule of {self._schema.family.family} has this id already")]
@@ -156,7 +156,7 @@ class _RuleFileReader:
 
     # -- suppressions ----------------------------------------------------------
 
-    def _suppression(self, entry: Entry) -> Suppression | None:
+    def _suppression(self, entry: FactEntry) -> Suppression | None:
         """Return a suppression that is about this family."""
         found, slips = entry_model(entry.data, Suppression)
         if found and not slips:

@@ -237,7 +237,7 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
     from PySide6.QtCore import QSettings, Qt, qInstallMessageHandler
     from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow
 
-    from amp_studio.ui.settings import Settings, is_there, is_usable
+    from amp_studio.ui.settings import UserSettings, is_there, is_usable
 
     application = QApplication.instance() or QApplication([])
     window = QMainWindow()
@@ -248,7 +248,7 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
         place = path if is_usable(path) else path / "none"
         stored = QSettings(str(place), QSettings.Format.IniFormat)
         with mock.patch("amp_studio.ui.settings.stored_in", return_value=stored):
-            settings = Settings()
+            settings = UserSettings()
         assert isinstance(settings.control(), str)
         for recent in settings.recent():
             is_there(recent)

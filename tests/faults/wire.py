@@ -9,7 +9,7 @@ from unittest import mock
 
 from amp_studio.transfer.house.frame import MAX_ENCODED, MAX_PAYLOAD, Frame, FrameDecoder, encode_frame
 from amp_studio.transfer.house.message import LAYOUTS, MESSAGES, Message, RefusalError, pack, unpack
-from amp_studio.transfer.links.telnet import LONGEST_OPTION, Data, TelnetReader
+from amp_studio.transfer.links.telnet import LONGEST_OPTION, TelnetData, TelnetReader
 from amp_studio.transfer.plain.line import ByteLine, PlainFileError
 from amp_studio.transfer.plain.raw import Tape, read_tape
 from amp_studio.transfer.plain.sender import BlockSender
@@ -127,7 +127,7 @@ def fuzz_telnet(seed: int, count: int) -> list[str]:
         reader, data, others = TelnetReader(), b"", list[object]()
         for at in range(0, len(stream), size):
             for each in reader.feed(stream[at : at + size]):
-                if isinstance(each, Data):
+                if isinstance(each, TelnetData):
                     data += each.content
                 else:
                     others.append(each)

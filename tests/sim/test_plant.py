@@ -16,18 +16,18 @@ from amp_studio.sim.arrays import Vector
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.machine import machine_array
 from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.plant import State, advance
+from amp_studio.sim.plant import PlantState, advance
 from amp_studio.sim.ramps import blocks, end_of, move
 from amp_studio.sim.signals import OUTPUT_TEST
 from tests.sim.tiny import tiny
 
 H = 0.00025
-REST: State = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+REST: PlantState = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def moved(
-    machine: Machine, steps: int, output: float = 0.0, state: State = REST, h: float = H
-) -> list[State]:
+    machine: Machine, steps: int, output: float = 0.0, state: PlantState = REST, h: float = H
+) -> list[PlantState]:
     """Return the states of a machine under a constant output, the first of them too."""
     m: Vector = machine_array(machine, h)
     states = [state]
@@ -37,7 +37,7 @@ def moved(
     return states
 
 
-def energy(machine: Machine, state: State) -> float:
+def energy(machine: Machine, state: PlantState) -> float:
     """Return kinetic and potential energy of a state, in torque times u."""
     motor_position, motor, load_position, load, *_ = state
     height = machine.gravity * load_position + 0.5 * machine.spring * load_position**2
@@ -133,7 +133,7 @@ figures = st.fixed_dictionaries(
 @example({"acceleration_per_output": 50.0, "backlash": 0.1, "gravity": 3.0, "damping": 0.0}, 0.0, 20.0)
 def test_energy_never_appears_from_nowhere(values: dict[str, float], output: float, speed: float) -> None:
     machine = Machine(**values)
-    start: State = (0.0, speed, 0.0, speed, output, 0.0, 0.0)
+    start: PlantState = (0.0, speed, 0.0, speed, output, 0.0, 0.0)
     states = moved(machine, 600, output, start)
     work = np.cumsum([0.0, *(output * (b[0] - a[0]) for a, b in pairwise(states))])
     have = np.array([energy(machine, state) for state in states])

@@ -12,7 +12,7 @@ from PySide6.QtCore import QByteArray, QRect, QSettings, Qt
 from PySide6.QtWidgets import QDockWidget
 
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.settings import Settings, is_there, on_screen, stored_in
+from amp_studio.ui.settings import UserSettings, is_there, on_screen, stored_in
 
 from .conftest import WAIT_MS
 
@@ -113,10 +113,10 @@ def test_a_layout_that_is_none_leaves_the_panels_where_they_are(
 
 
 def test_what_is_kept_comes_back(qapp) -> None:
-    settings = Settings()
+    settings = UserSettings()
     settings.keep_recent([Path("/a/b.amp"), Path("/c.amp")])
     settings.keep_control("tcp://127.0.0.1:9600")
-    assert (Settings().recent(), Settings().control()) == (
+    assert (UserSettings().recent(), UserSettings().control()) == (
         [Path("/a/b.amp"), Path("/c.amp")],
         "tcp://127.0.0.1:9600",
     )

@@ -32,7 +32,7 @@ LOOSE = 2.0
 
 
 @dataclass(frozen=True)
-class Move:
+class SimulatedMove:
     """A move that was simulated: axis, trace, feedrate in u/s."""
 
     axis: AxisLaw
@@ -83,20 +83,20 @@ def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
     feedrate = (trace.result["feedrate"][0] or 0.0) / 60.0
     gain = p[samples.GAIN] * 60.0 / 1000.0
     loop = Loop(gain, p[samples.BREAK_POINT], p[samples.BREAK_RATIO], p[samples.FEED_FORWARD])
-    move = Move(axis, trace, loop, feedrate)
+    move = SimulatedMove(axis, trace, loop, feedrate)
     if any(alarm.code == "UNSTABLE" for alarm in trace.alarms):
         return tuple(_loops(move))  # no other figure of such a move means anything
     parts = (_excess_error, _order, _suppression, _ramp, _loops, _gain_break, _band)
     return tuple(each for part in parts for each in part(move))
 
 
-def _excess_target(m: Move) -> float:
+def _excess_target(m: SimulatedMove) -> float:
     """Return 110 % of the largest following error where the present limit is below that error or far above it, else the limit."""
     wanted, now = printed_excess_error(m.loop, m.rapid), m.p[samples.EXCESS]
     return wanted if math.isfinite(wanted) and (now < wanted / 1.1 or now > LOOSE * wanted) else now
 
 
-def _excess_error(m: Move) -> Iterator[Recommendation]:
+def _excess_error(m: SimulatedMove) -> Iterator[Recommendation]:
     now, wanted = m.p[samples.EXCESS], _excess_target(m)
     if wanted == now:
         return
@@ -110,7 +110,7 @@ def _excess_error(m: Move) -> Iterator[Recommendation]:
     yield from m.advise("excess_error", wanted, m.axis.unit, why, price)
 
 
-def _order(m: Move) -> Iterator[Recommendation]:
+def _order(m: SimulatedMove) -> Iterator[Recommendation]:
     """A smaller excess error also lowers the limits below it (7-20); otherwise the control corrects them itself."""
     highest = _excess_target(m)
     if highest >= m.p[samples.EXCESS] or highest >= m.p[samples.SUPPRESSION]:
@@ -126,7 +126,7 @@ def _order(m: Move) -> Iterator[Recommendation]:
         yield from m.advise("gain_break_point", wanted, m.axis.unit, why, ORDER_PRICE)
 
 
-def _suppression(m: Move) -> Iterator[Recommendation]:
+def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:
     limit, point = _excess_target(m), m.p[samples.SUPPRESSION]
     lost = int((m.trace.columns["feed_share"] < 1.0).sum()) * _step(m)
     if lost == 0.0 or limit <= point:
@@ -140,12 +140,12 @@ def _suppression(m: Move) -> Iterator[Recommendation]:
     yield from m.advise("feedrate_suppression", limit, m.axis.unit, why, price)
 
 
-def _step(m: Move) -> float:
+def _step(m: SimulatedMove) -> float:
     time = m.trace.columns["time_s"]
     return float(time[-1] - time[0]) / max(1, len(time) - 1)
 
 
-def _ramp(m: Move) -> Iterator[Recommendation]:
+def _ramp(m: SimulatedMove) -> Iterator[Recommendation]:
     """Ramps against the torque there is and against the servo's own response (10-2)."""
     ramp = m.axis.ramps.get("linear")
     acceleration = np.abs(np.diff(m.trace.columns["command_velocity"] / 60.0)) / _step(m)
@@ -173,7 +173,7 @@ def _ramp(m: Move) -> Iterator[Recommendation]:
         yield from m.advise(steeper, natural, unit, why, SLOWER, up=False)
 
 
-def _available(m: Move) -> float:
+def _available(m: SimulatedMove) -> float:
     """Return the acceleration in u/s2 that the lower torque limit leaves after friction at the feedrate."""
     machine = m.axis.machine
     limit = min(m.p[samples.LIMIT_POSITIVE], m.p[samples.LIMIT_NEGATIVE]) or machine.torque_limit_positive
@@ -181,7 +181,7 @@ def _available(m: Move) -> float:
     return machine.acceleration_per_output * (limit - friction)
 
 
-def _time_at_limit(m: Move) -> float:
+def _time_at_limit(m: SimulatedMove) -> float:
     torque = np.abs(m.trace.columns["torque"])
     limit = (
         min(m.p[samples.LIMIT_POSITIVE], m.p[samples.LIMIT_NEGATIVE]) or m.axis.machine.torque_limit_positive
@@ -189,7 +189,7 @@ def _time_at_limit(m: Move) -> float:
     return float((torque >= 0.999 * limit).sum()) * _step(m)
 
 
-def _loops(m: Move) -> Iterator[Recommendation]:
+def _loops(m: SimulatedMove) -> Iterator[Recommendation]:
     """Overshoot: ratio of the loops (7-54), integral gain (7-56, A-9), discharge rate (7-58)."""
     over, p = m.figure("overshoot"), m.p
     if over <= max(m.axis.inposition_band, 2.0 * p[samples.COUNT]) or p[samples.PROPORTIONAL] == 0.0:
@@ -231,24 +231,24 @@ def _loops(m: Move) -> Iterator[Recommendation]:
         )
 
 
-def _lag(m: Move) -> float:
+def _lag(m: SimulatedMove) -> float:
     """Return the lag of the velocity loop in s, the torque filter included."""
     passes = m.p[samples.FILTER]
     cutoff = -math.log1p(-passes) / (2.0 * math.pi * m.p[samples.PERIOD]) if passes < 1.0 else math.inf
     return lag_of(m.axis.machine.delay, m.axis.machine.bandwidth, cutoff)
 
 
-def _integral_time(m: Move) -> float:
+def _integral_time(m: SimulatedMove) -> float:
     integral = m.p[samples.INTEGRAL]
     return m.p[samples.PROPORTIONAL] / integral * m.p[samples.PERIOD] if integral > 0.0 else math.inf
 
 
-def _gain(m: Move, place: int) -> float:
+def _gain(m: SimulatedMove, place: int) -> float:
     """Return a velocity gain as the file has it."""
     return m.p[place] / m.p[samples.TORQUE_UNIT]
 
 
-def _gain_break(m: Move) -> Iterator[Recommendation]:
+def _gain_break(m: SimulatedMove) -> Iterator[Recommendation]:
     cutting = m.axis.sources.get("cutting_feedrate")
     point = m.axis.limits.get("gain break point")
     if point is None or cutting is None or not m.p[samples.CUTTING]:
@@ -268,7 +268,7 @@ def _gain_break(m: Move) -> Iterator[Recommendation]:
         )
 
 
-def _band(m: Move) -> Iterator[Recommendation]:
+def _band(m: SimulatedMove) -> Iterator[Recommendation]:
     count = m.p[samples.COUNT]
     if m.axis.inposition_band >= count:
         return

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from amp_studio.sim import AxisLaw, ParameterValue, Recommendation, SimulationError, Trace
+from amp_studio.sim import AxisLaw, Recommendation, SimulationError, Trace
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.ramps import end_of, move, profile_of
-from amp_studio.sim.scenario import Scenario, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.scenarios.columns import alarms_of, column_units, per_minute
 from amp_studio.sim.scenarios.step import SCENARIO as STEP
 from amp_studio.sim.trace import Figure
@@ -24,8 +24,6 @@ from .law_axis import ModuleAxis
 from .law_cam import position_cam, time_cam, time_cam_order
 from .law_gear import followed, gear_fraction, pieces_of
 from .law_sample import SCAN
-
-Settings = Mapping[str, ParameterValue]
 
 TUNE = {"tune.command": "tune command: gains, dynamics or feedforward; default: gains"}
 GEAR = {

@@ -9,7 +9,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
@@ -19,6 +18,7 @@ from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.profiles import SINE
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of
@@ -37,8 +37,6 @@ RISE = math.pi
 """rad: the part of a turn in which the feedrate rises."""
 AWAY = (-6.0, 40.0)
 """deg before and after a reversal that belong to its spike."""
-
-Series = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

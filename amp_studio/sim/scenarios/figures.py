@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.linear import Margins, axis_model
 from amp_studio.sim.motion import Motion
-
-Series = npt.NDArray[np.float64]
+from amp_studio.sim.series import Series
 
 STEADY_SPEED = 1e-3
 """Largest relative difference from the feedrate of a constant command speed."""

@@ -18,6 +18,7 @@ from amp_studio.sim.linear import LinearModel, Margins, axis_model
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.series import Response, Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of
@@ -33,8 +34,6 @@ SETTINGS = {
 POINTS, MOST_POINTS = 24, 400
 CURVE = 400
 """Points of the drawn linear model."""
-Series = npt.NDArray[np.float64]
-Response = npt.NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

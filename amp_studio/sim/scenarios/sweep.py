@@ -11,13 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.linear import LinearModel
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.profiles import SINE
+from amp_studio.sim.series import Response, Series
 
 CYCLES = 3
 """Whole cycles that a frequency is measured over, at least."""
@@ -35,9 +35,6 @@ LEAST = 0.5
 """Counts of an answer below which it is none."""
 FINEST = 1e-4
 """u: a count of an ideal device, for the choice of an amplitude."""
-
-Series = npt.NDArray[np.float64]
-Response = npt.NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

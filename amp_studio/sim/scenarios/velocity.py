@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.linear import LinearModel, axis_model
@@ -16,6 +15,7 @@ from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.ramps import move
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.series import Series
 from amp_studio.sim.signals import VELOCITY_LOOP
 from amp_studio.sim.trace import Figure, Trace
 
@@ -36,8 +36,6 @@ BAND = 0.02
 """Share of the step inside which the velocity has settled."""
 POSITIONS = ("command_position", "measured_position", "following_error")
 """Columns that mean nothing while no position is commanded."""
-
-Series = npt.NDArray[np.float64]
 
 
 def run_velocity(axis: AxisLaw, settings: Settings) -> Trace:

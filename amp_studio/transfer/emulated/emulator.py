@@ -28,7 +28,7 @@ from amp_studio.transfer.links.opening import listen
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm
-from .panel import Panel, PlainPanel
+from .panel import OperatorPanel, PlainPanel
 from .responder import CHUNK, WINDOW, Responder
 
 RESTART_SECONDS = 0.5
@@ -75,7 +75,7 @@ class Emulator:
         listener: Listener,
         *,
         patch: Patch | None = None,
-        panel: Panel | None = None,
+        panel: OperatorPanel | None = None,
         faults: Faults | None = None,
         restart_seconds: float = RESTART_SECONDS,
         window: int = WINDOW,
@@ -292,7 +292,7 @@ def serve(
     control: Control,
     *,
     patch: Patch | None = None,
-    panel: Panel | None = None,
+    panel: OperatorPanel | None = None,
     faults: Faults | None = None,
     restart_seconds: float = RESTART_SECONDS,
     commands: Iterable[str] | None = None,

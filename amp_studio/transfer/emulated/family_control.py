@@ -19,7 +19,7 @@ from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from .control import Control
 from .emulator import serve
 from .faults import read_faults
-from .panel import Panel
+from .panel import OperatorPanel
 from .record import Identity
 
 GENERAL = {"house": "amp_studio.transfer.emulated.family_control:emulate_house"}
@@ -81,7 +81,7 @@ def emulate_house(listen: Endpoint, options: EmulatedOptions) -> int:
     return run_house(listen, options)
 
 
-def run_house(listen: Endpoint, options: EmulatedOptions, panel: Panel | None = None) -> int:
+def run_house(listen: Endpoint, options: EmulatedOptions, panel: OperatorPanel | None = None) -> int:
     """Run an emulated control in the house protocol, with what its family does at its own panel."""
     stop = threading.Event()
     with contextlib.ExitStack() as stack:

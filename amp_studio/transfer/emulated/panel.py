@@ -20,7 +20,7 @@ class Start:
     held: str = ""
 
 
-class Panel(Protocol):
+class OperatorPanel(Protocol):
     """A family's own behaviour, found by its ``Registration.emulators``. It waits for nothing and opens nothing."""
 
     words: str

@@ -16,8 +16,9 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
-from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.progress import CUT, SILENT, Progress, Stop, quiet
+from amp_studio.transfer.waiting import OpenLink
 
 from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, RefusalError, Welcome
 from .retry_timer import RetryPolicy
@@ -25,7 +26,6 @@ from .streaming import window_limit
 from .transaction import NoAnswerError, Transaction
 
 Result = TypeVar("Result")
-OpenLink = Callable[[Callable[[], None]], Link]
 
 PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
 LONGEST_PAUSE = 2.0  # up to this

@@ -17,9 +17,10 @@ from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
 from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.waiting import OpenLink
 
 from .broken_transfers import BrokenTransfers, NoBrokenTransfers
-from .connection import Connection, OpenLink, OutOfTimeError
+from .connection import Connection, OutOfTimeError
 from .download_transfer import DownloadTransfer, Sent
 from .message import (
     RefusalError,

@@ -19,7 +19,7 @@ from .attempt import in_time
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
 from .serial_line import SLICE, SerialLink, port_settings
-from .telnet import Data, Negotiation, TelnetReader
+from .telnet import Negotiation, TelnetData, TelnetReader
 
 READ_SIZE = 1_024
 STORED = 65_536  # bytes that wait to be read; beyond them the line rests, and TCP slows the other end down
@@ -137,7 +137,7 @@ class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
                 self._changed.notify_all()
 
     def _take(self, each: Any) -> None:
-        if isinstance(each, Data):
+        if isinstance(each, TelnetData):
             with self._changed:
                 while len(self._stored) >= STORED and self.is_open:
                     self._changed.wait()

@@ -12,7 +12,7 @@ LONGEST_OPTION = 256  # bytes; the longest of RFC 2217 that means something here
 
 
 @dataclass(frozen=True)
-class Data:
+class TelnetData:
     content: bytes
 
 
@@ -45,7 +45,7 @@ class TelnetReader:
         self._command = 0
         self._option: bytearray | None = None
 
-    def feed(self, data: bytes) -> Iterator[Data | Negotiation | Option]:
+    def feed(self, data: bytes) -> Iterator[TelnetData | Negotiation | Option]:
         """Yield what has become whole."""
         at = 0
         while at < len(data):
@@ -65,14 +65,14 @@ class TelnetReader:
             else:
                 yield from self._commanded(byte)
 
-    def _plain(self, content: bytes) -> Iterator[Data]:
+    def _plain(self, content: bytes) -> Iterator[TelnetData]:
         if self._option is None:
             if content:
-                yield Data(content)
+                yield TelnetData(content)
         elif len(self._option) <= LONGEST_OPTION:
             self._option += content[: LONGEST_OPTION + 1]
 
-    def _commanded(self, byte: int) -> Iterator[Data | Option]:
+    def _commanded(self, byte: int) -> Iterator[TelnetData | Option]:
         """Obey the byte behind an IAC; doubled it is a byte of data."""
         self._state = _State.PLAIN
         if byte == IAC:

@@ -12,9 +12,10 @@ from typing import Literal
 from amp_studio.transfer.emulated.family_control import EmulatedOptions
 from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
 from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links.serial_settings import Parity
 
 from .delivered import delivered_table
-from .parameter_memory import Header, ParameterMemory, TableError, content_of
+from .parameter_memory import ParameterMemory, TableError, TableHeader, content_of
 
 XON, XOFF = 0x11, 0x13
 MENU = "MACHINE SETUP DATA"
@@ -25,7 +26,6 @@ LINES_A_STOP = 40  # lines after which the control stops the peripheral to work 
 BUFFER = 4_096  # bytes it still takes after it has stopped the peripheral; more are lost (assumed)
 PIECE = 128  # bytes it sends in one turn
 
-Parity = Literal["none", "even", "odd"]
 Doing = Literal["menu", "ready", "asking", "reading", "held", "sending"]
 Job = Literal["load", "unload", "verify"]
 COMMANDS = "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, patch P9N0=FF, reset, status, quit"
@@ -49,7 +49,7 @@ class NumControl:
         self._line = bytearray()
         self._has_begun = False
         self._lines = 0
-        self._header: Header | None = None
+        self._header: TableHeader | None = None
         self._is_stopped = False
         """Whether the control has stopped the peripheral with Xoff."""
         self._is_paused = False

@@ -70,7 +70,7 @@ def content_of(line: bytes) -> str:
 
 
 @dataclass
-class Header:
+class TableHeader:
     """The header of a data line: which parameter, from which word on."""
 
     parameter: int
@@ -119,7 +119,7 @@ class ParameterMemory:
             spelled, _, data = content_of(line).partition("#")
             self.take(header := self.header(spelled), self.split(header, data))
 
-    def header(self, line: str) -> Header:
+    def header(self, line: str) -> TableHeader:
         """Read a header that this control can take; raises TableError."""
         found = _HEADER.fullmatch(line)
         if found is None:
@@ -131,14 +131,14 @@ class ParameterMemory:
             raise TableError(f"P{parameter} is t{self.types[parameter]}n{len(self.words[parameter])} here")
         if first >= count:
             raise TableError(f"P{parameter} has {count} words")
-        return Header(parameter, first, line)
+        return TableHeader(parameter, first, line)
 
-    def split(self, header: Header, data: str) -> list[str]:
+    def split(self, header: TableHeader, data: str) -> list[str]:
         """Part a data line into its words; a text that is alone may contain blanks."""
         alone = self.types[header.parameter] == 8 and len(self.words[header.parameter]) == 1
         return [data] if alone else data.split(" ")
 
-    def fault_of(self, header: Header, data: list[str]) -> str:
+    def fault_of(self, header: TableHeader, data: list[str]) -> str:
         """Return why these words cannot be taken, "" where they can."""
         words, kind = self.words[header.parameter], TYPES[self.types[header.parameter]]
         if len(data) > _MOST:
@@ -148,7 +148,7 @@ class ParameterMemory:
         bad = next((word for word in data if not kind.takes(word)), None)
         return "" if bad is None else f"{bad} is no word of type {self.types[header.parameter]}"
 
-    def take(self, header: Header, data: list[str]) -> None:
+    def take(self, header: TableHeader, data: list[str]) -> None:
         """Take the words of a data line; raises TableError and changes nothing where one cannot be taken."""
         if fault := self.fault_of(header, data):
             raise TableError(fault)
@@ -156,14 +156,14 @@ class ParameterMemory:
         spelled = [word.zfill(8) if hexadecimal else word for word in data]
         self.words[header.parameter][header.first : header.first + len(data)] = spelled
 
-    def load(self, header: Header, data: list[str]) -> None:
+    def load(self, header: TableHeader, data: list[str]) -> None:
         """Take the words of a data line so that they outlast the power; raises TableError, OSError."""
         if fault := self.fault_of(header, data):
             raise TableError(fault)
         self._memory.append(TAKEN, measured(f"{header.spelled}#{' '.join(data)}"))
         self.take(header, data)
 
-    def differs(self, header: Header, data: list[str]) -> int | None:
+    def differs(self, header: TableHeader, data: list[str]) -> int | None:
         """Return the first word in which a data line differs from the control, None where none does."""
         kind = self.types[header.parameter]
         own = self.words[header.parameter][header.first : header.first + len(data)]

@@ -28,12 +28,12 @@ from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.link import Link, LinkError
 from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.links.serial_settings import SerialSettings
+from amp_studio.transfer.links.serial_settings import Parity, SerialSettings
 from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import OpenLink, Waiting
 
 from .content import FAMILY, NumTableContent, content_of_table, reference_of, table_text, words_of_table
-from .table_reader import XOFF, XON, Parity, TableReader, with_parity
+from .table_reader import XOFF, XON, TableReader, with_parity
 
 USUAL = SerialSettings(baud=9_600)
 PERSON_WAIT = 600.0  # seconds a person may take to start an unload

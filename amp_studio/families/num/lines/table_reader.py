@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from amp_studio.transfer.errors import ImageDamagedError
-
-Parity = Literal["none", "even", "odd"]
+from amp_studio.transfer.links.serial_settings import Parity
 
 XON, XOFF = 0x11, 0x13
 LARGEST = 1 << 18
