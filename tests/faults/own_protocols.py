@@ -1,6 +1,6 @@
 """Downloads in the families' own ways of speaking, over lines and to controls on which a seed puts every fault.
 
-What is cut, changed, lost, killed or without power: afterwards each setting is old or new, what the program says of it is
+What is cut, changed, lost, killed or without power: afterwards each setting is old or new, what the program reports of it is
 true, what the control contained is kept whole, and nobody's half line is left.
 """
 

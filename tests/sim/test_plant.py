@@ -266,7 +266,7 @@ def drive(step: float, seconds: float, **changes: float) -> list[float]:
 
 
 def test_a_velocity_drive_gives_way_to_a_load_as_much_as_its_loop_says_at_any_step() -> None:
-    # 20 % of 10 u/s2 for 1 % are 200 u/s2, held by 2 pi x 50 1/s: 0.637 u/s less.
+    # 20 % of 10 u/s2 for 1 % are 200 u/s2, kept by 2 pi x 50 1/s: 0.637 u/s less.
     for step in (1e-3, 0.5e-3, 0.125e-3):
         assert drive(step, 0.2, gravity=20.0)[-1] == pytest.approx(10.0 - 200.0 / (2.0 * math.pi * 50.0))
         assert drive(step, 0.01)[4] == pytest.approx(10.0 * (1.0 - math.exp(-2.0 * math.pi * 50.0 * 0.005)))

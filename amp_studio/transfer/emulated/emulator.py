@@ -241,7 +241,7 @@ class Emulator:
             self._show(_line(message))
         self._control.hold(start.held)
         if start.held:
-            self._show(f"held in E-stop: {_line(start.held)}")
+            self._show(f"kept in E-stop: {_line(start.held)}")
 
     def _done(self, line: str) -> str:
         """Do a command and return what the operator reads."""

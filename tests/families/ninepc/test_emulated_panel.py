@@ -94,7 +94,7 @@ def test_too_many_axes_stay_in_estop(mill, at) -> None:
     operator = at(mill, axes=3)
     assert (
         operator.at_power_up[-1]
-        == "held in E-stop: 7 axes are configured and the control supports 3 (page 3-1)"
+        == "kept in E-stop: 7 axes are configured and the control supports 3 (page 3-1)"
     )
     assert operator.keys("estop off").startswith(
         "refused: the control stays in E-stop: 7 axes are configured"
