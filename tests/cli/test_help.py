@@ -167,7 +167,7 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
         ),
         (
             "new 9PC x.amp",
-            "Unknown family '9PC'. Known: 57c422b, 9pc, acromill, num, syntec. Did you mean: 9pc",
+            "Unknown family '9PC'. Known: 57c422b, 9pc, acromill, grblhal, num, syntec. Did you mean: 9pc",
         ),
         ("new 9pc x.amp --machine mil", "Unknown machine type 'mil'. Known: lathe, mill. Did you mean: mill"),
         (

@@ -74,7 +74,7 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
         ("no number", "bad.amp, line 4: home.calibration@1: 'five mm' is not a number"),
         (
             "another family",
-            "bad.amp, line 2: Unknown family 'fanuc'. Known: 57c422b, 9pc, acromill, num, syntec",
+            "bad.amp, line 2: Unknown family 'fanuc'. Known: 57c422b, 9pc, acromill, grblhal, num, syntec",
         ),
         ("not text", "bad.amp, line 3: is not UTF-8 text"),
     ],
