@@ -27,6 +27,7 @@ from .storage import FORMAT, Opened, ParameterFileError, content_of, open_file, 
 if TYPE_CHECKING:
     from .axes import (
         AxisError,
+        alike_axes,
         axis_instances,
         axis_title,
         axis_type,
@@ -54,6 +55,7 @@ _PLACES = {
     "Project": "project",
     "ProjectInfo": "project",
     "Unsaved": "document",
+    "alike_axes": "axes",
     "axis_instances": "axes",
     "axis_title": "axes",
     "axis_type": "axes",
@@ -100,6 +102,7 @@ __all__ = [
     "RangeError",
     "SaveError",
     "Unsaved",
+    "alike_axes",
     "axis_instances",
     "axis_title",
     "axis_type",

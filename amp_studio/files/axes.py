@@ -33,6 +33,15 @@ def axis_type(file: ParameterFile, axis: str) -> str:
     return str(value.value) if value else profile.unfitted or profile.usual_type
 
 
+def alike_axes(file: ParameterFile, axis: str) -> tuple[str, ...]:
+    """Return the fitted axes of the same type as an axis; where there are no types, those that move as it does."""
+    if file.schema.family.axes:
+        return tuple(a for a in fitted_axes(file) if axis_type(file, a) == axis_type(file, axis))
+    named = file.schema.family.angular_when
+    turning = {a: bool(named) and file.evaluation.is_true(str(named), a, "axis") for a in fitted_axes(file)}
+    return tuple(a for a, turns in turning.items() if turns == turning.get(axis))
+
+
 def axis_title(file: ParameterFile, axis: str) -> str:
     """Return ``1 X linear`` for a column head."""
     profile = _profile(file)

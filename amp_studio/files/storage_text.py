@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.schema import Address, write_number
-from amp_studio.schema.storage import StorageError, stored_number, words_of
+from amp_studio.schema import Address, Parameter, Value, write_number
+from amp_studio.schema.storage import StorageError, single, stored_number, stored_unit, to_figure, words_of
 
 from .parameter_file import ParameterFile
 
@@ -24,6 +24,8 @@ def storage_text(file: ParameterFile, address: Address) -> str:
     if stored is None:
         return ""
     storage = parameter.storage
+    if storage is not None and storage.single:
+        return _single_text(parameter, value, turns=file.evaluation.turns(address))
     text = write_number(stored)
     if storage is None or storage.words == 1:
         same = (
@@ -40,3 +42,16 @@ def storage_text(file: ParameterFile, address: Address) -> str:
     names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]
     each = ", ".join(f"{name} = {word} (0x{word:04X})" for name, word in zip(names, words, strict=True))
     return f"{write_number(round(stored))}: {each}"
+
+
+def _single_text(parameter: Parameter, value: Value, *, turns: bool) -> str:
+    """Return ``0.0004, shown as 0.000``: the 32-bit float that the control keeps, where it is coarser or shown coarser."""
+    storage = parameter.storage
+    assert storage is not None
+    unit = stored_unit(parameter, turns=turns)
+    figure = to_figure(parameter, value, unit)
+    kept = single(figure)
+    shown = f"{kept:.{storage.decimals or 0}f}"
+    if kept == float(shown):
+        return "" if kept == value.value and value.unit == unit else write_number(kept)
+    return f"{write_number(kept)}, shown as {shown}"

@@ -9,7 +9,7 @@ from amp_studio.schema import Address, label_of
 def printed_axes(file: ParameterFile) -> tuple[str, ...]:
     """Return the axes a report prints: the fitted ones, or all if the family has no unfitted axes."""
     family = file.schema.family
-    if family.axes is not None:
+    if family.fits_axes:
         return fitted_axes(file)
     scope = family.scopes.get("axis")
     return scope.instances if scope else ()

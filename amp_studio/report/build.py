@@ -92,7 +92,7 @@ def _facts(
         ("Control software revision", header.revision),
         ("Unit system", header.units),
     ]
-    if family.axes is not None:
+    if family.fits_axes:
         facts.append(("Axes", f"{len(printed_axes(file))} of {len(axis_instances(file))} fitted"))
     facts += [
         ("File", str(source) if source else ""),

@@ -8,6 +8,7 @@ the even one). How a control spells the number (hexadecimal words, bare figures)
 from __future__ import annotations
 
 import math
+import struct
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -110,6 +111,18 @@ def shown_number(parameter: Parameter, number: Fraction) -> float:
     """Return a stored number as the control shows it: the nearest double, with the decimals that it has."""
     decimals = _storage(parameter).decimals
     return _double(number) if decimals is None else round(_double(number), decimals)
+
+
+def single(number: float) -> float:
+    """Return the number that a control keeps as a 32-bit float, by its shortest digits: 0.1 and not 0.10000000149."""
+    try:
+        kept = struct.unpack("<f", struct.pack("<f", number))[0]
+    except OverflowError:
+        return math.copysign(math.inf, number)
+    texts = (f"{kept:.{digits}g}" for digits in range(6, 10))
+    return next(
+        (float(t) for t in texts if struct.unpack("<f", struct.pack("<f", float(t)))[0] == kept), kept
+    )
 
 
 def _double(number: Fraction) -> float:

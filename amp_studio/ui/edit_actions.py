@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QStyle
 
-from amp_studio.files import RangeError, axis_type, describe, fitted_axes, real_path
+from amp_studio.files import RangeError, alike_axes, describe, fitted_axes, real_path
 from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, calculators, suppress
@@ -152,7 +152,7 @@ class EditActions:
         file = workspace.file
         if file.evaluation.scope(address) != "axis" or address[1] not in fitted_axes(file):
             raise ValueError("Select a value of a fitted axis first.")
-        same = [a for a in fitted_axes(file) if axis_type(file, a) == axis_type(file, address[1])]
+        same = alike_axes(file, address[1])
         workspace.edit("Copy to all axes of the type", {(address[0], a): file.get(address) for a in same})
 
     # -- by number, by name ----------------------------------------------------

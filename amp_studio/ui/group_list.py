@@ -107,7 +107,17 @@ class GroupList(QWidget):
         for column in (1, 2):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.update_counts()
-        self.tree.setCurrentItem(self._items[3])
+        self._hide_empty()
+        self.tree.setCurrentItem(next(i for i in self._items[3:] if not i.isHidden()))
+
+    def _hide_empty(self) -> None:
+        """Hide the groups of which this machine type, or this control, has no parameter."""
+        schema, here = self._workspace.file.schema, self._workspace.file.machine_schema
+        present = {schema.group_of[p].key for p, scope in here.scopes.items() if scope is not None}
+        groups = {group.key for group in schema.groups}
+        for item in self._items:
+            keys = set(item.data(0, _KEYS))
+            item.setHidden(keys <= groups and keys.isdisjoint(present))
 
     def _add(self, parent: QTreeWidgetItem | None, text: str, keys: list[str]) -> QTreeWidgetItem:
         item = QTreeWidgetItem([text.removesuffix(" Parameters"), "", ""])
@@ -142,6 +152,7 @@ class GroupList(QWidget):
         """Update the counts, and a list that depends on values, after the present edit."""
         if self._workspace.file.machine != self._machine:  # another machine type has other numbers
             self._machine, self._texts = self._workspace.file.machine, _search_texts(self._workspace)
+            self._hide_empty()
         self.update_counts()
         item = self.tree.currentItem()
         if item is not None and item.data(0, _KEYS)[0] in (_CHANGED, _FINDINGS) and not self.search.text():

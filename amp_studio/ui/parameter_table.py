@@ -116,7 +116,7 @@ class ParameterTable(QAbstractTableModel):
     def _columns(self) -> list[str]:
         file = self.workspace.file
         needed = dict.fromkeys(column for p in self.asked for row in self._layout(p) for column in row.cells)
-        if not self.all_axes and file.schema.family.axes is not None:
+        if not self.all_axes and file.schema.family.fits_axes:
             fitted = set(fitted_axes(file))
             needed = {c: None for c in needed if c == CONTROL or c in fitted}
         return sorted(needed, key=lambda column: column != CONTROL)

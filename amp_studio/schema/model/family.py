@@ -171,3 +171,8 @@ class Family(Model):
     bit_lists: dict[Key, tuple[Bit, ...]] = {}
     """Bits that several words have, by the name that is there under ``bits``."""
     conditions: dict[str, Condition] = {}
+
+    @property
+    def fits_axes(self) -> bool:
+        """Whether a file shows which of the axes are fitted: by an axis profile, or a list of their letters."""
+        return self.axes is not None or self.axis_list is not None

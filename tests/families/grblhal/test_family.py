@@ -9,6 +9,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import AxisError, name_axes, new_file, open_file
+from amp_studio.files.storage_text import storage_text
 from amp_studio.schema import Value
 
 
@@ -124,3 +125,22 @@ def test_alarms_and_errors_are_tables(capsys: pytest.CaptureFixture[str]) -> Non
     assert "Homing: switch not found" in capsys.readouterr().out
     assert run(["tables", "grblhal", "errors"]) == 0
     assert "Soft limits" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("0.0004", "0.0004, shown as 0.000"),
+        ("0.01", ""),
+        ("0.5", ""),
+        ("123.456789", "123.45679, shown as 123.457"),
+        ("0.1 in", "2.54"),
+        ("16777217", "16777216"),
+        ("1e39", "inf"),
+    ],
+)
+def test_what_the_control_keeps_and_shows_is_beside_the_value(text: str, expected: str) -> None:
+    file = new_file("grblhal")
+    address = file.find("$11")
+    file.set(address, file.read(address, text))
+    assert storage_text(file, address) == expected
