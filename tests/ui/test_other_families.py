@@ -65,7 +65,7 @@ def test_what_it_does_not_have_is_off_or_told(wide: MainWindow) -> None:
     wide.view.motion_action.trigger()
     shown = wide.findChild(MotionView).summary.text()
     assert "the servo of family" in shown
-    assert "known: 57c422b, 9pc, acromill, grblhal, num, syntec" in shown
+    assert "known: 57c422b, 9pc, acromill, num, syntec" in shown
 
 
 def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:
