@@ -10,13 +10,14 @@ import queue
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from amp_studio.schema.visible import visible
 from amp_studio.transfer.interrupts import interrupts
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.link import Link, LinkError, Listener
 from amp_studio.transfer.links.opening import listen
+from amp_studio.transfer.links.pseudo_terminal import PtyLink
 
 from .emulator import LONGEST_COMMAND, LONGEST_LINE, print_line, standard_input
 from .family_control import EmulatedOptions, memory_folder
@@ -42,6 +43,14 @@ class LineDevice(Protocol):
 
     def command(self, line: str) -> str:
         """Do what the operator asks for and return what he reads; raises ValueError with what he is to read."""
+
+
+@runtime_checkable
+class SetLineDevice(Protocol):
+    """A device to which it matters how the client has set its end of the line."""
+
+    def line_set(self, baud: int, stop: int) -> None:
+        """Learn the rate in bit/s and the stop bits, before ``receive``, where the line shows them."""
 
 
 @dataclass(frozen=True)
@@ -80,6 +89,8 @@ class DeviceService:
         self._stop = stop or threading.Event()
         self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
         self._link: Link | None = None
+        self._port: Link | None = None
+        """The line itself, under its faults."""
         self._has_quit = False
 
     def command(self, line: str) -> None:
@@ -100,7 +111,7 @@ class DeviceService:
         caller = self._listener.accept(0 if self._link else SLICE)
         if caller is not None:
             self._drop()
-            self._link = self._line.wrap(caller)
+            self._port, self._link = caller, self._line.wrap(caller)
             self._device.connected()
         if self._link is None:
             return
@@ -109,6 +120,8 @@ class DeviceService:
             if answer:
                 self._link.write(answer)
             data = self._link.read(0 if answer else SLICE)
+            if isinstance(self._port, PtyLink) and isinstance(self._device, SetLineDevice):
+                self._device.line_set(*self._port.client_settings())
             for start in range(0, len(data), PIECE):
                 self._device.receive(data[start : start + PIECE])
                 self._link.write(self._device.answer())

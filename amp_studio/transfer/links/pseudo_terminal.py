@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import select
 import sys
 import time
@@ -21,9 +22,10 @@ class PtyLink:
 
     bytes_per_second: float | None = None
 
-    def __init__(self, endpoint: Endpoint, master: int) -> None:
+    def __init__(self, endpoint: Endpoint, master: int, slave: int) -> None:
         self._endpoint = endpoint
         self._master = master
+        self._slave = slave
         self.is_open = True
 
     def read(self, timeout: float) -> bytes:
@@ -50,6 +52,16 @@ class PtyLink:
                 continue
             except (OSError, ValueError) as error:
                 raise LinkError(self._endpoint, str(error)) from None
+
+    def client_settings(self) -> tuple[int, int]:
+        """Return the rate in bit/s and the stop bits that the client has set; a pseudo terminal knows no parity."""
+        import termios
+
+        set_to = termios.tcgetattr(self._slave)
+        rates = {
+            getattr(termios, name): int(name[1:]) for name in dir(termios) if re.fullmatch(r"B[1-9]\d*", name)
+        }
+        return rates.get(set_to[4], 0), 2 if set_to[2] & termios.CSTOPB else 1
 
     def close(self) -> None:
         self.is_open = False
@@ -86,7 +98,7 @@ class PtyListener:
         with contextlib.suppress(OSError):
             for _ in range(LAST_READS):
                 os.read(self._master, READ_SIZE)  # what was sent while nobody listened is lost
-        self._link = PtyLink(self.endpoint, self._master)
+        self._link = PtyLink(self.endpoint, self._master, self._slave)
         return self._link
 
     def close(self) -> None:

@@ -28,7 +28,7 @@ PIECE = 128  # bytes it sends in one turn
 
 Doing = Literal["menu", "ready", "asking", "reading", "held", "sending"]
 Job = Literal["load", "unload", "verify"]
-COMMANDS = "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, patch P9N0=FF, reset, status, quit"
+COMMANDS = "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, line BAUD STOP, patch P9N0=FF, reset, status, quit"
 
 
 class NumControl:
@@ -55,10 +55,19 @@ class NumControl:
         self._is_paused = False
         """Whether the peripheral has stopped the control."""
 
+        self._baud, self._stop = 0, 1
+        """How its line is set: rate (0 for the client's) and stop bits."""
+        self._fits = True
+        """Whether the client's end is set so that its characters are understood."""
+
     # -- the line ---------------------------------------------------------------------------------
 
     def connected(self) -> None:
         """Nobody connects to a serial line: what is under way goes on."""
+
+    def line_set(self, baud: int, stop: int) -> None:
+        """Compare how the client has set its end: another rate, or fewer stop bits than are awaited, make no characters."""
+        self._fits = self._baud in (0, baud) and stop >= self._stop
 
     def answer(self) -> bytes:
         """Return the next piece of an unload, Xon and Xoff."""
@@ -93,6 +102,9 @@ class NumControl:
             self._later += data[: BUFFER - len(self._later)]
 
     def _read(self, byte: int) -> None:
+        if not self._fits:
+            self._fail("a character without its stop bits, or of another rate")
+            return
         if self._parity != "none" and self._with_parity(byte & 0x7F) != byte:
             self._fail("a character with a parity error")
             return
@@ -209,6 +221,9 @@ class NumControl:
                 return MENU
             case "parity" if rest in ("none", "even", "odd"):
                 self._parity = "even" if rest == "even" else "odd" if rest == "odd" else "none"
+                return line
+            case "line" if found := re.fullmatch("([0-9]{1,6}) ([12])", rest):
+                self._baud, self._stop = int(found[1]), int(found[2])
                 return line
             case "patch" if found := re.fullmatch(r"P([0-9]{1,4})N([0-9]{1,4})=(.*)", rest):
                 return self._patch(int(found[1]), int(found[2]), found[3])

@@ -154,6 +154,7 @@ class PeripheralDriver(NumTableContent):
             self._push(load)
         except CancelledError as error:
             error.at_control = "unknown" if load.has_changed else "old"
+            error.what += "; end the load at the control too"
             raise
         except (LinkError, TransferError) as error:
             broken = (

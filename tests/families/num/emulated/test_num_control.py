@@ -141,6 +141,19 @@ def test_a_character_of_the_other_parity_is_refused(bench: Bench) -> None:
     assert bench.unload()[:3] == b"\xa5\x30\x30", "% has three ones: with even parity it is A5"
 
 
+@pytest.mark.parametrize(
+    ("baud", "stop", "is_read"), [(9_600, 2, True), (9_600, 1, False), (4_800, 2, False)]
+)
+def test_another_rate_and_fewer_stop_bits_make_no_characters(
+    bench: Bench, baud: int, stop: int, is_read: bool
+) -> None:
+    bench.press("line 9600 2", "load", "enter")
+    bench.control.line_set(baud, stop)
+    bench.send(line("%00000000") + XOFF)
+    assert (bench.screen[-1] == "MACHINE SETUP DATA") is is_read
+    assert ("without its stop bits" in bench.screen[-1]) is not is_read
+
+
 def test_the_peripheral_stops_an_unload_with_xoff(bench: Bench) -> None:
     bench.press("unload", "enter", "start")
     first = bench.control.answer()

@@ -67,3 +67,21 @@ def test_identify_upload_download_verify_and_restore(
     assert kept.read_bytes().startswith(b"NUM table 1\n%00000000;09\n")
     assert run(["restore", str(kept), "--to", address]) == 0
     assert device._parameters.words[9][0] == "0", "as it was"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="no pseudo terminals")
+@pytest.mark.parametrize(("stop", "code"), [(2, 0), (1, 2)])
+def test_stop_bits_of_the_address_reach_the_line(
+    control: tuple[str, NumControl], tmp_path: Path, stop: int, code: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    address, device = control
+    if address.startswith("tcp"):
+        pytest.skip("a TCP connection has no stop bits")
+    monkeypatch.setattr("amp_studio.families.num.lines.driver.HELD_WAIT", 0.3)
+    path = tmp_path / "mill.amp"
+    assert run(["upload", "--from", address, "-o", str(path), "--on-fault", "keep"]) == 0
+    assert run(["set", str(path), "P9N0=7", "--force"]) == 0
+    device.command("line 0 2")
+    ended = run(["download", str(path), "--to", f"{address}&stop={stop}", "--accept-errors"])
+    assert ended == code
+    assert device._parameters.words[9][0] == ("7" if code == 0 else "0")
