@@ -20,7 +20,7 @@ def test_a_new_file_fits_a_fresh_control() -> None:
 def test_settings_of_axes_that_the_control_does_not_have_are_named() -> None:
     fitted = fit_to(new_file("grblhal", None, "XYZA"), schema_of(THREE_AXES))
     names = [str(misfit) for misfit in fitted.misfits]
-    assert "$103 Travel resolution = 250 steps/deg: this control does not have the setting" in names
+    assert "$103 Travel resolution = 250 steps/mm: this control does not have the setting" in names
     assert len([name for name in names if name.startswith("$1")]) == 4, (
         "steps, rate, acceleration, travel of A"
     )
