@@ -1,0 +1,1 @@
+"""An emulated rack with one module, whose registers are alive."""

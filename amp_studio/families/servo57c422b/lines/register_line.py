@@ -1,0 +1,116 @@
+"""A line to the registers of a rack: one request, one answer, each with its number and a checksum (docs/protocols/registers.md)."""
+
+from __future__ import annotations
+
+import binascii
+import re
+
+from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, ProtocolMismatchError
+from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.waiting import OpenLink, Waiting
+
+MOST = 32  # registers of one answer
+LONGEST = 320  # bytes of a line
+TRIES = 6  # of one request
+LINES = 3  # times a line that is cut is made again for one request
+ANSWER_WAIT = 1.0  # seconds
+PAUSE = 0.3
+NUMBERS = 1_000
+
+_ANSWER = re.compile(rb"([0-9]{1,3}) ([!-~][ -~]*)\*([0-9A-F]{4})")
+
+
+def framed(number: int, text: str) -> bytes:
+    """Return a line: number, text, checksum (CRC-16, polynomial 1021, start FFFF)."""
+    body = f"{number} {text}".encode("ascii")
+    return body + b"*%04X\r\n" % binascii.crc_hqx(body, 0xFFFF)
+
+
+def unframed(line: bytes) -> tuple[int, str] | None:
+    """Return number and text of a line that is whole, else None."""
+    found = _ANSWER.fullmatch(line)
+    if found is None or int(found[3], 16) != binascii.crc_hqx(line[: -len(found[3]) - 1], 0xFFFF):
+        return None
+    return int(found[1]), found[2].decode("ascii")
+
+
+class RegisterLine:
+    """Reads and writes registers; a request that is not answered goes out again, for its repetition changes nothing."""
+
+    def __init__(self, open_link: OpenLink, waiting: Waiting) -> None:
+        self._open_link = open_link
+        self._waiting = waiting
+        self._link: Link | None = None
+        self._number = 0
+        self._rest = b""
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+        self._rest = b""
+
+    def name(self) -> str:
+        """Return what the rack calls itself."""
+        return self._ask("ID", "ID ")
+
+    def read(self, first: int, count: int) -> tuple[int, ...]:
+        """Return so many registers from one on, 0 to 65535 each; raises TransferError."""
+        words = self._ask(f"R {first} {count}", f"R {first} ").split(" ")
+        if len(words) != count or not all(
+            re.fullmatch("[0-9]{1,5}", word) and int(word) <= 0xFFFF for word in words
+        ):
+            raise ProtocolMismatchError(
+                f"the rack answers for register {first} with something else than {count} numbers"
+            )
+        return tuple(map(int, words))
+
+    def write(self, register: int, word: int) -> int:
+        """Write a register and return what it contains then; raises TransferError."""
+        text = self._ask(f"W {register} {word}", f"W {register} ")
+        if not re.fullmatch("[0-9]{1,5}", text) or int(text) > 0xFFFF:
+            raise ProtocolMismatchError(f"the rack answers the writing of register {register} with no number")
+        return int(text)
+
+    def _ask(self, request: str, head: str) -> str:
+        """Return what follows ``head`` in the answer."""
+        fault: LinkError | None = None
+        cuts = 0
+        for _ in range(TRIES):
+            self._waiting.look()
+            try:
+                answer = self._tried(request)
+            except LinkError as error:
+                self.close()
+                fault, cuts = error, cuts + 1
+                if cuts > LINES:
+                    break
+                self._waiting.sleep(PAUSE)
+                continue
+            if answer is None:
+                continue
+            if not answer.startswith(head):
+                raise ProtocolMismatchError(f"the rack answers '{request}' with '{answer[:60]}'")
+            self._waiting.heard()
+            return answer.removeprefix(head)
+        if fault is not None:
+            raise NoConnectionError(f"no connection to the rack ({fault})")
+        raise ControlSilentError(f"the rack does not answer '{request}'")
+
+    def _tried(self, request: str) -> str | None:
+        link = self._link
+        if link is None:
+            link = self._link = self._open_link(self._waiting.look)
+            link.write(b"\r\n")  # ends half a line that somebody has left
+        self._number = (self._number + 1) % NUMBERS
+        link.write(framed(self._number, request))
+        end = self._waiting.now() + ANSWER_WAIT
+        while (left := end - self._waiting.now()) > 0:
+            *lines, self._rest = (self._rest + self._waiting.read(link, left)).split(b"\r\n")
+            self._rest = self._rest[-LONGEST:]
+            for line in lines:
+                found = unframed(line)
+                if found is not None and found[0] == self._number:
+                    return found[1]
+        return None
