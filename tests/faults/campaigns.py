@@ -23,7 +23,7 @@ from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
-from . import own_contents, own_protocols, persons, sheets, stored, texts, wire
+from . import own_contents, own_protocols, persons, racks, sheets, stored, texts, wire
 from .command_lines import fuzz_command_lines
 from .lines import download_over_bad_lines
 from .verbs import VERBS, fail_calls
@@ -117,6 +117,10 @@ CAMPAIGNS = (
         2_000,
         2,
         100,
+    ),
+    Campaign("57C422B registers over a bad line", own_protocols.registers_under_faults, 2_000, 1, 100),
+    Campaign(
+        "damaged contents and racks of the 57C422B", partial(_damaged_in, racks.fuzz_racks), MANY, 50, 2_000
     ),
     Campaign("hostile control", partial(_hostile, exchange_with_hostile_control), 1_000, 10, 50),
     Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 5, 50),

@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 
 from amp_studio.families.acromill.lines.content import CardContent
 from amp_studio.families.num.lines.content import words_of_table
+from amp_studio.families.servo57c422b.lines.content import words_of_content
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.schema.storage import value_of_stored
@@ -26,6 +27,7 @@ from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.link import Link, LinkError
 from tests.families.acromill.lines.bench import CardBench
 from tests.families.num.lines.bench import NumBench
+from tests.families.servo57c422b.lines.bench import RackBench
 from tests.transfer.emulated.memory_steps import PowerLoss, lose_power_at
 
 T = TypeVar("T")
@@ -268,3 +270,52 @@ def _table_run(chance: random.Random, folder: Path) -> list[str]:
     if now != old and kept != [held]:
         untrue.append("what the control contained was not kept whole")
     return [f"{what}: {each}" for each in untrue]
+
+
+# -- the registers of a rack -----------------------------------------------------------------------
+
+
+def registers_under_faults(seed: int, runs: int, folder: Path) -> list[str]:
+    """Download to the registers of a module under faults; returns what was not true."""
+    found = []
+    for number in range(runs):
+        chance = random.Random(f"registers {seed} {number}")
+        found += [
+            f"seed {seed}, run {number}: {what}" for what in _registers_run(chance, folder / f"rack-{number}")
+        ]
+        shutil.rmtree(folder / f"rack-{number}")
+    return found
+
+
+def _registers_run(chance: random.Random, folder: Path) -> list[str]:
+    folder.mkdir()
+    faults = {name: how for name, how in _faults(chance, 40_000).items() if name not in ("power", "kill")}
+    bench, cancel, kept = RackBench(folder), threading.Event(), list[bytes]()
+    file = ParameterFile(load_schema("57c422b"))
+    for number in {chance.choice(("R3", "R4", "R5", "R8", "R2051", "R2052", "R63")) for _ in range(4)}:
+        address = file.find(number)
+        file.take(
+            {address: value_of_stored(file.schema.parameters[address[0]], chance.randrange(2), turns=False)}
+        )
+    held = bench.driver.fetch()
+    new = _registers(bench.driver.encode(file, held))
+    stop = faults.pop("stop", 0)
+    bench.driver.close()
+    bench.wrap = lambda link: BadLine(link, chance, faults, lambda: None)
+    ended = _download(bench, file, cancel, kept, stop)
+    bench.wrap = lambda link: link
+    bench.driver.close()
+    bench.driver.identify()
+    now, old = _registers(bench.driver.fetch()), _registers(held)
+    untrue = _untrue(ended, now, old, new)
+    if now != old and kept != [held]:
+        untrue.append("what the module contained was not kept whole")
+    if (isinstance(ended, Outcome) or not faults) and any(
+        bench.words[axis + r] for axis in (0, 2048) for r in (66, 67)
+    ):
+        untrue.append("a command is left behind")
+    return [f"{faults}, stop {stop}: {each}" for each in untrue]
+
+
+def _registers(content: bytes) -> dict[str, str]:
+    return {f"R{register}": str(word) for register, word in words_of_content(content).items()}

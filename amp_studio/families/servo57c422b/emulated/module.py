@@ -35,7 +35,7 @@ class Module:
         """What is in the registers at power-on is not printed: here 0."""
         self._positions: dict[int, int] = {}
         self.setups: dict[str, tuple[int, ...]] = {}
-        """Axis -> the setup registers that the module works with, once it was told to take them over."""
+        """Axis -> the setup registers that the module works with, once a command has it take them over."""
         self.power_on()
 
     def power_on(self) -> None:

@@ -32,7 +32,7 @@ class Rack:
     # -- the line --------------------------------------------------------------------
 
     def connected(self) -> None:
-        """Begin a line anew for another client."""
+        """Begin a new line for another client."""
         self._line.clear()
         self._out.clear()
 

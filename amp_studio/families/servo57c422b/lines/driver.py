@@ -5,6 +5,7 @@ Instruction manual, pages 4-1 to 4-37; docs/protocols/registers.md.
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -154,19 +155,22 @@ class RegisterDriver(RegisterContent):
 
     def _taken_over(self, axis: int) -> str:
         """Have an axis change its default setups, with the handshake of page 4-36; return what came of it."""
-        faults = self._line.read(axis + FAULT, 1)[0]
+        before = self._line.read(axis + FAULT, 1)[0]
         if self._line.read(axis + COMMAND, 2) != (0, 0):
             raise ProtocolMismatchError(f"a command is in R{axis + COMMAND} or R{axis + COMMAND_2} already")
         try:
             self._line.write(axis + COMMAND, CHANGE_DEFAULTS)
-            self._wait_for(axis, lambda status, command: bool(status & ACKNOWLEDGE) or command == 0)
-        except CancelledError:
-            self._waiting.begin(quiet, None)  # no command is left behind
-            self._line.write(axis + COMMAND, 0)
+            new = self._wait_for(
+                axis, before, lambda status, command: bool(status & ACKNOWLEDGE) or command == 0
+            )
+        except TransferError as error:
+            self._take_back(axis, error)
             raise
         self._line.write(axis + COMMAND, 0)  # the application clears it; one that is cleared already stays so
-        self._wait_for(axis, lambda status, command: not status & ACKNOWLEDGE and command == 0)
-        new = self._line.read(axis + FAULT, 1)[0] & ~faults
+        if not new:
+            new = self._wait_for(
+                axis, before, lambda status, command: not status & ACKNOWLEDGE and command == 0
+            )
         if new:
             bits = ", ".join(f"b{n}" for n in range(16) if new >> n & 1)
             raise ImageRejectedError(
@@ -174,12 +178,21 @@ class RegisterDriver(RegisterContent):
             )
         return f"Axis {AXES[axis]} has taken its setups over (change default setups, acknowledged)."
 
-    def _wait_for(self, axis: int, is_there: Callable[[int, int], bool]) -> None:
+    def _take_back(self, axis: int, error: TransferError) -> None:
+        """Leave no command behind, also if somebody asked to stop."""
+        if isinstance(error, CancelledError):
+            self._waiting.begin(quiet, None)
+        with contextlib.suppress(TransferError):
+            self._line.write(axis + COMMAND, 0)
+
+    def _wait_for(self, axis: int, before: int, is_there: Callable[[int, int], bool]) -> int:
+        """Wait for a state of the handshake; return the faults that came up instead, 0 for none."""
         end = self._waiting.now() + HANDSHAKE_WAIT
         while True:
-            status, command = self._line.read(axis + STATUS, 1)[0], self._line.read(axis + COMMAND, 1)[0]
-            if is_there(status, command):
-                return
+            status, fault = self._line.read(axis + STATUS, 2)
+            command = self._line.read(axis + COMMAND, 1)[0]
+            if (new := fault & ~before) or is_there(status, command):
+                return new
             if self._waiting.now() >= end:
                 raise ControlSilentError(
                     f"axis {AXES[axis]} does not acknowledge the command (R{axis + STATUS}, bit 15)"
