@@ -47,13 +47,22 @@ def _met(check: RuleCheck, named: _Named, given: Given) -> Iterator[Address]:
         if condition is None:
             yield check.address_of(name)
             continue
+        asks_place, met = "at" in condition.variables(), dict[tuple[object, ...], bool]()
         for at, (address, value) in enumerate(_values(check, name, given)):
-            given.context.update({"it": value, "at": at})
-            try:
-                if condition.execute(given.context) is True:
-                    yield address
-            except EVALUATION_ERRORS:
-                continue  # a value that is not set, or of a kind that the condition does not speak of
+            asked = (value.__class__, value, at if asks_place else 0)  # thousands of a table are equal
+            if asked not in met:
+                met[asked] = _is_met(condition, given, value, at)
+            if met[asked]:
+                yield address
+
+
+def _is_met(condition: Program, given: Given, value: Any, at: int) -> bool:
+    """Return whether a value answers to a condition; one that is not set, or of a kind that it does not name, does not."""
+    given.context.update({"it": value, "at": at})
+    try:
+        return condition.execute(given.context) is True
+    except EVALUATION_ERRORS:
+        return False
 
 
 def _values(check: RuleCheck, name: str, given: Given) -> Iterator[tuple[Address, Any]]:

@@ -17,6 +17,7 @@ from typing import Any
 from ruamel.yaml import YAML
 
 from amp_studio.demo import examples_folder
+from amp_studio.files import Change as Edit
 from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.schema import Address, Value, canonical_value, family_ids
 from amp_studio.validate import Finding, Setting, Validator
@@ -138,15 +139,20 @@ class TrialMachine:
     @contextmanager
     def recorded(self) -> Iterator[None]:
         """Undo at the end everything that is changed."""
-        values, forced = dict(self.file.values), dict(self.file.forced)
+        before: dict[Address, Value | None] = {}
+        forced = dict(self.file.forced)
+
+        def note(made: Edit) -> None:
+            before.setdefault(made.address, made.old)
+
+        end = self.file.listen(note)
         try:
             yield
         finally:
-            touched = {
-                a for a in values.keys() | self.file.values.keys() if values.get(a) != self.file.values.get(a)
-            }
+            end()
+            touched = {a for a, value in before.items() if value != self.file.values.get(a)}
             for address in touched:
-                self.file.set(address, values.get(address))
+                self.file.set(address, before[address])
             self._changed |= touched | (forced.keys() ^ self.file.forced.keys())
             self.file.forced.clear()
             self.file.forced.update(forced)
