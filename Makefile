@@ -12,7 +12,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign faults check format schema lock bench man wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign faults peers check format schema lock bench man wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -34,6 +34,10 @@ campaign: setup ## write anything whatever into machines of every family, thousa
 
 faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"
 	@PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
+
+peers: ## build other ends that nobody here wrote into build/peers, from their sources: make peers AMP_STUDIO_PEERS=FOLDER
+	@test -d "$(AMP_STUDIO_PEERS)" || { echo "AMP_STUDIO_PEERS=FOLDER says where the sources are"; exit 1; }
+	@"$(AMP_STUDIO_PEERS)/grblhal/build.sh" build/peers/grblhal
 
 check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check

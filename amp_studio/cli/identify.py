@@ -44,17 +44,18 @@ def identify_verb(options: argparse.Namespace) -> int:
         abilities = driver.abilities
         control, content, digest = look_at(driver, progress())
     note_by_hand(control.family)
-    unreadable, axes, values = "", list(control.axes), None
+    unreadable, axes, values, signature = "", list(control.axes), None, control.signature
     try:
         file = decode_content(content)
         axes, values = axes or list(fitted_axes(file)), len(file.values)
+        signature = signature or file.schema.signature
     except ImageError as error:
         unreadable = str(error) if content else "it is empty"
     if options.json:
         print_json({
             "address": options.address, "protocol": control.protocol, "abilities": asdict(abilities),
             "family": control.family, "name": control.name, "revision": control.revision, "axes": axes,
-            "signature": control.signature, "size": len(content), "sha256": digest, "values": values,
+            "signature": signature, "size": len(content), "sha256": digest, "values": values,
             "unreadable": unreadable or None, "in_estop": control.in_estop, "restart_needed": control.restart_needed,
         })  # fmt: skip
         return 0

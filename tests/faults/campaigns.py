@@ -23,7 +23,7 @@ from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
-from . import own_contents, own_protocols, persons, racks, sheets, stored, texts, wire
+from . import grbl_lines, own_contents, own_protocols, persons, racks, sheets, stored, texts, wire
 from .command_lines import fuzz_command_lines
 from .lines import download_over_bad_lines
 from .verbs import VERBS, fail_calls
@@ -122,6 +122,13 @@ CAMPAIGNS = (
     Campaign(
         "damaged contents and racks of the 57C422B", partial(_damaged_in, racks.fuzz_racks), MANY, 50, 2_000
     ),
+    Campaign(
+        "grblHAL settings over a bad line, power off in the save",
+        grbl_lines.settings_under_faults,
+        2_000,
+        4,
+        100,
+    ),
     Campaign("hostile control", partial(_hostile, exchange_with_hostile_control), 1_000, 10, 50),
     Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 5, 50),
     Campaign("damaged YAML", partial(_damaged, texts.fuzz_yaml), MANY, 100, 5_000),
@@ -144,6 +151,19 @@ CAMPAIGNS = (
         MANY,
         50,
         2_000,
+    ),
+    Campaign(
+        "damaged copies of Grbl settings", partial(_damaged, grbl_lines.fuzz_contents), 20_000, 30, 1_000
+    ),
+    Campaign(
+        "damaged answers of a Grbl control", partial(_damaged, grbl_lines.fuzz_answers), 20_000, 30, 1_000
+    ),
+    Campaign(
+        "odd bytes at an emulated Grbl control",
+        partial(_damaged_in, grbl_lines.fuzz_devices),
+        MANY,
+        100,
+        5_000,
     ),
     Campaign("damaged frames", partial(_damaged, wire.fuzz_frames), MANY, 500, 5_000),
     Campaign("damaged messages", partial(_damaged, wire.fuzz_messages), MANY, 1_000, 5_000),

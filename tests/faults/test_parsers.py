@@ -32,6 +32,9 @@ READERS = {
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
     "demo.py": "",  # whether there is a display
+    "families/grblhal/driver.py": "damaged answers of a Grbl control",
+    "families/grblhal/emulated/firmware.py": "odd bytes at an emulated Grbl control",
+    "families/grblhal/kind.py": "damaged copies of Grbl settings",
     "families/ninepc/emulated/panel.py": "odd commands at the screen of a 9/PC",
     "files/atomic.py": "damaged backups",
     "files/document.py": "damaged journal and history",

@@ -23,14 +23,16 @@ from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import OpenLink, Waiting
 
-ERASE = b"\x7f" * 260 + b"\n"
-"""More DEL than a line of the firmware is long; a Grbl 1.1 takes them for too long a line, which it refuses as well."""
+ERASE = b"\x7f" * 260 + b"$AMP\n"
+"""More DEL than a line of the firmware is long, and a command that it refuses: its error is the answer to this and not to what
+another client has asked. A Grbl 1.1 takes the DEL for too long a line, which it refuses as well.
+"""
 
 SLICE = 0.05  # seconds a read may last between two looks at the cancel event
-START = 8.0  # seconds a control that has just been connected may take to answer: an Arduino restarts
+START = 12.0  # seconds a control that has just been connected may take to answer: an Arduino restarts
 AGAIN = 2.5  # seconds after which the first line is sent once more: a boot loader has swallowed it
 QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
-ANSWER = 5.0  # seconds without a byte of an answer
+ANSWER = 8.0  # seconds without a byte of an answer
 ANSWER_ENDS = 60.0  # seconds for the whole answer
 LINGER = 0.15  # seconds a command that writes is seen through after somebody has asked to stop
 LONGEST_LINE = 8_192  # bytes
@@ -77,6 +79,7 @@ class GrblLine:
         self._clock, self._sleep = clock, sleep
         self._rest = b""
         self._lines: deque[str] = deque()
+        self._owed = 0  # refusals of first lines that may still come, before any other answer
         self._begin(START, lingers=False)
         self.serve(progress, cancel)
         try:
@@ -125,8 +128,12 @@ class GrblLine:
             line = self._line(ANSWER)
             if line == "ok":
                 self._waiting.heard()
+                self._owed = 0
                 return answer
             found = None if self._lost_memory(line) else _ERROR.fullmatch(line)
+            if found and self._owed and not answer:
+                self._owed -= 1
+                continue
             if found:
                 self._waiting.heard()
                 raise GrblRefusalError(int(found[1]), command)
@@ -158,19 +165,13 @@ class GrblLine:
     def _erase(self) -> None:
         """Erase what a lost client may have left of a line, and read all that is still to come of earlier commands."""
         self._begin(START, lingers=False)
-        sent_at = -AGAIN
-        while True:
+        sent, sent_at, refused = 0, -AGAIN, 0
+        while not refused:
             if self._clock() - sent_at >= AGAIN:
                 self._link.write(ERASE)
-                sent_at = self._clock()
+                sent, sent_at = sent + 1, self._clock()
             line = self._next(AGAIN, sent_at)
-            if line is None:
-                continue
-            self._is_pushed(line)
-            if self._lost_memory(line):
-                continue
-            if line == "ok" or _ERROR.fullmatch(line):
-                break
+            refused += line is not None and self._is_refusal(line)
         quiet_since = self._clock()
         while self._clock() - quiet_since < QUIET:
             self.look()
@@ -178,11 +179,15 @@ class GrblLine:
                 self._take(data)
                 quiet_since = self._clock()
             while self._lines:
-                line = self._lines.popleft()
-                self._is_pushed(line)
-                self._lost_memory(line)
+                refused += self._is_refusal(self._lines.popleft())
         self._rest = b""
+        self._owed = max(0, sent - refused)
         self._waiting.heard()
+
+    def _is_refusal(self, line: str) -> bool:
+        """Whether a line refuses a command; remembers what came unasked."""
+        self._is_pushed(line)
+        return not self._lost_memory(line) and _ERROR.fullmatch(line) is not None
 
     def _next(self, seconds: float, since: float) -> str | None:
         """Return the next line, None after so many seconds since a time."""

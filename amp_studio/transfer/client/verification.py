@@ -29,6 +29,7 @@ class ImageComparison:
     ``head``        lines of the head that differ
     ``unreadable``  why the control's image cannot be compared with the file, else ""
     ``absent``      what the file sets and the control does not have, in a sentence, else ""
+    ``is_whole``    whether every byte was compared; else a control shows some values coarser than they are
     ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
     """
 
@@ -39,6 +40,7 @@ class ImageComparison:
     unreadable: str = ""
     absent: str = ""
     outside: tuple[Address, ...] = ()
+    is_whole: bool = True
 
     def summary(self) -> str:
         """Return how it came out in one sentence, and how much of the file was not compared."""
@@ -48,7 +50,12 @@ class ImageComparison:
 
     def _summary(self) -> str:
         if self.is_same:
-            return f"Nothing differs: {self.values.same} values and every byte are the same."
+            much = (
+                "and every byte are the same"
+                if self.is_whole
+                else "are the same as far as the control shows them"
+            )
+            return f"Nothing differs: {self.values.same} values {much}."
         if self.unreadable:
             return f"The control contains something else: {self.unreadable}."
         if self.absent:
@@ -72,18 +79,20 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         return _not_compared(str(error) if fetched else "nothing")
     if present.schema.family.family != file.schema.family.family:
         return _not_compared(f"a file for {present.schema.family.name}")
-    absent, is_same, wanted = "", False, file
+    absent, is_same, is_whole, wanted = "", False, True, file
     try:
         content = kind.encode(file, fetched)
-        is_same = not kind.difference(content, fetched)
+        is_same, is_whole = not kind.difference(content, fetched), content == fetched
         wanted = kind.decode(content)  # in the control's own units, with what the file leaves as it is
     except ImageError as error:
         absent = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
     found = compare(file.schema, _known(file, wanted), _known(file, present))
+    if is_same:  # what is shown coarser than it is
+        found = Comparison((), found.same + len(found.differences))
     outside = tuple(a for a in file.values if a not in wanted.values)
     return ImageComparison(
-        is_same, found, _other_units(wanted, present), head, absent=absent, outside=outside
+        is_same, found, _other_units(wanted, present), head, absent=absent, outside=outside, is_whole=is_whole
     )
 
 

@@ -97,7 +97,7 @@ class Player:
             return
         *lines, self._in = (self._in + text).split("\n")
         for line in lines:
-            said = self._said.get(line, ["ok"] if not line else ["error:3"])
+            said = self._said.get(line, ["error:3"])
             self._out += "".join(f"{each}\r\n" for each in said).encode()
 
     def close(self) -> None:

@@ -6,6 +6,7 @@ between the two begins with the defaults.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 from collections.abc import Callable, Iterator
@@ -16,7 +17,7 @@ from amp_studio.transfer.emulated.line_device import DeviceSetup
 
 from .stored_settings import FAMILY, OUT_OF_RANGE, RefusedError, StoredSettings
 
-MEMORY = "settings.json"
+MEMORY = "settings"
 LINE, CLASSIC_LINE = 256, 80
 """Characters of the longest line."""
 PIECE = 512
@@ -68,21 +69,17 @@ class Firmware:
 
     def _stored(self) -> dict[str, Any] | None:
         """Return what the memory contains; None where its checksum is wrong."""
-        content = self._memory.read(MEMORY)
-        try:
-            found = json.loads(content) if content else None
-        except ValueError:
+        checksum, _, content = (self._memory.read(MEMORY) or b"").partition(b"\n")
+        if checksum != _checksum(content):
             return None
-        return (
-            found
-            if isinstance(found, dict) and found.keys() == {"settings", "offsets", "startup", "build"}
-            else None
-        )
+        found: dict[str, Any] = json.loads(content)
+        return found
 
     def _save(self) -> None:
-        self._memory.replace(MEMORY, json.dumps({
+        content = json.dumps({
             "settings": self.settings.values(), "offsets": self.offsets, "startup": self.startup, "build": self.build,
-        }).encode())  # fmt: skip
+        }).encode()  # fmt: skip
+        self._memory.replace(MEMORY, _checksum(content) + b"\n" + content)
         self.is_writing = False
 
     def power_cycle(self) -> None:
@@ -336,3 +333,7 @@ class Firmware:
                 states = "|".join(_STATES)
                 raise ValueError(f"commands are state {states}, alarm N, message TEXT, power, status, quit")
         return line
+
+
+def _checksum(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()

@@ -1,0 +1,68 @@
+"""The real firmware on this machine, where ``make peers`` has built it: started on a free port, ended by its number."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parents[3] / "build" / "peers" / "grblhal"
+FIRMWARE = FOLDER / "grblHAL_sim"
+
+
+class RealControl:
+    """The firmware's simulator with its memory in a file; it keeps a core busy, and obeys nothing but SIGKILL."""
+
+    def __init__(self, memory: Path) -> None:
+        self._memory = memory
+        self.port = 0
+        self._process: subprocess.Popen[bytes] | None = None
+
+    @property
+    def address(self) -> str:
+        return f"tcp://127.0.0.1:{self.port}?protocol=grbl"
+
+    def start(self) -> None:
+        """Give it power, on a port that was free."""
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.port = free.getsockname()[1]
+        self._process = subprocess.Popen(
+            [FIRMWARE, "-n", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self._memory.parent,
+        )  # fmt: skip
+        _wait_listening(self.port)
+
+    def kill(self) -> None:
+        """Take its power away at once."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+            self._process = None
+
+
+def _wait_listening(port: int) -> None:
+    """Wait until the port is taken; the firmware has one client, so nobody connects to find out."""
+    end = time.monotonic() + 10
+    while time.monotonic() < end:
+        with socket.socket() as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                return
+        time.sleep(0.02)
+    raise AssertionError("the firmware does not listen")
+
+
+@contextmanager
+def real_control(folder: Path) -> Iterator[RealControl]:
+    """Give a control that runs, with a memory that has never been written."""
+    control = RealControl(folder / "EEPROM.DAT")
+    control.start()
+    try:
+        yield control
+    finally:
+        control.kill()

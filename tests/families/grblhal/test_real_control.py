@@ -1,0 +1,123 @@
+"""The driver and the command line against the real firmware, where it is built (``make peers``)."""
+
+from __future__ import annotations
+
+import random
+import threading
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import run
+from amp_studio.families.grblhal.content import read_content, write_content
+from amp_studio.families.grblhal.driver import GrblDriver
+from amp_studio.families.grblhal.line import GrblLine
+from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.links.opening import connect
+from tests.families.grblhal.conversation import answers, recorded
+from tests.families.grblhal.real_control import FIRMWARE, RealControl, real_control
+
+pytestmark = pytest.mark.skipif(
+    not FIRMWARE.exists(), reason="the firmware is not built here: make peers AMP_STUDIO_PEERS=FOLDER"
+)
+
+
+@pytest.fixture
+def control(tmp_path: Path) -> Iterator[RealControl]:
+    with real_control(tmp_path) as made:
+        yield made
+
+
+def test_the_recorded_conversation_is_the_real_one(control: RealControl) -> None:
+    place = parse_endpoint(control.address)
+    with closing(GrblLine(lambda look: connect(place, look=look))) as line:
+        assert answers(line) == recorded()
+
+
+def test_upload_set_download_and_restore_over_the_command_line(
+    control: RealControl, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "router.amp"
+    assert run(["upload", "--from", control.address, "-o", str(path)]) == 0
+    assert run(["set", str(path), "$130=301.5", "$22=Enable", "$20=yes"]) == 0
+    assert run(["download", str(path), "--to", control.address]) == 0
+    assert run(["verify", str(path), "--with", control.address]) == 0
+    (copy,) = tmp_path.glob("router.before-*.img")
+    assert run(["restore", str(copy), "--to", control.address]) == 0
+    assert run(["verify", str(path), "--with", control.address]) == 1
+    assert "3 differ" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_power_cut_in_a_download_leaves_old_new_some_of_both_or_defaults_and_says_which(
+    seed: int, tmp_path: Path
+) -> None:
+    assert power_cut(seed, tmp_path) == []
+
+
+def power_cut(seed: int, folder: Path) -> list[str]:
+    """Kill the real firmware somewhere in a download, start it again, and compare what was reported with what it shows."""
+    chance = random.Random(seed)
+    with (
+        real_control(folder) as control,
+        closing(GrblDriver(lambda look: connect(parse_endpoint(control.address), look=look))) as driver,
+    ):
+        held = driver.fetch()
+        present = read_content(held)
+        own = replace(
+            present,
+            settings={
+                **present.settings,
+                30: "24000.000",
+                131: "333.000",
+                1: "50",
+                121: "33.000",
+                27: "2.000",
+            },
+        )
+        download(driver, write_content(own), lambda _: "first", signature="")
+        changes = {
+            n: f"{chance.randint(10, 90)}.000"
+            for n in chance.sample([100, 101, 102, 110, 111, 112, 120, 130], 6)
+        }
+        changes |= {n: f"{text}00" for n, text in changes.items() if n < 103}
+        wanted = replace(own, settings={**own.settings, **changes})
+        cut_at, kept = chance.randint(1, 6), []
+
+        def pull(stage: str, done: int, total: int) -> None:
+            if (stage, done) == ("download", cut_at):
+                control.kill()
+                threading.Timer(0.3, control.start).start()
+
+        told, new = "", ()
+        try:
+            told = download(
+                driver, write_content(wanted), lambda old: str(kept.append(old)), signature="", progress=pull
+            ).at_control
+        except TransferError as error:
+            told, new = error.at_control, error.new
+        driver.close()
+        after = read_content(driver.fetch()).settings
+        fresh = {n for n in changes if after[n] == wanted.settings[n]}
+        truth = {
+            "old": after == own.settings, "new": after == wanted.settings, "defaults": after == present.settings,
+            "mixed": {f"${n}" for n in fresh} == set(new) and all(after[n] in (own.settings[n], wanted.settings[n]) for n in after),
+            "unknown": True,
+        }  # fmt: skip
+        found = (
+            []
+            if truth[told]
+            else [f"seed {seed}: said {told} {new}, and new are {sorted(fresh)} of {sorted(changes)}"]
+        )
+        if kept != [write_content(own)]:
+            found.append(f"seed {seed}: the copy is not what the control contained")
+        back = partial(driver.refit, kept[0])
+        if not download(driver, back, lambda _: "kept", signature="").verified:
+            found.append(f"seed {seed}: the copy does not go back")
+        return found
