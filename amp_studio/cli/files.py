@@ -18,6 +18,7 @@ from amp_studio.files import (
     new_file,
     open_file,
 )
+from amp_studio.files.by_schema import by_schema
 from amp_studio.files.lock import now
 from amp_studio.report.wording import counted, state_name
 from amp_studio.schema import (
@@ -209,18 +210,26 @@ def get_verb(options: argparse.Namespace) -> int:
 def diff_verb(options: argparse.Namespace) -> int:
     """Compare two files, or a file and a control; 1 where they differ."""
     (a, a_digest), (b, b_digest) = _side(options.a), _side(options.b)
-    if a.schema is not b.schema:
+    if a.schema.family.family != b.schema.family.family:
         raise UsageError(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
-    found = compare(a.schema, a.values, b.values)
+    other = by_schema(b, a.schema)
+    found = compare(a.schema, a.values, other.values)
+    of_b = _of_other_schema(b, other)  # settings that only the control of B has
     if options.json:
         rows = [difference_json(a, d, options.secrets) for d in found.differences]
+        rows += [difference_json(b, d, options.secrets) for d in of_b]
         digests = {"sha256": {"a": a_digest, "b": b_digest}} if a_digest or b_digest else {}
         print_json({"differences": rows, "same": found.same} | digests)
         return 1 if rows else 0
-    print_comparison(a, found, options.secrets)
+    print_comparison(a, found, options.secrets, (b, of_b))
     for digest in filter(None, (a_digest, b_digest)):
         print(f"sha256 {digest}")
-    return 1 if found.differences else 0
+    return 1 if found.differences or of_b else 0
+
+
+def _of_other_schema(b: ParameterFile, by_a: ParameterFile) -> list[Difference]:
+    """Return the values of a file that it does not have by another schema."""
+    return [Difference(a, None, b.values[a]) for a in b.values if a not in by_a.values]
 
 
 def difference_json(file: ParameterFile, difference: Difference, secrets: bool) -> dict[str, Any]:
@@ -237,11 +246,21 @@ def difference_json(file: ParameterFile, difference: Difference, secrets: bool) 
     return found | ({"secret": True} if parameter.secret else {})
 
 
-def print_comparison(file: ParameterFile, found: Comparison, secrets: bool) -> None:
-    """Print each difference and how many there are; ``file`` is one of the two sides."""
+def print_comparison(
+    file: ParameterFile, found: Comparison, secrets: bool,
+    other: tuple[ParameterFile, Sequence[Difference]] | None = None,
+) -> None:  # fmt: skip
+    """Print each difference and how many there are; ``file`` is one of the two sides.
+
+    ``other`` is the second side with what only its schema has.
+    """
     for difference in found.differences:
         print_difference(file, difference, secrets)
-    print(f"{len(found.differences)} differ, {found.same} are the same, {found.not_set_in_a} not set in A, "
+    second, of_second = other or (file, ())
+    for difference in of_second:
+        print_difference(second, difference, secrets)
+    more = len(of_second)
+    print(f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not set in A, "
           f"{found.not_set_in_b} not set in B")  # fmt: skip
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from amp_studio.schema import Address, Schema, UnitError, Value, convert, read_address, same_value
 
+from .by_schema import by_schema
 from .parameter_file import ParameterFile
 
 
@@ -86,6 +87,7 @@ def merge(
         raise ValueError(
             f"files of different control families cannot be merged: {', '.join(sorted(families))}"
         )
+    base, theirs = by_schema(base, ours.schema), by_schema(theirs, ours.schema)
     merged, conflicts = ours.copy(), []
     for difference in compare(base.schema, base.values, theirs.values).differences:
         address = difference.address

@@ -25,7 +25,7 @@ def described_schema(family: str, description: bytes) -> Schema:
     return _described(family, description)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def _described(family: str, description: bytes) -> Schema:
     found: Schema = load_part(registration_of(family).describe)(description)
     return found

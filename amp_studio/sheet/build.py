@@ -6,6 +6,7 @@ from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.files import Difference, ParameterFile, compare
+from amp_studio.files.by_schema import by_schema
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import NO_RULES, BuilderRules
 from amp_studio.validate.finding import Finding
@@ -42,6 +43,7 @@ def make_sheet(
     rules. Secrets are on the sheet only with ``secrets``. Raises SheetError where the two are of different families or machine types.
     """
     _check_sides(wanted, present)
+    present = by_schema(present, wanted.schema)
     keying = keying_of(wanted.schema.family.family)
     found = compare(wanted.schema, wanted.values, present.values)
     lines, left_out, same = [], [], found.same
@@ -62,7 +64,7 @@ def make_sheet(
 
 
 def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
-    if wanted.schema is not present.schema:
+    if wanted.schema.family.family != present.schema.family.family:
         names = [side.schema.family.name for side in (wanted, present)]
         raise SheetError(
             f"one side is for {names[0]}, the other for {names[1]}: no sheet can be made of them"

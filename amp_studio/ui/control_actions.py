@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMessageBox, QStyle
 
 from amp_studio.files import Document, ParameterFile
+from amp_studio.files.by_schema import by_schema
 from amp_studio.files.out_of_range import settle
 from amp_studio.transfer.progress import Progress
 
@@ -155,7 +156,7 @@ class ControlActions:
             question = f"{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
             answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
             return image if answer == "&Download" else None
-        self.exchanges.remember(workspace, present)
+        self.exchanges.remember(workspace, by_schema(present, workspace.file.schema))
         found = verify_content(workspace.file, image).values
         if (
             not found.differences
@@ -176,7 +177,7 @@ class ControlActions:
         image = self.exchanges.fetch(address, "Verify", workspace.file.schema.family.family)
         found = verify_content(workspace.file, image)
         if not found.unreadable:
-            present = decode_content(image)
+            present = by_schema(decode_content(image), workspace.file.schema)
             self.exchanges.remember(workspace, present)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning

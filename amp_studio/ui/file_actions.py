@@ -24,6 +24,7 @@ from amp_studio.files import (
     same_file,
     secret_values,
 )
+from amp_studio.files.by_schema import by_schema
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import EditLock
 from amp_studio.report.wording import counted
@@ -216,12 +217,13 @@ class FileActions:
         def work() -> None:
             workspace = page.workspace
             on_disk = in_background(self.window, "Opening", lambda: open_file(workspace.path))
-            if on_disk.file.schema is not workspace.file.schema:
+            if on_disk.file.schema.family.family != workspace.file.schema.family.family:
                 raise ValueError(
                     f"{workspace.path.name} is a file for {on_disk.file.schema.family.name} now. Save your work under a new name."
                 )
             workspace.acknowledge(on_disk)
-            CompareDialog(workspace, on_disk.file.values, "the file on disk", page.go_to, self.window).show()
+            found = by_schema(on_disk.file, workspace.file.schema).values
+            CompareDialog(workspace, found, "the file on disk", page.go_to, self.window).show()
 
         from .compare_dialog import CompareDialog
 
@@ -319,13 +321,14 @@ class FileActions:
             from .compare_dialog import CompareDialog
 
             other = in_background(self.window, "Opening", lambda: open_file(Path(text)).file)
-            if other.schema is not workspace.file.schema:
+            if other.schema.family.family != workspace.file.schema.family.family:
                 raise ValueError(
                     f"{Path(text).name} is a file for {other.schema.family.name}. Choose a file of the same control family."
                 )
             page = self.window.page
             assert page is not None
-            CompareDialog(workspace, other.values, Path(text).name, page.go_to, self.window).show()
+            found = by_schema(other, workspace.file.schema).values
+            CompareDialog(workspace, found, Path(text).name, page.go_to, self.window).show()
 
     def recover(self) -> None:
         """Replace the open file by its backup."""

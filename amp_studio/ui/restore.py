@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import compare
+from amp_studio.files.by_schema import by_schema
 from amp_studio.transfer.progress import Progress
 from amp_studio.validate import Validator, rules_beside
 
@@ -88,7 +89,7 @@ def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes)
         doubts.append(f"The control contains parameters for {now.schema.family.name}.")
     elif now is not None and not doubts:
         secrets = control.window.workspace.secrets if control.window.workspace else False
-        found = compare(copy.file.schema, copy.file.values, now.values)
+        found = compare(copy.file.schema, copy.file.values, by_schema(now, copy.file.schema).values)
         preview = DownloadPreview(copy.file, found, control.window, secrets=secrets, title="Restore")
         return bool(preview.exec())
     question = "\n\n".join(
