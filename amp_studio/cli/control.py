@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from amp_studio.files import ParameterFile, open_file
@@ -20,6 +20,8 @@ from amp_studio.transfer.client.verification import verify_content
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
 from amp_studio.transfer.image import ImageError
+from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
+from amp_studio.transfer.links.security import Security, exposure, read_password
 
 from .by_hand import note_by_hand, sheet_offered
 from .console import assignments, family, note, print_json, progress
@@ -35,10 +37,24 @@ from .stopping import asked_politely
 def emulate_verb(options: argparse.Namespace) -> int:
     """Be a control until stopped."""
     family(options.family)
-    return emulate(options.listen, EmulatedOptions(
+    return emulate(_secured(options), EmulatedOptions(
         options.family, options.state, machine=options.machine, estop=not options.no_estop,
         autostart=not options.manual_restart, faults=options.faults,
         hardware=dict(assignments(options.option))))  # fmt: skip
+
+
+def _secured(options: argparse.Namespace) -> Endpoint:
+    """Return where the control listens and what it asks of who connects; notes who else can reach it."""
+    place = parse_endpoint(options.listen)
+    if (options.key is not None) > (options.certificate is not None):
+        raise UsageError("--key belongs to a --certificate")
+    password = read_password(options.password_file) if options.password_file is not None else ""
+    warning = (
+        exposure(place.host, has_tls=place.kind == "tls", has_password=bool(password)) if place.host else ""
+    )
+    if warning:
+        note(f"warning: {warning}")
+    return replace(place, security=Security(password, options.certificate, options.key))
 
 
 def download_verb(options: argparse.Namespace) -> int:

@@ -219,6 +219,18 @@ def _controls(verbs: Verbs) -> None:
         metavar="NAME=VALUE",
         help="what was ordered with the control, where its family has options: axes=3 for a 9/PC",
     )
+    sub.add_argument(
+        "--password-file", type=path_of, metavar="FILE", help="ask clients for the password in its first line"
+    )
+    sub.add_argument(
+        "--certificate",
+        type=path_of,
+        metavar="FILE",
+        help="speak TLS with this certificate (PEM); listen on tls://",
+    )
+    sub.add_argument(
+        "--key", type=path_of, metavar="FILE", help="key of the certificate, where it is in another file"
+    )
     sub = verbs.add("ports", "identify", "the serial ports of this computer")
     json_option(sub)
     sub = verbs.add("identify", "identify", "what answers at an address, and what it contains")

@@ -30,6 +30,8 @@ AT_CONTROL = {"old": FAULT, "new": CHANGED, "mixed": CHANGED, "defaults": CHANGE
 
 _PARAMETER_FILE = ".amp"
 
+AT_A_CONTROL = ("control", "identify", "plain_files", "files")
+"""Modules of verbs that may connect to a control."""
 _OBJECTS = 300_000
 """New objects before Python looks for unreachable ones: facts and values are many and stay, a fifth of a check's time."""
 
@@ -117,6 +119,10 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
             flush_results()
             return 0
         replaced += targets([path for name in options.writes if (path := getattr(options, name))])
+        if options.module in AT_A_CONTROL and sys.stdin is not None and sys.stdin.isatty():
+            from .asking import ask_at_terminal
+
+            ask_at_terminal()
         verb = getattr(import_module(f".{options.module}", __package__), options.verb)
         code = int(verb(options))
         if was_asked():

@@ -168,6 +168,7 @@ CAMPAIGNS = (
     Campaign("damaged frames", partial(_damaged, wire.fuzz_frames), MANY, 500, 5_000),
     Campaign("damaged messages", partial(_damaged, wire.fuzz_messages), MANY, 1_000, 5_000),
     Campaign("damaged telnet", partial(_damaged, wire.fuzz_telnet), MANY, 500, 5_000),
+    Campaign("hostile ends of a password", partial(_damaged, wire.fuzz_passwords), MANY, 100, 2_000),
     Campaign("hostile ends of plain files", partial(_damaged, wire.fuzz_plain_files), MANY, 30, 1_000),
     Campaign("damaged addresses of controls", partial(_damaged, persons.fuzz_endpoints), MANY, 500, 5_000),
     Campaign("damaged digests", partial(_damaged, persons.fuzz_digests), MANY, 500, 5_000),

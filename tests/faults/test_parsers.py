@@ -66,9 +66,14 @@ READERS = {
     "transfer/house/message.py": "damaged messages",
     "transfer/image.py": "odd commands at an emulated control",
     "transfer/links/endpoint.py": "damaged addresses of controls",
+    "transfer/links/password.py": "hostile ends of a password",
+    "transfer/links/passwords.py": "",  # a password may be any text
+    "transfer/links/opening.py": "",  # the fingerprint of its own certificate
     "transfer/links/pseudo_terminal.py": "damaged frames",
     "transfer/links/rfc2217.py": "damaged telnet",
     "transfer/links/serial_ports.py": "",  # the system's text about its ports is only shown
+    "transfer/links/security.py": "",  # the operator's own certificate: read by ssl
+    "transfer/links/tls.py": "hostile clients",
     "transfer/links/tcp.py": "hostile clients",
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
     "ui/control_actions.py": "damaged control image",

@@ -9,6 +9,8 @@ from unittest import mock
 
 from amp_studio.transfer.house.frame import MAX_ENCODED, MAX_PAYLOAD, Frame, FrameDecoder, encode_frame
 from amp_studio.transfer.house.message import LAYOUTS, MESSAGES, Message, RefusalError, pack, unpack
+from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.links.password import Gate, prove
 from amp_studio.transfer.links.telnet import LONGEST_OPTION, TelnetData, TelnetReader
 from amp_studio.transfer.plain.line import ByteLine, PlainFileError
 from amp_studio.transfer.plain.raw import Tape, read_tape
@@ -166,3 +168,49 @@ def fuzz_plain_files(seed: int, count: int) -> list[str]:
         mock.patch("amp_studio.transfer.plain.raw.LARGEST", 90_000),
     ):
         return violations(iter(range(seed * count, (seed + 1) * count)), look, (PlainFileError,))
+
+
+class _Said:
+    """A link over which some text comes before it is cut."""
+
+    bytes_per_second = None
+
+    def __init__(self, said: bytes, chance: random.Random) -> None:
+        self.said, self.chance = said, chance
+
+    def read(self, timeout: float) -> bytes:
+        if not self.said:
+            raise LinkError("said", "cut")
+        size = self.chance.choice((1, 40, 5_000))
+        data, self.said = self.said[:size], self.said[size:]
+        return data
+
+    def write(self, data: bytes) -> None:
+        assert b"secret word" not in data
+
+    def close(self) -> None:
+        self.said = b""
+
+
+def fuzz_passwords(seed: int, count: int) -> list[str]:
+    """Meet damaged challenges and proofs: nobody is let in without the password, and what fails does so in a sentence."""
+    chance = random.Random(seed)
+    with mock.patch("amp_studio.transfer.links.password.ROUNDS", 1):
+        gate = Gate("secret word")
+        lines = [
+            gate.challenge(),
+            b"PROOF " + b"0" * 64 + b" " + b"1" * 64 + b"\n",
+            b"WELCOME " + b"2" * 64 + b"\n",
+            b"LATER 5\n",
+            b"WRONG\n",
+        ]
+
+        def look(said: bytes) -> None:
+            answer, is_right = gate.answer("host", lines[0], said, bytes(32))
+            assert not is_right
+            assert answer.endswith(b"\n")
+            prove(_Said(said, chance), "place", "secret word", bytes(32), 1.0, lambda: None)
+            raise AssertionError("proven")
+
+        cases = (damaged(b"".join(chance.choices(lines, k=2)), chance) for _ in range(count))
+        return violations(cases, look, (LinkError,))

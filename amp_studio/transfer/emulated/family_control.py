@@ -50,13 +50,13 @@ Emulate = Callable[[Endpoint, EmulatedOptions], int]
 """Be a control until asked to quit; prints ``listening on ADDRESS`` when it is ready and returns the exit code."""
 
 
-def emulate(listen: str, options: EmulatedOptions) -> int:
+def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
     """Run an emulated control of a family until it is asked to quit; returns the exit code.
 
     ``?protocol=NAME`` of the address chooses what it speaks; else it is the family's first protocol that has an emulated
     control. Raises ValueError for an address that is none and for a protocol without one.
     """
-    place = parse_endpoint(listen)
+    place = parse_endpoint(listen) if isinstance(listen, str) else listen
     offered = emulators_of(options.family)
     name = place.protocol or next(iter(offered))
     if name not in offered:

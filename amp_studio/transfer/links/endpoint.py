@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 from urllib.parse import parse_qsl, quote
 
 from amp_studio.schema.quoting import quoted
 
+from .security import Security
 from .serial_settings import DATA_BITS, FLOWS, PARITIES, STOP_BITS, Flow, Parity, SerialSettings
 
 FORMS = (
@@ -31,6 +32,7 @@ class Endpoint:
     ``device``                  of serial
     ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to the protocol on the line
     ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in hexadecimal
+    ``security``                what is asked of who connects, where this is listened on
     ``protocol``                how it is spoken to; "" for the usual way of the control's family
     """
 
@@ -46,6 +48,7 @@ class Endpoint:
     ca: str = ""
     fingerprint: str = ""
     protocol: str = ""
+    security: Security | None = field(default=None, repr=False, compare=False)
 
     def __str__(self) -> str:
         given = [(key, getattr(self, key)) for key in LINE]

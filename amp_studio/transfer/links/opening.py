@@ -11,6 +11,7 @@ from .link import Link, LinkError, Listener, keep_waiting
 
 if TYPE_CHECKING:
     from .pseudo_terminal import PtyListener
+    from .secured import SecuredListener
     from .serial_line import PortListener
     from .tcp import TcpListener
 
@@ -28,10 +29,10 @@ def connect(
     leaves Xon and Xoff to the protocol on the line: they are read as bytes, whatever the endpoint's ``flow`` is.
     A way of speaking with other usual settings than 115200 8N1 gives ``endpoint.with_usual(…)``.
     """
-    if endpoint.kind == "tcp":
-        from .tcp import connect_tcp
+    if endpoint.kind in ("tcp", "tls"):
+        from .passwords import find_password
 
-        return connect_tcp(endpoint, timeout, look)
+        return _network_link(endpoint, find_password(endpoint), timeout, look)
     if endpoint.kind == "serial":
         from .serial_line import open_port
 
@@ -40,11 +41,43 @@ def connect(
         from .rfc2217 import connect_rfc2217
 
         return connect_rfc2217(endpoint, timeout, look, own_flow=own_flow)
-    if endpoint.kind == "tls":
-        raise LinkError(endpoint, "TLS is not there yet")
     raise LinkError(
         endpoint, "a pseudo terminal can only be listened on; connect to the serial: name it was given"
     )
+
+
+def _network_link(endpoint: Endpoint, password: str, timeout: float, look: Callable[[], None]) -> Link:
+    """Open a connection, prove the password on it if there is one, and else notice when the control asks for one."""
+    from .password import NO_TLS, GuardedLink, PasswordError, prove
+    from .passwords import ENVIRONMENT, ask_password
+
+    link: Link
+    if endpoint.kind == "tls":
+        from .tls import connect_tls
+
+        link, certificate = connect_tls(endpoint, timeout, look)
+    else:
+        from .tcp import connect_tcp
+
+        link, certificate = connect_tcp(endpoint, timeout, look), NO_TLS
+    if password:
+        try:
+            prove(link, endpoint, password, certificate, timeout, look)
+        except BaseException:
+            link.close()
+            raise
+        return link
+
+    def reopen() -> Link:
+        entered = ask_password(endpoint)
+        if not entered:
+            raise PasswordError(
+                endpoint,
+                f"the control asks for a password: put it into {ENVIRONMENT} or the system's keyring",
+            )
+        return _network_link(endpoint, entered, timeout, look)
+
+    return GuardedLink(link, reopen)
 
 
 def listen(endpoint: Endpoint) -> Listener:
@@ -57,11 +90,11 @@ def listen(endpoint: Endpoint) -> Listener:
     return listener
 
 
-def _listener(endpoint: Endpoint) -> TcpListener | PortListener | PtyListener:
-    if endpoint.kind == "tcp":
-        from .tcp import TcpListener
-
-        return TcpListener(endpoint)
+def _listener(endpoint: Endpoint) -> TcpListener | SecuredListener | PortListener | PtyListener:
+    if endpoint.kind in ("tcp", "tls"):
+        return _network_listener(endpoint)
+    if endpoint.security is not None and endpoint.security.password:
+        raise LinkError(endpoint, "a serial line has no password: who can plug in the cable has the line")
     if endpoint.kind == "serial":
         from .serial_line import PortListener
 
@@ -71,3 +104,30 @@ def _listener(endpoint: Endpoint) -> TcpListener | PortListener | PtyListener:
     from .pseudo_terminal import PtyListener
 
     return PtyListener()
+
+
+def _network_listener(endpoint: Endpoint) -> TcpListener | SecuredListener:
+    """Listen for connections; with a certificate for TLS and with a password if there are such."""
+    from .tcp import TcpListener
+
+    security = endpoint.security
+    has_certificate = security is not None and security.certificate is not None
+    if has_certificate != (endpoint.kind == "tls"):
+        missing = (
+            "needs a certificate" if endpoint.kind == "tls" else "has no use for a certificate: write tls://"
+        )
+        raise LinkError(endpoint, f"this address {missing}")
+    if security is None or not (has_certificate or security.password):
+        return TcpListener(endpoint)
+    from .password import NO_TLS, Gate
+    from .secured import SecuredListener
+    from .security import fingerprint_of, server_context
+
+    context = server_context(security)
+    fingerprint = fingerprint_of(security.certificate) if security.certificate is not None else ""
+    return SecuredListener(
+        TcpListener(replace(endpoint, fingerprint=fingerprint, security=None)),
+        context,
+        Gate(security.password) if security.password else None,
+        bytes.fromhex(fingerprint) or NO_TLS,
+    )

@@ -10,12 +10,14 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
 from .attempt import SLICE, in_time
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
 
 WRITE_LIMIT = 3.0  # seconds the other end may take to make room before the line counts as gone
+BACKLOG = 64  # callers that the system lets wait: a few that say nothing must not keep others out
 READ_SIZE = 65_536
 LAST_READS = 16  # how much of what nobody will read is taken off a line that is closed
 
@@ -29,6 +31,8 @@ PASSING = {
     errno.ENOMEM,
     errno.EPROTO,
 }
+
+Wrapped = TypeVar("Wrapped")
 
 
 class TcpLink:
@@ -46,6 +50,15 @@ class TcpLink:
         with contextlib.suppress(OSError):  # a connection that is gone already is met at the first read
             connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
+    @property
+    def peer(self) -> Endpoint:
+        """Who is at the other end."""
+        return self._endpoint
+
+    def wrap(self, wrap: Callable[[socket.socket], Wrapped]) -> Wrapped:
+        """Put TLS around the connection."""
+        return wrap(self._socket)
+
     def read(self, timeout: float) -> bytes:
         try:
             if not select.select([self._socket], [], [], max(0.0, timeout))[0]:
@@ -54,7 +67,7 @@ class TcpLink:
         except BlockingIOError:
             return b""
         except (OSError, ValueError) as error:
-            raise LinkError(self._endpoint, _message(error)) from None
+            raise LinkError(self._endpoint, tcp_message(error)) from None
         if not data:
             raise LinkError(self._endpoint, "the other end has closed the connection")
         return data
@@ -70,7 +83,7 @@ class TcpLink:
             except BlockingIOError:
                 continue
             except (OSError, ValueError) as error:
-                raise LinkError(self._endpoint, _message(error)) from None
+                raise LinkError(self._endpoint, tcp_message(error)) from None
             self._look()
             if time.monotonic() >= end:
                 raise LinkError(self._endpoint, "the other end takes nothing more")
@@ -96,14 +109,14 @@ class TcpListener:
             )[0]
             self._socket = socket.socket(family, kind, proto)
         except OSError as error:
-            raise LinkError(endpoint, _message(error)) from None
+            raise LinkError(endpoint, tcp_message(error)) from None
         try:
             _reuse(self._socket)
             self._socket.bind(where)
-            self._socket.listen(4)
+            self._socket.listen(BACKLOG)
         except OSError as error:
             self._socket.close()
-            raise LinkError(endpoint, _message(error)) from None
+            raise LinkError(endpoint, tcp_message(error)) from None
         self.endpoint = replace(endpoint, port=self._socket.getsockname()[1])
 
     def accept(self, timeout: float) -> TcpLink | None:
@@ -115,7 +128,7 @@ class TcpListener:
             if isinstance(error, OSError) and error.errno in PASSING:
                 time.sleep(min(timeout, SLICE))
                 return None
-            raise LinkError(self.endpoint, _message(error)) from None
+            raise LinkError(self.endpoint, tcp_message(error)) from None
         return TcpLink(Endpoint("tcp", host=peer[0], port=peer[1]), connection)
 
     def close(self) -> None:
@@ -130,7 +143,7 @@ def connect_tcp(endpoint: Endpoint, timeout: float, look: Callable[[], None] = k
         socket.socket.close,
         timeout,
         look,
-        lambda error: LinkError(endpoint, _message(error)),
+        lambda error: LinkError(endpoint, tcp_message(error)),
     )
     return TcpLink(endpoint, made, look)
 
@@ -151,7 +164,8 @@ def _reuse(listening: socket.socket) -> None:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
 
 
-def _message(error: Exception) -> str:
+def tcp_message(error: Exception) -> str:
+    """Return an error of a socket in words."""
     if isinstance(error, TimeoutError):
         return "no answer in time"
     if isinstance(error, ConnectionRefusedError):
