@@ -28,8 +28,6 @@ class Waiting:
     ) -> None:
         self.now = clock
         self.sleep = sleep
-        self.shows_silence = True
-        """Whether silence is shown; not while a person knows what is waited for."""
         self._progress: Progress = quiet
         self._cancel: threading.Event | None = None
         self._heard_at = self._notified_at = clock()
@@ -50,7 +48,7 @@ class Waiting:
             raise CancelledError("stopped")
         now = self.now()
         silent = now - self._heard_at
-        if self.shows_silence and silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
+        if silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
             self._notified_at = now
             self.notify(SILENT, round(silent), 0)
 

@@ -20,9 +20,10 @@ from amp_studio.transfer.links.link import Link, LinkError
 from amp_studio.transfer.waiting import OpenLink, Waiting
 
 LONGEST = 160  # signs of half a line that somebody may have left
-TRIES = 5  # of one line
-ECHO_WAIT = 2.0  # seconds until the echo of a line is whole
-PROMPT_WAIT = 3.0  # seconds until the prompt comes back
+TRIES = 8  # of one line
+ECHO_WAIT = 1.5  # seconds until the echo of a line begins
+ECHO_GAP = 0.4  # seconds between two signs of an echo: one that was lost does not come any more
+PROMPT_WAIT = 1.5  # seconds until the prompt comes back
 QUIET = 0.06  # seconds without a sign after which a line that was cleared is quiet
 MOST_LATE = 100  # pieces that may come behind the prompt of a line that was cleared
 PATIENCE = 20.0  # seconds for which a line that is cut is made again
@@ -111,7 +112,7 @@ class Terminal:
             self._clear(link)
         try:
             link.write(line)
-            echo = self._read_until(link, lambda got: len(got) >= len(line), ECHO_WAIT)
+            echo = self._read_until(link, lambda got: len(got) >= len(line), ECHO_WAIT, gap=ECHO_GAP)
             if echo != line:
                 raise _DamagedError("its echo is another" if echo else "there is no echo")
         except CancelledError:
@@ -149,9 +150,18 @@ class Terminal:
         self._is_clear = True
 
     def _read_until(
-        self, link: Link, is_enough: Callable[[bytes], bool], seconds: float, keep: int = 0
+        self,
+        link: Link,
+        is_enough: Callable[[bytes], bool],
+        seconds: float,
+        *,
+        keep: int = 0,
+        gap: float | None = None,
     ) -> bytes:
-        """Return what has come once it is enough or the time is over; of what is only looked through the last bytes."""
+        """Return what has come once it is enough or the time is over, or nothing has followed it for ``gap`` seconds.
+
+        Of what is only looked through, ``keep`` bytes stay.
+        """
         got, count = b"", 0
         end = self._waiting.now() + seconds
         while not is_enough(got):
@@ -161,6 +171,8 @@ class Terminal:
             self.look()
             data = link.read(min(left, QUIET))
             got, count = got + data, count + len(data)
+            if data and gap is not None:
+                end = self._waiting.now() + gap
             if count > LARGEST:
                 raise ProtocolMismatchError("this is no ACR card: it sends without an end")
             if keep:

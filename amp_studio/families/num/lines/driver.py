@@ -36,7 +36,7 @@ from .content import FAMILY, NumTableContent, content_of_table, reference_of, ta
 from .table_reader import XOFF, XON, TableReader, with_parity
 
 USUAL = SerialSettings(baud=9_600)
-PERSON_WAIT = 600.0  # seconds a person may take to start an unload
+PERSON_WAIT = 300.0  # seconds a person may take to start an unload
 RECOVERY_WAIT = 120.0  # seconds he may take to do so after a break
 READY_WAIT = 60.0  # seconds after which a load is sent to a control that does not ask for it with Xon
 HELD_WAIT = 300.0  # seconds the control may stop a load: its operator corrects the job reference (page 13-10)
@@ -212,8 +212,7 @@ class PeripheralDriver(NumTableContent):
         raise last
 
     def _one_unload(self, stage: str, seconds: float) -> TableReader:
-        reader, waiting = TableReader(), self._waiting
-        waiting.shows_silence = False
+        reader, waiting, has_begun = TableReader(), self._waiting, False
         end = waiting.now() + seconds
         try:
             link = self._line()
@@ -224,16 +223,14 @@ class PeripheralDriver(NumTableContent):
                 if not data or (left == 0 and is_coming):
                     raise self._nothing_came(reader, seconds)
                 reader.feed(data)
-                if reader.has_begun and not waiting.shows_silence:
-                    waiting.shows_silence, end = True, waiting.now() + TABLE_WAIT
+                if reader.has_begun and not has_begun:
+                    has_begun, end = True, waiting.now() + TABLE_WAIT
                 waiting.heard()
                 waiting.notify(stage, len(reader.table), 2 * len(reader.table))
             waiting.notify(stage, len(reader.table), len(reader.table))
         except LinkError as error:
             self.close()
             raise ConnectionCutError(f"the line broke: {error.what}") from None
-        finally:
-            waiting.shows_silence = True
         return reader
 
     def _nothing_came(self, reader: TableReader, seconds: float) -> TransferError:
@@ -309,15 +306,11 @@ class PeripheralDriver(NumTableContent):
     def _await_ready(self, link: Link) -> None:
         """Wait for the control to ask for the table; one that never does gets it after a while."""
         waiting = self._waiting
-        waiting.shows_silence = False
         end = waiting.now() + READY_WAIT
-        try:
-            while (left := end - waiting.now()) > 0:
-                if any(byte & 0x7F == XON for byte in waiting.read(link, left)):
-                    return
-        finally:
-            waiting.shows_silence = True
-            waiting.heard()
+        while (left := end - waiting.now()) > 0:
+            if any(byte & 0x7F == XON for byte in waiting.read(link, left)):
+                break
+        waiting.heard()
 
     def _listen(self, link: Link, seconds: float) -> None:
         """Let some time pass, and obey Xoff and Xon; what else a control sends means nothing."""
