@@ -55,6 +55,8 @@ def make_sheet(
             left_out.append(made)
         else:
             same += 1
+    lines, otherwise = _meant_the_same(keying, lines, wanted, present)
+    left_out += otherwise
     lines = _in_order(lines, wanted, present, own)
     warnings = _warnings(lines, present, own)
     entries = tuple(_entry(line, wanted, secrets) for line in lines)
@@ -106,6 +108,41 @@ def _line(
     return _Line(NewValue(address, value), old, new, stage)
 
 
+def _meant_the_same(
+    keying: Keying, lines: list[_Line], wanted: ParameterFile, present: ParameterFile
+) -> tuple[list[_Line], list[LeftOut]]:
+    """Part the lines into those that mean in the control what they mean in the file, and the others.
+
+    What cannot be keyed in stays as it is there: the type of an axis, for one, by which a number is another parameter, or
+    the same figure degrees instead of millimetres.
+    """
+    otherwise: list[LeftOut] = []
+    while True:
+        final = _final(lines, present)
+        wrong = [
+            line
+            for line in lines
+            if final.evaluation.state(line.step.address).state == "hidden"
+            or line.step.value is None
+            or keying.text(final, line.step.address, line.step.value) != line.new
+        ]
+        if not wrong:
+            return lines, otherwise
+        lines = [line for line in lines if line not in wrong]
+        otherwise += [
+            LeftOut(*_number_and_name(wanted, line.step.address),
+                    "the control is configured otherwise than the file, so that it would mean something else there")
+            for line in wrong
+        ]  # fmt: skip
+
+
+def _final(lines: Iterable[_Line], present: ParameterFile) -> ParameterFile:
+    """Return what the control contains when everything has been keyed in."""
+    final = present.copy()
+    final.take({line.step.address: line.step.value for line in lines if line.step.value is not None})
+    return final
+
+
 def _in_order(
     lines: Sequence[_Line], wanted: ParameterFile, present: ParameterFile, own: BuilderRules
 ) -> list[_Line]:
@@ -125,9 +162,7 @@ def _broken_after(
     lines: Iterable[_Line], present: ParameterFile, own: BuilderRules
 ) -> dict[Hashable, Finding]:
     """Return what is broken when everything has been keyed in."""
-    final = present.copy()
-    final.take({line.step.address: line.step.value for line in lines if line.step.value is not None})
-    return Interim(final, own).broken
+    return Interim(_final(lines, present), own).broken
 
 
 def _explain(

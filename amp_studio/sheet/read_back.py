@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -91,7 +91,7 @@ def _of_table(lines: list[str], delimiter: str) -> list[Shown]:
     found: list[Shown] = []
     reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=delimiter)
     head: list[str] | None = None
-    for row in reader:
+    for row in _rows(reader):
         if head is None:
             head = row
             continue
@@ -100,6 +100,13 @@ def _of_table(lines: list[str], delimiter: str) -> list[Shown]:
             number = cells.get(_NUMBER_HEAD, "").strip().removeprefix("'")
             found.append(Shown(number, shown, reader.line_num))
     return found
+
+
+def _rows(reader: Iterator[list[str]]) -> Iterator[list[str]]:
+    try:
+        yield from reader
+    except csv.Error as error:
+        raise ReadBackError(f"the table cannot be read ({error})", getattr(reader, "line_num", 1)) from None
 
 
 def compare_shown(sheet: Sheet, file: ParameterFile, shown: Iterable[Shown]) -> list[ReadBack]:

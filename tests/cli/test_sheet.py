@@ -123,6 +123,6 @@ def test_neither_the_file_nor_its_ticks_are_overwritten_by_the_sheet(amp, sides)
 
 
 def test_errors_that_are_there_afterwards_are_told_though_patch_amp_does_not(amp, sides) -> None:
-    amp("set", sides[0], "1740=", "1750=1 mm")
+    assert amp("set", sides[0], "1740=not-set", "1750=1 mm").code == 0
     said = amp("sheet", sides[0], "--against", sides[1])
     assert "Error when all is keyed in" in said.err

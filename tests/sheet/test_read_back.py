@@ -55,6 +55,11 @@ def test_a_list_that_cannot_be_meant_is_refused_with_its_line(wanted, present, t
     assert str(refused.value).startswith(fault)
 
 
+def test_a_table_with_an_endless_cell_is_refused(wanted, present) -> None:
+    with pytest.raises(ReadBackError, match="the table cannot be read"):
+        states("step,number,read back\n1,1750," + "9" * 200_000, wanted, present)
+
+
 def test_the_table_of_the_sheet_itself_comes_back_with_its_column_filled_in(wanted, present) -> None:
     for sign in ",;":
         table = "\ufeff" + sign.join(("step", "number", "read back")) + "\r\n"

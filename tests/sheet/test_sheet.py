@@ -122,3 +122,30 @@ def test_every_family_has_a_sheet_in_its_own_numbers(family, setting, number, ke
     entry = next(e for e in make_sheet(wanted, present).entries if e.address == address)
     assert (entry.number, entry.new) == (number, keyed)
     assert unit is None or entry.unit == unit
+
+
+# -- a control that is configured otherwise --------------------------------------------------------
+
+OTHERWISE = "the control is configured otherwise than the file, so that it would mean something else there"
+
+
+def test_degrees_are_never_keyed_in_where_the_control_takes_millimetres(present, changed) -> None:
+    """The type of an axis cannot be patched: on a linear axis 16 degrees would be 16 mm."""
+    wanted = changed({"4750": "16", "1750": "16 mm"})
+    control = present.copy()
+    control.set(("axis.type", "4"), Value("linear"))
+    sheet = make_sheet(wanted, control)
+    assert [entry.number for entry in sheet.entries] == ["1750"]
+    assert OTHERWISE in {left.why for left in sheet.left_out if left.number == "4750"}
+
+
+def test_a_number_that_is_another_parameter_in_the_control_is_not_keyed_in(present, changed) -> None:
+    """1013 is the gear on the motor of an axis and the teeth on the motor of a spindle (page 7-82)."""
+    wanted, control = present.copy(), present.copy()
+    wanted.set(("servo.spindle_motor_teeth", "7"), Value(33))
+    for name in ("servo.spindle_motor_teeth", "servo.spindle_shaft_teeth"):
+        control.set((name, "7"), None)
+    control.set(("axis.type", "7"), Value("linear"))
+    sheet = make_sheet(wanted, control)
+    assert "7013" not in {entry.number for entry in sheet.entries}
+    assert OTHERWISE in {left.why for left in sheet.left_out if left.number == "7013"}

@@ -108,7 +108,8 @@ class UploadTransfer:
         offsets = range(0, len(image), chunk)
         count = min(len(offsets), max(FEWEST, len(offsets) // ONE_OF))
         chance = random.Random(self._line.random(16))  # noqa: S311  # seeded by what the control cannot know
-        chosen = {offsets[0], offsets[-1], *chance.sample(offsets, count - 2)} if count > 1 else set(offsets)
+        inner = chance.sample(offsets[1:-1], max(0, count - 2))
+        chosen = {*offsets[:1], *inner, *offsets[-1:]}
         self._pieces.update((at, image[at : at + chunk]) for at in offsets if at not in chosen)
         self.sampled = len(chosen), len(offsets)
 
