@@ -240,7 +240,7 @@ def _controls(verbs: Verbs) -> None:
 
 
 def _to_control(sub: argparse.ArgumentParser, kept: str) -> None:
-    """Add where a download goes, what it may replace, and where that is kept."""
+    """Add where a download goes, what it may replace, and where the old content is kept."""
     sub.add_argument("--to", required=True, metavar="ADDRESS")
     sub.add_argument("--expect", metavar="SHA256",
                      help="only where the control contains the image with this digest, as verify and upload print it")  # fmt: skip
