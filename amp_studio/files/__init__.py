@@ -22,7 +22,8 @@ from .parameter_file import (
     without_secrets,
 )
 from .paths import ENDING, backup_path, is_there, real_path, same_file, text_of_name
-from .storage import FORMAT, Opened, ParameterFileError, content_of, open_file, read_content, save_file
+from .reading import FORMAT, Opened, ParameterFileError, open_file, read_content
+from .storage import content_of, save_file
 
 if TYPE_CHECKING:
     from .axes import (

@@ -19,7 +19,8 @@ from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
 from .parameter_file import Change, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
-from .storage import Opened, open_file, read_content, read_stored, save_file
+from .reading import Opened, open_file, read_content, read_stored
+from .storage import save_file
 
 _TYPED = ("name", "application", "revision", "notes")
 """What a person types of the file itself."""

@@ -20,7 +20,7 @@ from .atomic import SaveError, digest_of, write_atomic
 from .document import recover_backup
 from .lock import EditLock
 from .paths import ENDING, backup_path, hidden_path, history_path, is_link, is_there
-from .storage import ParameterFileError, file_content, read_content
+from .reading import ParameterFileError, file_content, read_content
 from .yaml_text import amended, new_text, without_stray_tabs
 
 PROJECT_FORMAT = 1

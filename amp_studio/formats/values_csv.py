@@ -10,8 +10,8 @@ import csv
 import io
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.reading import read_stored
 from amp_studio.files.spreadsheet import cell_text, text_cell
-from amp_studio.files.storage import read_stored
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, is_mask, write_value, written
 from amp_studio.schema.quoting import short
 

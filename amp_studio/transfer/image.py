@@ -14,7 +14,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import Header, ParameterFile
-from amp_studio.files.storage import read_stored
+from amp_studio.files.reading import read_stored
 from amp_studio.schema import (
     MASKED,
     Address,

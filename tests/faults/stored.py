@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
 from amp_studio.files.atomic import SaveError
 from amp_studio.files.lock import EditLock, InUseError
-from amp_studio.files.storage import read_content
+from amp_studio.files.reading import read_content
 from amp_studio.schema import DatabaseError
 from amp_studio.schema.compiled_cache import read_cached, write_cached
 from amp_studio.schema.load import Compiled, compile_family

@@ -40,6 +40,7 @@ READERS = {
     "files/document.py": "damaged journal and history",
     "files/lock.py": "damaged lock notes",
     "files/project.py": "damaged project.yaml",
+    "files/reading.py": "damaged parameter file",
     "files/storage.py": "damaged parameter file",
     "formats/import_export.py": "damaged texts of controls",
     "formats/values_csv.py": "damaged texts of controls",
@@ -50,6 +51,7 @@ READERS = {
     "cli/sheet.py": "damaged lists of a control's screen",
     "sheet/read_back.py": "damaged lists of a control's screen",
     "sheet/ticks.py": "damaged ticks of a sheet",
+    "sim/one_thread.py": "",  # sets a variable that is not there, reads none
     "sim/compiled.py": "",  # one switch of numba, compared with "0"
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
@@ -78,6 +80,7 @@ READERS = {
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
     "ui/control_actions.py": "damaged control image",
     "ui/edit_actions.py": "odd values",
+    "ui/file_tabs.py": "",  # writes to the clipboard
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
     "ui/restore.py": "damaged control image",
     "ui/settings.py": "damaged settings",

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from amp_studio.files import content_of
-from amp_studio.files.storage import read_content
+from amp_studio.files.reading import read_content
 from amp_studio.transfer.image import ImageError, decode_image, encode_image
 
 FIELDS = (

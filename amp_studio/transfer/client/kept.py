@@ -15,7 +15,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
-from amp_studio.files.storage import ParameterFileError, read_content
+from amp_studio.files.reading import ParameterFileError, read_content
 from amp_studio.schema.regular_file import read_file
 from amp_studio.transfer.content import decode_content, kind_of
 from amp_studio.transfer.image import MAGIC, ImageError

@@ -11,7 +11,7 @@ from amp_studio.cli import run
 from amp_studio.families.acromill.formats.acr_command import commands_of
 from amp_studio.families.acromill.formats.acr_script import FORMAT, ORDER
 from amp_studio.files import Header, ParameterFile, content_of, new_file, open_file
-from amp_studio.files.storage import read_content
+from amp_studio.files.reading import read_content
 from amp_studio.formats import FormatError, export_file, import_file
 from amp_studio.schema import Value, load_schema
 from tests.families.servo57c422b.small_module import taken, told

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from amp_studio.families.acromill.formats.acr_command import commands_of
 from amp_studio.families.acromill.formats.acr_script import FORMAT
 from amp_studio.files import Header, ParameterFile, content_of
-from amp_studio.files.storage import read_content
+from amp_studio.files.reading import read_content
 from amp_studio.formats import FormatError, file_of
 from amp_studio.schema import Schema, Value, load_schema, read_address
 from amp_studio.schema.catalog import schema_of

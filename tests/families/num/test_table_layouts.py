@@ -16,7 +16,7 @@ from tests.families.num.small_num import SAMPLE, XOFF, measured, taken
 
 def kept_on_disk(file: ParameterFile, schema: Schema, monkeypatch: pytest.MonkeyPatch) -> ParameterFile:
     """Return a file after it was saved and opened."""
-    monkeypatch.setattr("amp_studio.files.storage.load_schema", lambda family: schema)
+    monkeypatch.setattr("amp_studio.files.reading.load_schema", lambda family: schema)
     return read_content(Path("try.amp"), content_of(file))
 
 

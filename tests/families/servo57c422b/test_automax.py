@@ -10,7 +10,7 @@ from amp_studio.cli import run
 from amp_studio.families.servo57c422b.formats.automax import TABLE, TASK
 from amp_studio.families.servo57c422b.formats.registers import Registers
 from amp_studio.files import Header, ParameterFile, content_of, open_file
-from amp_studio.files.storage import read_content
+from amp_studio.files.reading import read_content
 from amp_studio.formats import FormatError, export_file, import_file
 from amp_studio.schema import Schema, Value
 from tests.families.servo57c422b.small_module import filled, taken, told

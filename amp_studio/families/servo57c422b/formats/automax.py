@@ -26,7 +26,7 @@ from amp_studio.schema import Address, InvalidValueError, Schema, show_value
 from amp_studio.schema.storage import is_low_first
 
 from .basic_text import BasicLine, BasicStatement, read_lines
-from .registers import RegisterContent, Registers, RegisterValues, Written, contents_of, registers_of
+from .registers import NumberInRegisters, Registers, RegisterValues, Written, contents_of, registers_of
 from .word_text import read_word, write_hexadecimal
 
 _SIGNS = "cp437"
@@ -43,7 +43,7 @@ def _in_signs(text: str) -> str:
     return " ".join(text.encode(_SIGNS, "replace").decode(_SIGNS).split())
 
 
-def _number(registers: Registers, of: RegisterContent) -> str:
+def _number(registers: Registers, of: NumberInRegisters) -> str:
     """Write the number of a register: the bits of a word, and what no signed number can express, in hexadecimals."""
     storage = registers.parameter(of.address).storage
     bits = 16 * len(of.words)
@@ -185,7 +185,7 @@ def _write_task(file: ParameterFile) -> str:
     return "\n".join([*lines, ""])
 
 
-def _assignment(registers: Registers, variables: Variables, of: RegisterContent) -> str:
+def _assignment(registers: Registers, variables: Variables, of: NumberInRegisters) -> str:
     """Return the assignment of a register; two of them where a ``!``, whose first register is the upper half, will not do."""
     if is_low_first(registers.parameter(of.address)):
         return " \\ ".join(

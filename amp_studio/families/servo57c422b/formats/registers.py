@@ -41,7 +41,7 @@ class Written:
 
 
 @dataclass(frozen=True)
-class RegisterContent:
+class NumberInRegisters:
     """The number in the registers of a value."""
 
     address: Address
@@ -91,12 +91,12 @@ def registers_of(schema: Schema, machine: str) -> Registers:
 # -- values to registers -------------------------------------------------------------------------------------------
 
 
-def contents_of(file: ParameterFile, registers: Registers) -> list[RegisterContent]:
+def contents_of(file: ParameterFile, registers: Registers) -> list[NumberInRegisters]:
     """Return the content of the registers for a file, by rising number: the values that exist and can be written.
 
     Raises FormatError for a value that does not fit, and where two values share a register.
     """
-    found: list[RegisterContent] = []
+    found: list[NumberInRegisters] = []
     owner: dict[int, Address] = {}
     for address in file.addresses():
         value = file.get(address)
@@ -112,7 +112,7 @@ def contents_of(file: ParameterFile, registers: Registers) -> list[RegisterConte
             number, words = register_number(parameter, value, unit), words_of(parameter, value, unit)
         except StorageError as error:
             raise FormatError(f"register {registers.first[address]}, {written(address)}: {error}") from None
-        found.append(RegisterContent(address, registers.first[address], number, words))
+        found.append(NumberInRegisters(address, registers.first[address], number, words))
     return sorted(found, key=lambda content: content.register)
 
 
