@@ -38,7 +38,7 @@ from .upload_transfer import UploadTransfer
 
 Result = TypeVar("Result")
 
-RESTART_PAUSE = 0.05  # seconds between two calls to a control that restarts
+RESTART_PAUSE = 0.02  # seconds between two calls to a control that restarts
 
 
 __all__ = ["Progress", "Session", "quiet"]
