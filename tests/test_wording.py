@@ -77,6 +77,8 @@ DOCUMENTS = (
     "docs/rules.md",
     "docs/schema.md",
     "docs/simulation.md",
+    "docs/sheet.md",
+    "docs/protocols/registers.md",
     "docs/protocols/image.md",
     "docs/protocols/exchange.md",
     "docs/protocols/num-table.md",
