@@ -21,7 +21,7 @@ from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
-from amp_studio.transfer.links.security import Security, exposure, read_password
+from amp_studio.transfer.links.security import Security, can_others_read, exposure, read_password
 
 from .by_hand import note_by_hand, sheet_offered
 from .console import assignments, family, note, print_json, progress
@@ -49,6 +49,8 @@ def _secured(options: argparse.Namespace) -> Endpoint:
     if (options.key is not None) > (options.certificate is not None):
         raise UsageError("--key belongs to a --certificate")
     password = read_password(options.password_file) if options.password_file is not None else ""
+    if options.password_file is not None and can_others_read(options.password_file):
+        note(f"warning: {options.password_file} can be read by other users of this computer")
     warning = (
         exposure(place.host, has_tls=place.kind == "tls", has_password=bool(password)) if place.host else ""
     )

@@ -136,7 +136,7 @@ def _serial(text: str, rest: str) -> Endpoint:
 def _options(text: str, what: str, known: tuple[str, ...]) -> dict[str, Any]:
     """Read the options behind the question mark; raises ValueError."""
     options: dict[str, Any] = {}
-    for key, value in parse_qsl(text.partition("?")[2], keep_blank_values=True):
+    for key, value in parse_qsl(text.partition("?")[2].replace("+", "%2B"), keep_blank_values=True):
         if key not in known:
             *most, last = map(repr, known)
             names = f"{', '.join(most)} and {last}" if most else last

@@ -22,6 +22,7 @@ LATER = re.compile(rb"LATER ([0-9]{1,3})\n")
 WRONG = b"WRONG\n"
 LONGEST = 256  # bytes of a line; the longest has 137
 
+BEGINNING = 0.5  # seconds after which what only begins like a challenge is none
 MOST_KEPT = 65_536  # bytes that are written before anything has come from the other end
 ROUNDS = 200_000  # of PBKDF2: a tenth of a second for each guess of who has recorded a proof
 NO_TLS = bytes(32)
@@ -78,6 +79,7 @@ class GuardedLink:
         self._reopen = reopen
         self._written = self._read = b""
         self._is_settled = False
+        self._begun_at = 0.0
 
     @property
     def bytes_per_second(self) -> float | None:
@@ -89,14 +91,16 @@ class GuardedLink:
         end = time.monotonic() + timeout
         while not self._is_settled:
             data = self._link.read(max(0.0, end - time.monotonic()))
-            if not data:
-                return b""
+            if not self._read:
+                self._begun_at = time.monotonic()
             self._read += data
+            if not data and not (self._read and time.monotonic() - self._begun_at > BEGINNING):
+                return b""
             if self._read.startswith(GREETING):
                 self._link.close()
                 self._link, self._is_settled = self._reopen(), True
                 self._link.write(self._written)
-            elif not GREETING.startswith(self._read):
+            elif not data or not GREETING.startswith(self._read):
                 self._is_settled = True
                 return self._read
         return self._link.read(max(0.0, end - time.monotonic()))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ssl
 import time
+from collections import Counter
 from collections.abc import Callable, Generator
 from functools import partial
 
@@ -13,7 +14,7 @@ from .password import LONGEST, NO_TLS, Gate
 from .tcp import TcpLink, TcpListener
 from .tls import TlsLink, is_ready, tls_message
 
-WAITING = 16  # callers at once that are not let in yet; beyond them the first is cut
+WAITING = 16  # callers at once that are not let in yet; beyond them one of the host that has most
 TIME_TO_ENTER = 10.0  # seconds
 SLICE = 0.02  # seconds between two looks at those who wait
 
@@ -46,7 +47,9 @@ class SecuredListener:
         while True:
             left = max(0.0, end - self._clock())
             caller = self._listener.accept(min(left, SLICE) if self._entering else left)
-            while caller is not None:
+            for _ in range(WAITING):
+                if caller is None:
+                    break
                 self._begin(caller)
                 caller = self._listener.accept(0)
             link = self._let_in()
@@ -66,8 +69,13 @@ class SecuredListener:
 
     def _begin(self, caller: TcpLink) -> None:
         if len(self._entering) >= WAITING:
-            self._send_away(self._entering[0])
+            self._send_away(self._most_numerous())
         self._entering.append((caller, self._clock() + TIME_TO_ENTER, self._enter(caller)))
+
+    def _most_numerous(self) -> Entering:
+        """Return the first of those who wait from the host that has most of them: a crowd displaces only its own."""
+        hosts = Counter(caller.peer.host for caller, _, _ in self._entering)
+        return max(self._entering, key=lambda entry: hosts[entry[0].peer.host])
 
     def _let_in(self) -> Link | None:
         """Take each of those who wait a step further; return the first who is through."""

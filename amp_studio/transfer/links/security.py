@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import ipaddress
+import os
 import socket
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,6 +43,11 @@ def read_password(path: Path) -> str:
             f"{path}: the first line must be a password of {SHORTEST_PASSWORD} characters or more"
         )
     return password
+
+
+def can_others_read(path: Path) -> bool:
+    """Whether other users of this computer may read a file; where the system cannot tell, False."""
+    return os.name == "posix" and bool(path.stat().st_mode & 0o077)
 
 
 def server_context(security: Security) -> ssl.SSLContext | None:

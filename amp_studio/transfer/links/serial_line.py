@@ -21,6 +21,8 @@ SLICE = (
 )
 WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
 HELD_LIMIT = 60.0  # seconds the other end may hold the line by flow control
+MOMENT = 0.02  # seconds between two looks at what has not left yet
+STANDSTILL = 0.2  # seconds in which a line that is not held moves at least a byte
 LOOK = 0.1  # seconds between two looks while the line takes nothing
 PIECE = 256  # bytes for which a port that reports room has some
 PSEUDO_TERMINALS = range(136, 144)  # their device numbers on Linux
@@ -69,10 +71,38 @@ class SerialLink:
                 raise self._lost(error) from None
             self._look()
 
+    def drain(self) -> None:
+        """Wait until everything that was written has left; raises LinkError where the other end takes nothing."""
+        waiting, end = -1, 0.0
+        while (left := self._leaving()) > 0:
+            self._look()
+            if left != waiting:
+                waiting, end = left, time.monotonic() + self._held_limit
+            if time.monotonic() >= end:
+                raise LinkError(self._endpoint, f"the other end has taken nothing for {self._held_limit:g} s")
+            time.sleep(MOMENT)
+
     def close(self) -> None:
+        """Give the line up; what the other end holds back by flow control is lost, or the system would wait for it."""
+        with contextlib.suppress(OSError, TypeError, AttributeError):
+            waiting, end = -1, 0.0
+            while self.is_open and self._held_limit == HELD_LIMIT and (left := self._port.out_waiting) > 0:
+                if left != waiting:
+                    waiting, end = left, time.monotonic() + STANDSTILL
+                if time.monotonic() >= end:
+                    self._port.reset_output_buffer()
+                    break
+                time.sleep(MOMENT)
         self.is_open = False
         with contextlib.suppress(OSError, TypeError, AttributeError):
             self._port.close()
+
+    def _leaving(self) -> int:
+        """Return how many bytes have been written and not left yet; 0 where that is not known."""
+        try:
+            return int(getattr(self._port, "out_waiting", 0))
+        except (OSError, TypeError) as error:
+            raise self._lost(error) from None
 
     def _await_room(self) -> None:
         """Wait until the port takes a piece; pyserial's own waiting cannot be broken off."""

@@ -11,6 +11,7 @@ from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import Link, LinkError
 from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.links.serial_line import SerialLink
 from amp_studio.transfer.progress import Progress, quiet
 
 from .line import ByteLine, Patience, PlainFileError
@@ -55,6 +56,7 @@ def send_files(
             if protocol == "raw":
                 began = True
                 punch(line, files[0].content, tape or Tape(), link.bytes_per_second)
+                _drain(link)
             elif protocol == "ymodem":
                 send_batch(sender, files)
             else:
@@ -92,6 +94,15 @@ def receive_files(
         content = receiver.receive(None)
         receiver.finish()
         return [without_padding("", content)]
+
+
+def _drain(link: Link) -> None:
+    """Wait for the other end of a serial line that holds the last bytes back; raises PlainFileError."""
+    if isinstance(link, SerialLink):
+        try:
+            link.drain()
+        except LinkError as error:
+            raise PlainFileError(f"not everything has left ({error})") from None
 
 
 @contextlib.contextmanager

@@ -42,6 +42,7 @@ from amp_studio.transfer.links.serial_settings import SerialSettings
             "tls://cnc:7091?fingerprint=sha256:" + "AB:" * 31 + "CD",
             Endpoint("tls", host="cnc", port=7091, fingerprint="ab" * 31 + "cd"),
         ),
+        ("tls://cnc:1?ca=/etc/a+b%26c.pem", Endpoint("tls", host="cnc", port=1, ca="/etc/a+b&c.pem")),
         (" pty: ", Endpoint("pty")),
         ("pty:?protocol=num", Endpoint("pty", protocol="num")),
         ("tcp://cnc:7090?protocol=house", Endpoint("tcp", host="cnc", port=7090, protocol="house")),

@@ -18,7 +18,16 @@ from amp_studio.transfer.links import passwords
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import Link, LinkError
 from amp_studio.transfer.links.opening import connect, listen
-from amp_studio.transfer.links.password import GREETING, NO_TLS, Gate, PasswordError, key_of, proof_of
+from amp_studio.transfer.links.password import (
+    GREETING,
+    NO_TLS,
+    Gate,
+    GuardedLink,
+    PasswordError,
+    key_of,
+    proof_of,
+)
+from amp_studio.transfer.links.secured import SecuredListener
 from amp_studio.transfer.links.security import Security, exposure, read_password
 
 HERE = Path(__file__).with_name("certificates")
@@ -321,6 +330,35 @@ def test_a_handshake_that_is_never_ended_is_ended_by_the_control(monkeypatch: py
         assert listener.accept(0.3) is None
         assert client.recv(1) == b""
     listener.close()
+
+
+def test_a_crowd_displaces_only_its_own() -> None:
+    callers = [
+        SimpleNamespace(peer=Endpoint("tcp", host=host)) for host in ("person", "crowd", "crowd", "crowd")
+    ]
+    listener = SecuredListener(SimpleNamespace(endpoint=Endpoint("tcp")), None, None)  # type: ignore[arg-type]
+    listener._entering = [(caller, 0.0, iter(())) for caller in callers]  # type: ignore[misc]
+    assert listener._most_numerous()[0] is callers[1]
+
+
+def test_a_control_whose_first_words_begin_like_a_challenge_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Card:
+        bytes_per_second = None
+        words = b"AMP"
+
+        def read(self, timeout: float) -> bytes:
+            data, self.words = self.words, b""
+            return data
+
+        def write(self, data: bytes) -> None: ...
+
+        def close(self) -> None: ...
+
+    link = GuardedLink(Card(), Card)
+    assert link.read(0) == b"", "it may go on"
+    monkeypatch.setattr("amp_studio.transfer.links.password.BEGINNING", -1.0)
+    assert link.read(0) == b"AMP"
+    assert link.read(0) == b""
 
 
 # -- what a person does -----------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ import pytest
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.links.serial_line import SerialLink, open_port
+from amp_studio.transfer.links.serial_line import HELD_LIMIT, SerialLink, open_port
 
 from .ports import read_all, socat_pair
 
@@ -148,3 +148,47 @@ def test_a_look_that_breaks_off_is_not_taken_for_a_fault_of_the_port(port: tuple
 def test_the_rate_of_a_line_counts_every_bit_of_a_byte() -> None:
     link = SerialLink(Endpoint("serial", device="COM3", baud=9600, bits=7, parity="even", stop=2), None)
     assert link.bytes_per_second == pytest.approx(872.7, abs=0.1)
+
+
+def test_closing_a_held_line_does_not_wait_for_it_and_a_free_one_keeps_what_was_written(
+    port: tuple[int, str],
+) -> None:
+    free = connect(parse_endpoint(f"{port[1]}?flow=xonxoff"))
+    free.write(b"last words")
+    free.close()
+    assert os.read(port[0], 100) == b"last words"
+    held = connect(parse_endpoint(f"{port[1]}?flow=xonxoff"))
+    os.write(port[0], XOFF)
+    start = time.monotonic()
+    held.close()
+    assert time.monotonic() - start < 1
+
+
+def test_what_a_port_has_not_sent_yet_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    waiting, flushed = [30, 20, 10, 0], list[bool]()
+
+    class Slow:
+        @property
+        def out_waiting(self) -> int:
+            return waiting.pop(0) if len(waiting) > 1 else waiting[0]
+
+        def reset_output_buffer(self) -> None:
+            flushed.append(True)
+
+        def close(self) -> None: ...
+
+    link = SerialLink(parse_endpoint("COM3?flow=rtscts"), Slow())
+    link.drain()
+    assert waiting == [0]
+    waiting[:] = [5]
+    monkeypatch.setattr(link, "_held_limit", 0.1)
+    with pytest.raises(LinkError, match=r"has taken nothing for 0\.1 s"):
+        link.drain()
+    waiting[:] = [9, 9, 9, 5, 5, 0]
+    monkeypatch.setattr(link, "_held_limit", HELD_LIMIT)
+    link.close()
+    assert (waiting, flushed) == ([0], [])
+    held = SerialLink(parse_endpoint("COM3?flow=rtscts"), Slow())
+    waiting[:] = [7]
+    held.close()
+    assert flushed == [True], "the system would wait for half a minute"
