@@ -108,7 +108,7 @@ def wanted(
             if bit is not None:
                 value: Value | None = _with_bit(trial, address, bit, text)
             else:
-                value = None if text == NOT_SET else trial.read(address, text)
+                value = None if _clears(text) else trial.read(address, text)
                 if address in found and found[address] != value:
                     raise ValueError("it is given two values")
             found[address] = value
@@ -126,6 +126,11 @@ def wanted(
         slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
         raise UsageError("; ".join(slips))
     return found
+
+
+def _clears(text: str) -> bool:
+    """Return whether a text is ``NOT_SET``, also as ``get`` prints it: not set."""
+    return "-".join(text.casefold().split()) == NOT_SET
 
 
 def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Value:

@@ -166,6 +166,8 @@ def test_a_value_is_set_and_the_previous_file_becomes_the_backup(amp, mill: Path
         ("1013=0x10", ("servo.velocity_gear_teeth", "1"), Value(16)),
         ("4013=7", ("servo.spindle_motor_teeth", "4"), Value(7)),
         ("1300=not-set", ("home.calibration", "1"), None),
+        ("1300=not set", ("home.calibration", "1"), None),
+        ("1300=Not-Set", ("home.calibration", "1"), None),
     ],
 )
 def test_a_value_may_be_given_in_every_clear_form(
