@@ -10,7 +10,7 @@ from .parameter_file import Header, ParameterFile
 
 
 def by_schema(file: ParameterFile, schema: Schema) -> ParameterFile:
-    """Return a file as another schema of its family has it, itself where that is its own.
+    """Return a file as another schema of its family has it; itself if it has that schema already.
 
     What that schema does not have, or has with another type, becomes an entry that it does not know.
     """

@@ -23,7 +23,18 @@ from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
-from . import grbl_lines, own_contents, own_protocols, persons, racks, sheets, stored, texts, wire
+from . import (
+    descriptions,
+    grbl_lines,
+    own_contents,
+    own_protocols,
+    persons,
+    racks,
+    sheets,
+    stored,
+    texts,
+    wire,
+)
 from .command_lines import fuzz_command_lines
 from .lines import download_over_bad_lines
 from .verbs import VERBS, fail_calls
@@ -133,6 +144,13 @@ CAMPAIGNS = (
     Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 5, 50),
     Campaign("damaged YAML", partial(_damaged, texts.fuzz_yaml), MANY, 100, 5_000),
     Campaign("damaged parameter file", partial(_damaged, texts.fuzz_parameter_files), MANY, 30, 2_000),
+    Campaign(
+        "damaged descriptions of a control",
+        partial(_damaged, descriptions.fuzz_descriptions),
+        MANY,
+        20,
+        2_000,
+    ),
     Campaign("damaged project.yaml", partial(_damaged_in, texts.fuzz_projects), MANY, 30, 2_000),
     Campaign("damaged rules.yaml", partial(_damaged_in, texts.fuzz_rules), MANY, 30, 5_000),
     Campaign("damaged journal and history", partial(_damaged_in, texts.fuzz_journals), MANY, 30, 2_000),

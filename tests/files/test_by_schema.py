@@ -43,8 +43,8 @@ def test_a_choice_is_the_same_by_its_code_and_another_type_is_none() -> None:
     found = by_schema(file, schema_of(with_lines(text, without="[SETTING:32|")))
     assert found.get(("general.mode", "")) == Value("laser")
     old = by_schema(file, schema_of(with_lines("[SETTING:20|3|Soft||5||||0|0]", without="[SETTING:20|")))
-    assert ("limits.soft", "") not in old.values
-    assert old.unknown["limits.soft"] == "No"
+    assert old.get(("limits.soft", "")) == Value(False), "hidden there, and never sent"
+    assert old.evaluation.state(("limits.soft", "")).state == "hidden"
 
 
 def test_diff_lists_what_only_one_control_has(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

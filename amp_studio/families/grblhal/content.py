@@ -26,6 +26,7 @@ IDENTITY = (
     "DRIVER OPTIONS",
     "BOARD",
     "PLUGIN",
+    "MAX STEP RATE",
 )
 """What of ``$I`` is kept: OPT and NEWOPT change with settings, others (free memory, addresses, the time) by themselves."""
 

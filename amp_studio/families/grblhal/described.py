@@ -18,6 +18,7 @@ from amp_studio.schema.load import Compiled
 from amp_studio.schema.model import (
     Bit,
     Choice,
+    Condition,
     Default,
     Effect,
     Family,
@@ -25,6 +26,7 @@ from amp_studio.schema.model import (
     Help,
     Layout,
     Numbers,
+    StateRule,
     Storage,
     Table,
 )  # fmt: skip
@@ -51,6 +53,8 @@ KEPT_STATES = ("per_axis_rates",)
 """Conditions by which a setting comes and goes with another one: it is known though the control does not list it now."""
 AXES_RULE = "grblhal.build.axes"
 """Which letters a build can have; those of a control are in its description."""
+ABSENT = "not_here"
+"""The condition by which a known setting is hidden that the control does not list."""
 _AXIS_GROUP = "Axis"
 _UNITS = {"microseconds": "us", "milliseconds": "ms", "step/mm": "steps/mm", "step/deg": "steps/mm"}
 _LINEAR = {"deg": "mm", "deg/min": "mm/min", "deg/s2": "mm/s2", "deg/s3": "mm/s3", "steps/deg": "steps/mm"}
@@ -122,7 +126,8 @@ class _Maker:
         letters = "[" + ", ".join(f"'{a}'" for a in self.axes[3:]) + "]"
         when = f"instance in {letters} && bit(rotary, {rotary}[instance])" if self.axes[3:] else "false"
         conditions = known.conditions | {
-            "rotary_axis": known.conditions["rotary_axis"].model_copy(update={"when": when})
+            ABSENT: Condition(when="true", why="this control does not have the setting"),
+            "rotary_axis": known.conditions["rotary_axis"].model_copy(update={"when": when}),
         }
         who = ", ".join(filter(None, (facts.get("VER", "").strip(":"), facts.get("BOARD"), facts.get("DRIVER"),
                                       facts.get("DRIVER VERSION"))))  # fmt: skip
@@ -186,7 +191,10 @@ class _Maker:
         )
         name = first.name.partition("-axis ")[2] if axis else first.name
         name = name[:1].upper() + name[1:]
-        parameter_id = self._id(known.id if known else f"{group}.{_key(name) or 'setting'}", first.number)
+        wanted = known.id if known else f"{group}.{_key(name) or 'setting'}"
+        is_taken = wanted in self.ids or (known is None and wanted in self.known.parameters)
+        parameter_id = f"{wanted}_{first.number}" if is_taken else wanted
+        self.ids.add(parameter_id)
         facts: dict[str, Any] = _value_facts(first, kind, self.axes)
         if kind == "integer" and known and known.storage:
             facts["storage"] = facts["storage"].model_copy(update={"bits": known.storage.bits})
@@ -203,11 +211,6 @@ class _Maker:
         listed = {self._axis(s): str(s.number) for s in settings}
         return Layout(scope="axis", instances=tuple(listed), numbers=Numbers(listed=listed, format="${n}"))
 
-    def _id(self, wanted: str, number: int) -> str:
-        found = wanted if wanted not in self.ids else f"{wanted}_{number}"
-        self.ids.add(found)
-        return found
-
     def _help(self, setting: Setting, known: Parameter | None) -> Help:
         told = self.told.helps.get(setting.number, "")
         unit = f"In {setting.unit}." if setting.unit and not _unit_of(setting) else ""
@@ -222,12 +225,23 @@ class _Maker:
     # -- what the control does not list ------------------------------------------
 
     def _absent(self, parameter: Parameter) -> Parameter:
-        """Return a known setting that the control does not list: nowhere, but where a listed one brings it along."""
+        """Return a known setting that the control does not list: hidden and without a number, so that rules find nothing.
+
+        What a listed one brings along keeps its number, and its state.
+        """
         self.ids.add(parameter.id)
-        comes = any((s.when or s.unless) in KEPT_STATES for s in parameter.states)
         layout = self.known.on(self.known.family.default_machine).layout(parameter)
-        if not comes or "homing.cycle" not in self.ids or layout is None or layout.numbers is None:
+        if layout is None:
             return parameter.model_copy(update={"layouts": (), "default": None, "page": PAGE})
+        comes = "homing.cycle" in self.ids and any(
+            (s.when or s.unless) in KEPT_STATES for s in parameter.states
+        )
+        if not comes or layout.numbers is None:
+            state = StateRule(state="hidden", when=ABSENT, page=PAGE)
+            bare = layout.model_copy(update={"instances": None, "numbers": None})
+            return parameter.model_copy(
+                update={"layouts": (bare,), "states": (state,), "default": None, "page": PAGE}
+            )
         numbers = layout.numbers
         if layout.scope == "axis":
             listed = {a: str((numbers.start or 0) + n) for n, a in enumerate(self.axes)}

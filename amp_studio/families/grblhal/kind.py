@@ -18,7 +18,7 @@ from .description import Setting, description_of, read_description
 from .fitting import fit_to
 from .numbers import decimals_of, is_shown_as, read_number, shown_number, written_number
 from .offsets import PUT_BACK, offset_differences
-from .settings import settings_of_file, values_of_settings
+from .settings import compiled_in, settings_of_file, values_of_settings
 
 FAMILY, CLASSIC = "grblhal", "grbl-1.1"
 HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE = 22, 20, 40, 676, 24, 25
@@ -47,7 +47,7 @@ class GrblContentKind:
             values, others = values_of_settings(schema, read.settings, machine)
         except (InvalidValueError, DescriptionError) as error:
             raise ImageError(str(error)) from None
-        file.take({**values, ("build.axes", ""): Value("".join(read.axes))})
+        file.take({**compiled_in(schema), **values, ("build.axes", ""): Value("".join(read.axes))})
         file.unknown.update({f"${number}": text for number, text in others.items()})
         return file
 

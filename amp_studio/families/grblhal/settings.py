@@ -17,6 +17,8 @@ from amp_studio.schema.quoting import quoted
 from amp_studio.schema.storage import from_stored, stored_unit, to_figure
 from amp_studio.schema.values import checked, exact_number
 
+BUILD = "build"
+"""The group of what is compiled in."""
 _LONGEST = 80
 """Signs of a number; the control shows at most some 20."""
 
@@ -92,6 +94,15 @@ def values_of_settings(
             raise SettingError(number, str(error)) from None
         file.set(address, value)
     return dict(file.values), {n: text for n, text in settings.items() if n not in known}
+
+
+def compiled_in(schema: Schema) -> dict[Address, Value]:
+    """Return what a control describes of its build, which is no setting: its axes, the step rate of its driver."""
+    here = schema.on(schema.family.default_machine)
+    defaults = {(p.id, ""): p.default for g in schema.groups if g.key == BUILD for p in g.parameters}
+    return {
+        a: Value(d.value, d.unit) for a, d in defaults.items() if d is not None and number_at(here, a) is None
+    }
 
 
 def settings_of_file(file: ParameterFile, *, padded: bool = False) -> dict[int, str]:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.description import MOST_BYTES
+from amp_studio.families.grblhal.settings import compiled_in
 from amp_studio.files import Header, ParameterFile, ParameterFileError, open_file, save_file
 from amp_studio.schema import Schema, Value, fault, load_schema
 from amp_studio.schema.described import DescriptionError
@@ -286,3 +287,32 @@ def test_the_defaults_of_the_database_are_those_of_a_fresh_build() -> None:
         codes = {c.key: c.raw for c in known.parameters[address[0]].choices or ()}
         value = codes.get(str(default.value), default.value)
         assert float(value) == float(text), number  # type: ignore[arg-type]
+
+
+def test_the_step_rate_of_the_driver_bounds_the_rates_where_the_control_lists_it() -> None:
+    file = file_by(with_lines("[MAX STEP RATE:4000 Hz]"))
+    assert compiled_in(file.schema) == {
+        ("build.axes", ""): Value("XYZ"),
+        ("build.max_step_rate", ""): Value(4000.0, "Hz"),
+    }
+    assert compiled_in(schema_of(THREE_AXES)) == {("build.axes", ""): Value("XYZ")}
+    file.take({**compiled_in(file.schema), ("axis.steps", "X"): Value(80.0, "steps/mm")})
+    file.set(("axis.max_rate", "X"), Value(3001.0, "mm/min"))
+    assert "grblhal.axis.rate-above-driver" in [f.rule for f in Validator(file).run()]
+    file.set(("axis.max_rate", "X"), Value(3000.0, "mm/min"))
+    assert "grblhal.axis.rate-above-driver" not in [f.rule for f in Validator(file).run()]
+
+
+def test_rules_run_without_the_settings_that_a_build_does_not_have() -> None:
+    """The phases 4 to 6 are those of builds with more axes."""
+    file = file_by(THREE_AXES)
+    file.take({**compiled_in(file.schema), ("homing.cycle", ""): Value(1)})
+    file.take({(f"homing.phase_{n}", ""): Value(0) for n in (1, 2, 3)})
+    assert "grblhal.homing.no-phase" in [f.rule for f in Validator(file).run()]
+
+
+def test_a_setting_that_is_called_like_a_known_one_is_not_taken_for_it() -> None:
+    schema = schema_of(with_lines("[SETTING:990|3|Soft||5||||0|0]", without="[SETTING:20|"))
+    assert numbers(schema, "limits.soft_990") == {"": "$990"}
+    assert numbers(schema, "limits.soft") == {}
+    assert schema.parameters["limits.soft"].type == "boolean"
