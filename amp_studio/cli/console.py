@@ -38,42 +38,45 @@ def family(name: str) -> Schema:
         raise UsageError(str(error)) from None
 
 
-def progress() -> Callable[[str, int, int], None]:
+def progress(of: str = "") -> Callable[[str, int, int], None]:
     """Return a progress callback: one line on standard error that counts the per cent.
 
-    A terminal sees it change; elsewhere the end of each stage is a line, and what is waited for.
+    A terminal sees it change; elsewhere, and where it is that ``of`` one control among several, the end of each stage is a
+    line, and what is waited for.
     """
     last: dict[str, int] = {}
+    changes = sys.stderr.isatty() and not of
+    before = f"{of}: " if of else ""
 
     def show(stage: str, done: int, total: int) -> None:
         if stage == "silent":
             silence(done)
             return
         if total < 0:  # what the person is to do at the control, as a sentence
-            print_notice(stage)
+            print_notice(before + stage)
             return
         if stage == "cut":
-            print_notice("the line is cut, trying again …")
+            print_notice(f"{before}the line is cut, trying again …")
             last["silent"] = 0
             return
         percent = 100 if total == 0 else done * 100 // total
         if last.get(stage) == percent:
             return
-        if sys.stderr.isatty():
+        if changes:
             print_over(f"{WAITING.get(stage, stage)} {percent:3d} %", last=percent == 100)
         elif percent == 100:
-            print_notice(f"{stage} 100 %")
+            print_notice(f"{before}{stage} 100 %")
         elif stage in WAITING and stage not in last:
-            print_notice(WAITING[stage])
+            print_notice(before + WAITING[stage])
         last[stage] = percent
 
     def silence(seconds: int) -> None:
         text = f"no answer for {seconds} s, trying again …" if seconds else "the control answers again"
-        if sys.stderr.isatty():
+        if changes:
             print_over(text, last=not seconds)
             last.clear()
         elif not seconds or "silent" not in last:
-            print_notice(text)
+            print_notice(before + text)
         last["silent"] = seconds
         if not seconds:
             del last["silent"]

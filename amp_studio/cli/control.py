@@ -27,6 +27,7 @@ from .by_hand import note_by_hand, sheet_offered
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
 from .files import difference_json, print_comparison, print_difference
+from .fleet import check_fleet, download_to_several, is_fleet, note_exchange, upload_several, verify_several
 from .out_of_range import settle_values
 from .output import check_new, write_new
 from .program import AT_CONTROL, CHANGED, FAULT
@@ -66,9 +67,13 @@ def download_verb(options: argparse.Namespace) -> int:
     if errors and not options.accept_errors:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
     name = file.schema.family.family
+    check_fleet(options, options.to)
     with asked_politely() as stop, sheet_offered(name):
         keep = options.keep or path.parent
-        outcome = download_file(file, options.to, keep, path.stem, progress(), stop, expected=options.expect)
+        if is_fleet(options, options.to):
+            return download_to_several(options, file, path, keep, stop)
+        outcome = download_file(file, options.to[0], keep, path.stem, progress(), stop, expected=options.expect,
+                                record=path, notify=note)  # fmt: skip
         note_by_hand(name)
         return _print_outcome(outcome)
 
@@ -91,7 +96,17 @@ def restore_verb(options: argparse.Namespace) -> int:
     with asked_politely() as stop:
         keep = options.keep or path.parent
         return _print_outcome(
-            restore_copy(copy, options.to, keep, path.stem, progress(), stop, expected=options.expect)
+            restore_copy(
+                copy,
+                options.to,
+                keep,
+                path.stem,
+                progress(),
+                stop,
+                expected=options.expect,
+                record=path,
+                notify=note,
+            )
         )
 
 
@@ -124,21 +139,32 @@ def _print_outcome(outcome: Outcome) -> int:
 
 def upload_verb(options: argparse.Namespace) -> int:
     """Fetch what a control contains under a new name: its file, or byte for byte as an image."""
-    output = options.output
+    output, source = options.output, options.source[0]
+    check_fleet(options, options.source)
+    if is_fleet(options, options.source):
+        with asked_politely() as stop:
+            return upload_several(options, stop)
     check_new(output, "an upload")
-    image = fetch_image(options.source, progress())
+    image = fetch_image(source, progress())
     if not image:
         raise UsageError("the control is empty: there is nothing to upload")
+    values: int | None = None
     if output.suffix == IMAGE:
         save_image(image, output)
-        print(f"{output}: {len(image)} bytes, digest in {digest_path(output).name}")
+        text = f"{output}: {len(image)} bytes, digest in {digest_path(output).name}"
     else:
         file = _readable(image, output)
         note_by_hand(file.schema.family.family)
         settle_values(file, options.on_fault, "an upload")
         write_new(file, output)
-        print(f"{output}: {counted(len(file.values), 'value')}")
-    print(f"sha256 {sha256(image)}")
+        values = len(file.values)
+        text = f"{output}: {counted(values, 'value')}"
+        note_exchange("upload", output, file, source, image, "uploaded")
+    if options.json:
+        print_json({"path": str(output), "values": values, "sha256": sha256(image)})
+    else:
+        print(text)
+        print(f"sha256 {sha256(image)}")
     return 0
 
 
@@ -154,9 +180,15 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
 def verify_verb(options: argparse.Namespace) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
     file = open_file(options.path).file
+    check_fleet(options, options.control)
+    if is_fleet(options, options.control):
+        with asked_politely() as stop:
+            return verify_several(options, file, stop)
+    control = options.control[0]
     with sheet_offered(file.schema.family.family):
-        fetched = fetch_image(options.control, progress(), family=file.schema.family.family)
+        fetched = fetch_image(control, progress(), family=file.schema.family.family)
     found = verify_content(file, fetched)
+    note_exchange("verify", options.path, file, control, fetched, found.summary())
     if options.json:
         print_json({
             "differences": [difference_json(file, d, options.secrets) for d in found.values.differences], "same": found.values.same,

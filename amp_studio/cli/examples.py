@@ -45,12 +45,16 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "emulate": ("amp-studio emulate 9pc --listen tcp://127.0.0.1:8193 --state control",),
     "ports": ("amp-studio ports",),
     "identify": ("amp-studio identify tcp://127.0.0.1:8193",),
-    "download": (f"amp-studio download {MILL} --to tcp://127.0.0.1:8193",),
+    "download": (
+        f"amp-studio download {MILL} --to tcp://127.0.0.1:8193",
+        f"amp-studio download {MILL} --to tcp://127.0.0.1:8193 --to tcp://localhost:8193 --stop-on-failure",
+    ),
     "verify": (f"amp-studio verify {MILL} --with tcp://127.0.0.1:8193",),
     "upload": (
         "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.amp",
         "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.img",
     ),
+    "history": (f"amp-studio history {MILL}",),
     "restore": ("amp-studio restore uploaded.img --to tcp://127.0.0.1:8193",),
     "send": (f"amp-studio send {MILL} --to tcp://127.0.0.1:8194 --protocol xmodem-1k",),
     "receive": ("amp-studio receive --from tcp://127.0.0.1:8195 -o received.txt --protocol ymodem",),

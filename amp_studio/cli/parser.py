@@ -239,9 +239,21 @@ def _controls(verbs: Verbs) -> None:
     json_option(sub)
 
 
+def _several(sub: argparse.ArgumentParser, name: str, dest: str) -> None:
+    """Add the addresses of one control or several, and what is for several only."""
+    sub.add_argument(name, dest=dest, required=True, action="append", metavar="ADDRESS",
+                     help="address of a control; named again for several, side by side")  # fmt: skip
+    sub.add_argument("--stop-on-failure", action="store_true",
+                     help="several controls one after the other; none is begun after the first failure")  # fmt: skip
+    sub.add_argument(
+        "--report", type=path_of, metavar="FILE", help="write the table of results, as .csv or .html"
+    )
+
+
 def _to_control(sub: argparse.ArgumentParser, kept: str) -> None:
     """Add where a download goes, what it may replace, and where the old content is kept."""
     sub.add_argument("--to", required=True, metavar="ADDRESS")
+    """Add what a download may replace, and where that is kept."""
     sub.add_argument("--expect", metavar="SHA256",
                      help="only where the control contains the image with this digest, as verify and upload print it")  # fmt: skip
     sub.add_argument(
@@ -253,7 +265,9 @@ def _exchanges(verbs: Verbs) -> None:
     """Add the verbs that exchange parameters with a control."""
     sub = verbs.add("download", "control", "send a file to a control, read it back and compare")
     sub.add_argument("path", type=path_of)
+    _several(sub, "--to", "to")
     _to_control(sub, "beside the file")
+    json_option(sub)
     sub.add_argument(
         "--accept-errors",
         action="store_true",
@@ -270,6 +284,7 @@ def _exchanges(verbs: Verbs) -> None:
         metavar="COPY",
         help="NAME.before-STAMP.img, which is compared with the digest beside it, or the .amp of that name",
     )
+    sub.add_argument("--to", required=True, metavar="ADDRESS")
     _to_control(sub, "beside the copy")
     sub = verbs.add(
         "upload",
@@ -277,17 +292,26 @@ def _exchanges(verbs: Verbs) -> None:
         "fetch under a new name what a control contains, and print its digest",
         writes="output",
     )
-    sub.add_argument("--from", dest="source", required=True, metavar="ADDRESS")
+    _several(sub, "--from", "source")
     sub.add_argument("-o", "--output", type=path_of, required=True,
-                     help="a parameter file; or NAME.img for the image byte for byte, whatever it is")  # fmt: skip
+                     help="a parameter file; or NAME.img for the image byte for byte, whatever it is; of several controls a folder")  # fmt: skip
     on_fault_option(sub)
+    json_option(sub)
     sub = verbs.add(
         "verify", "control", "compare values and every byte with what a control contains; print its digest"
     )
     sub.add_argument("path", type=path_of)
-    sub.add_argument("--with", dest="control", required=True, metavar="ADDRESS")
+    _several(sub, "--with", "control")
     json_option(sub)
     secrets_option(sub)
+    sub = verbs.add(
+        "history", "record", "every recorded exchange with controls: who, when, which, digests, changes"
+    )
+    sub.add_argument(
+        "path", type=path_of, metavar="PATH", help="a parameter file, or the folder of a project"
+    )
+    sub.add_argument("--show", type=count, metavar="N", help="exchange N of the list with what it changed")
+    json_option(sub)
 
 
 def _plain(sub: argparse.ArgumentParser, protocols: tuple[str, ...]) -> None:

@@ -110,14 +110,18 @@ class ControlActions:
         if present is None:
             return
 
+        notes: list[str] = []
+
         def work(progress: Progress, cancel: threading.Event) -> Outcome:
             from amp_studio.transfer.client.parameters import download_file, sha256
 
             return download_file(file, address, path.parent, path.stem, progress, cancel,
-                                 expected=sha256(present), known=present)  # fmt: skip
+                                 expected=sha256(present), known=present, record=path, notify=notes.append)  # fmt: skip
 
         if self.exchanges.run("Download", work).verified:
             self.exchanges.remember(workspace, file)
+        if notes:
+            self.window.show_status("; ".join(notes))
 
     def _is_ready(self, workspace: Workspace) -> bool:
         """Ask about unsaved changes and errors; returns whether the file may be downloaded."""

@@ -46,12 +46,17 @@ def restore(control: ControlExchange) -> None:
     if not _is_wanted(control, copy, path, present):
         return
 
+    notes: list[str] = []
+
     def work(progress: Progress, cancel: threading.Event) -> Outcome:
-        return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present))
+        return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present), record=path,
+                            notify=notes.append)  # fmt: skip
 
     outcome = control.run("Restore", work)
     if outcome.verified and copy.file is not None and window.workspace is not None:
         control.remember(window.workspace, copy.file)
+    if notes:
+        window.show_status("; ".join(notes))
 
 
 def _check(copy: Copy, path: Path) -> None:

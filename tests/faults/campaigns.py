@@ -153,6 +153,7 @@ CAMPAIGNS = (
     ),
     Campaign("damaged project.yaml", partial(_damaged_in, texts.fuzz_projects), MANY, 30, 2_000),
     Campaign("damaged rules.yaml", partial(_damaged_in, texts.fuzz_rules), MANY, 30, 5_000),
+    Campaign("damaged record of exchanges", partial(_damaged_in, texts.fuzz_records), MANY, 30, 2_000),
     Campaign("damaged journal and history", partial(_damaged_in, texts.fuzz_journals), MANY, 30, 2_000),
     Campaign("damaged texts of controls", partial(_damaged_in, texts.fuzz_imports), MANY, 50, 2_000),
     Campaign("odd values", partial(_damaged, texts.fuzz_entries), MANY, 50, 5_000),

@@ -10,6 +10,7 @@ import json
 import random
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TypeVar
 from unittest import mock
@@ -37,6 +38,7 @@ from amp_studio.schema import (
     read_entries,
 )
 from amp_studio.schema.yaml_reader import YamlError, read_yaml
+from amp_studio.transfer.client.record import add_exchange, exchange_now, read_exchanges, record_path
 
 Case = TypeVar("Case")
 SLOWEST = 5.0
@@ -275,6 +277,25 @@ def fuzz_journals(folder: Path, seed: int, count: int) -> list[str]:
 
     deep = ["[" * 200_000, '{"changes": ' * 100_000]
     return violations(mutants([journal, journal, history, *deep], seed, count), look, ())
+
+
+def fuzz_records(folder: Path, seed: int, count: int) -> list[str]:
+    """Read a damaged record of exchanges, and add one more to it."""
+    path = folder / "x.amp"
+    path.write_bytes(b"")
+    entry = exchange_now("download", path, "9pc", "tcp://127.0.0.1:1", before="a" * 64, after="b" * 64, state="new",
+                         changes=(("home.calibration@1", "0 mm", "1 mm"),))  # fmt: skip
+    record = json.dumps(asdict(entry)) + "\n"
+
+    def look(text: str) -> None:
+        record_path(path).write_bytes(text.encode("utf-8", "surrogatepass"))
+        for each in read_exchanges(folder):
+            assert isinstance(each.line(), str)
+        assert add_exchange(path, entry) == ""
+        assert read_exchanges(folder)[-1] == entry
+
+    deep = ["[" * 200_000, '{"changes": ' * 100_000]
+    return violations(mutants([record + record, *deep], seed, count), look, ())
 
 
 def fuzz_imports(folder: Path, seed: int, count: int) -> list[str]:

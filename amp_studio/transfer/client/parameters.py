@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Self
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import Notify, ParameterFile
 from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.progress import Progress, quiet
@@ -18,6 +18,7 @@ from amp_studio.transfer.progress import Progress, quiet
 from .drivers import open_driver
 from .exchange import Outcome, download, upload
 from .kept import BEFORE, Copy, keep_image, keep_readable, open_copy
+from .record import Recording
 
 __all__ = [
     "Copy",
@@ -35,23 +36,29 @@ __all__ = [
 def download_file(
     file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,
     cancel: threading.Event | None = None, *, expected: str | None = None, known: bytes | None = None,
+    record: Path | None = None, notify: Notify = lambda _: None,
 ) -> Outcome:  # fmt: skip
     """Put a file into the control at ``address``; what it contained is kept in ``folder`` before anything is replaced.
 
     ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was fetched from this
-    control just before. Raises TransferError, whose
+    control just before; ``record`` is the path of the file, in whose folder the exchange is recorded, and ``notify`` is told
+    where it could not be. Raises TransferError, whose
     text names what the control contains, ImageError for a file no image can carry or that sets what the control does not have, and ValueError for an address or
     a digest that is none.
     """
     approved = read_digest(expected)
     with closing(open_driver(address, file.schema.family.family)) as driver, _Keeping(folder, stem) as copy:
-        return download(driver, partial(driver.encode, file), copy.keep, signature=file.schema.signature,
-                        expected=approved, known=known, meanwhile=copy.finish, progress=progress, cancel=cancel)  # fmt: skip
+        family = file.schema.family.family
+        recording = Recording("download", record, family, address, partial(driver.encode, file), notify)
+        return recording.run(lambda: download(
+            driver, recording.wanted, copy.keep, signature=file.schema.signature, expected=approved, known=known,
+            meanwhile=copy.finish, progress=progress, cancel=cancel))  # fmt: skip
 
 
 def restore_copy(
     copy: Copy, address: str, folder: Path, stem: str, progress: Progress = quiet,
-    cancel: threading.Event | None = None, *, expected: str | None = None,
+    cancel: threading.Event | None = None, *, expected: str | None = None, record: Path | None = None,
+    notify: Notify = lambda _: None,
 ) -> Outcome:  # fmt: skip
     """Put back what a control has contained, byte for byte; what it contains instead is kept in ``folder`` first.
 
@@ -63,9 +70,11 @@ def restore_copy(
         wanted = partial(driver.refit, copy.image)
         if copy.file is not None and not copy.is_kept:
             wanted = partial(driver.encode, copy.file)
-        return download(driver, wanted, before.keep, signature=copy.signature, expected=approved,
-                        is_return=copy.is_kept, what="Restore", meanwhile=before.finish, progress=progress,
-                        cancel=cancel)  # fmt: skip
+        of = copy.file.schema.family.family if copy.file else ""
+        recording = Recording("restore", record, of, address, wanted, notify)
+        return recording.run(lambda: download(
+            driver, recording.wanted, before.keep, signature=copy.signature, expected=approved, is_return=copy.is_kept,
+            what="Restore", meanwhile=before.finish, progress=progress, cancel=cancel))  # fmt: skip
 
 
 class _Keeping:
