@@ -62,7 +62,7 @@ def is_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> bool:
 def note_exchange(
     verb: str, path: Path, file: ParameterFile, address: str, content: bytes, text: str
 ) -> None:
-    """Record an exchange that only looked at a control, in the folder of a file."""
+    """Record an exchange that replaced nothing, in the folder of a file."""
     digest = sha256(content) if content else ""
     family = file.schema.family.family
     entry = exchange_now(verb, path, family, address, before=digest, after=digest, text=text)

@@ -251,9 +251,7 @@ def _several(sub: argparse.ArgumentParser, name: str, dest: str) -> None:
 
 
 def _to_control(sub: argparse.ArgumentParser, kept: str) -> None:
-    """Add where a download goes, what it may replace, and where the old content is kept."""
-    sub.add_argument("--to", required=True, metavar="ADDRESS")
-    """Add what a download may replace, and where that is kept."""
+    """Add what a download may replace, and the folder of the copy."""
     sub.add_argument("--expect", metavar="SHA256",
                      help="only where the control contains the image with this digest, as verify and upload print it")  # fmt: skip
     sub.add_argument(

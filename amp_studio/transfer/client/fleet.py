@@ -17,7 +17,7 @@ MOST = 16
 """Controls with which is exchanged at once; the others wait."""
 
 T = TypeVar("T")
-Work = Callable[[str, Progress], T]
+FleetWork = Callable[[str, Progress], T]
 """The exchange with the control at an address."""
 
 
@@ -52,7 +52,7 @@ def check_addresses(addresses: Sequence[str]) -> None:
 
 def with_each(
     addresses: Sequence[str],
-    work: Work[T],
+    work: FleetWork[T],
     progress: Callable[[str], Progress],
     *,
     failed: Callable[[T], bool],
@@ -82,7 +82,7 @@ def with_each(
         return list(pool.map(one, addresses))
 
 
-def _one(address: str, work: Work[T], progress: Progress) -> FleetResult[T]:
+def _one(address: str, work: FleetWork[T], progress: Progress) -> FleetResult[T]:
     try:
         return FleetResult(address, work(address, progress))
     except TransferError as error:

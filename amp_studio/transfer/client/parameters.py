@@ -41,8 +41,8 @@ def download_file(
     """Put a file into the control at ``address``; what it contained is kept in ``folder`` before anything is replaced.
 
     ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was fetched from this
-    control just before; ``record`` is the path of the file, in whose folder the exchange is recorded, and ``notify`` is told
-    where it could not be. Raises TransferError, whose
+    control just before; ``record`` is the path of the file, in whose folder the exchange is recorded, and ``notify`` is called if
+    it could not be. Raises TransferError, whose
     text names what the control contains, ImageError for a file no image can carry or that sets what the control does not have, and ValueError for an address or
     a digest that is none.
     """

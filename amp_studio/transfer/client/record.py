@@ -33,7 +33,7 @@ class Exchange:
     ``when``      UTC; ``who``: user and computer
     ``verb``      download, restore, upload or verify; ``file``: the name of the parameter file or copy
     ``control``   its address
-    ``before``, ``after``  SHA-256 of what it contained, in hexadecimal; "" where that is not known
+    ``before``, ``after``  SHA-256 of what it contained, in hexadecimal; "" if not known
     ``state``     what it contains after it: "new", "old", "mixed", "defaults", "unknown"; "" where nothing was to be sent
     ``kept``      the copy of what it contained before; "" where nothing was replaced
     ``text``      how it ended
@@ -137,7 +137,7 @@ class Recording:
     """Records one download or restore, however it ends.
 
     ``make`` gives what the control shall contain, of what it contains; ``beside`` is the file in whose folder the record is,
-    None for none; ``notify`` is told why it could not be written.
+    None for none; ``notify`` is called with the reason if it could not be written.
     """
 
     def __init__(
