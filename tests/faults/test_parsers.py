@@ -83,7 +83,6 @@ READERS = {
     "ui/edit_actions.py": "odd values",
     "ui/file_tabs.py": "",  # writes to the clipboard
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
-    "ui/file_tabs.py": "",  # only writes to the clipboard
     "ui/restore.py": "damaged control image",
     "ui/settings.py": "damaged settings",
     "validate/rule_file.py": "damaged suppressions",
