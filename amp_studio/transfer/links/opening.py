@@ -48,7 +48,7 @@ def connect(
 
 def _network_link(endpoint: Endpoint, password: str, timeout: float, look: Callable[[], None]) -> Link:
     """Open a connection, prove the password on it if there is one, and else notice when the control asks for one."""
-    from .password import NO_TLS, GuardedLink, PasswordError, prove
+    from .password import NO_TLS, GuardedLink, PasswordError, ProvenLink, prove
     from .passwords import ENVIRONMENT, ask_password
 
     link: Link
@@ -62,11 +62,11 @@ def _network_link(endpoint: Endpoint, password: str, timeout: float, look: Calla
         link, certificate = connect_tcp(endpoint, timeout, look), NO_TLS
     if password:
         try:
-            prove(link, endpoint, password, certificate, timeout, look)
+            rest = prove(link, endpoint, password, certificate, timeout, look)
         except BaseException:
             link.close()
             raise
-        return link
+        return ProvenLink(link, rest)
 
     def reopen() -> Link:
         entered = ask_password(endpoint)

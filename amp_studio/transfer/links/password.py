@@ -48,24 +48,47 @@ def proof_of(key: bytes, end: bytes, challenge: bytes, certificate: bytes, nonce
 
 def prove(
     link: Link, place: object, password: str, certificate: bytes, seconds: float, look: Callable[[], None]
-) -> None:
-    """Prove to a control that this end knows its password, and have it prove the same; raises PasswordError, LinkError."""
+) -> bytes:
+    """Prove to a control that this end knows its password, and have it prove the same; raises PasswordError, LinkError.
+
+    Returns what the control has sent behind its proof: a greeting of its protocol, for one.
+    """
     challenge = _line(link, seconds, look)
     found = CHALLENGE.fullmatch(challenge)
     if found is None:
         raise PasswordError(str(place), "it asks for no password, and one is set for it: nothing was sent")
     key, nonce = key_of(password, bytes.fromhex(found[1].decode())), secrets.token_hex(32).encode()
     link.write(b"PROOF " + nonce + b" " + proof_of(key, b"client", challenge, certificate, nonce) + b"\n")
-    answer = _line(link, seconds, look)
+    answer, end, rest = _line(link, seconds, look).partition(b"\n")
+    answer += end
     if welcome := WELCOME.fullmatch(answer):
         if hmac.compare_digest(welcome[1], proof_of(key, b"server", challenge, certificate, nonce)):
-            return
+            return rest
         raise PasswordError(
             str(place), "it does not know the password itself: it is not the control it should be"
         )
     if later := LATER.fullmatch(answer):
         raise PasswordError(str(place), f"too many wrong passwords: try again in {int(later[1])} s")
     raise PasswordError(str(place), "the password is wrong")
+
+
+class ProvenLink:
+    """A link whose password is proven; what came behind the proof is read first."""
+
+    def __init__(self, link: Link, rest: bytes) -> None:
+        self._link = link
+        self._rest = rest
+        self.write, self.close = link.write, link.close
+
+    @property
+    def bytes_per_second(self) -> float | None:
+        """What the line carries."""
+        return self._link.bytes_per_second
+
+    def read(self, timeout: float) -> bytes:
+        """Return what has come."""
+        rest, self._rest = self._rest, b""
+        return rest or self._link.read(timeout)
 
 
 class GuardedLink:
@@ -117,9 +140,9 @@ class GuardedLink:
 
 
 def _line(link: Link, seconds: float, look: Callable[[], None]) -> bytes:
-    """Return one line, or what has come in time."""
+    """Return a line and what came with it, or what has come in time."""
     got, end = b"", time.monotonic() + seconds
-    while not got.endswith(b"\n") and len(got) <= LONGEST and (left := end - time.monotonic()) > 0:
+    while b"\n" not in got and len(got) <= LONGEST and (left := end - time.monotonic()) > 0:
         look()
         got += link.read(min(left, 0.1))
     return got

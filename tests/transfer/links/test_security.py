@@ -220,6 +220,33 @@ def test_the_password_comes_from_the_environment_the_keyring_or_the_person(
     assert echo(place, b"x" * 100_000) == b"x" * 100_000
 
 
+@pytest.mark.parametrize("is_asked", [False, True])
+def test_a_control_may_greet_as_soon_as_the_password_is_proven(
+    is_asked: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    listener = listen(replace(parse_endpoint("tcp://127.0.0.1:0"), security=Security(PASSWORD)))
+    over = threading.Event()
+
+    def greet() -> None:
+        while not over.is_set():
+            if line := listener.accept(0.01):
+                line.write(b"GrblHAL 1.1f ready\r\n")
+
+    thread = threading.Thread(target=greet)
+    thread.start()
+    if is_asked:
+        passwords.ask_with(lambda where: PASSWORD)
+    else:
+        monkeypatch.setenv(passwords.ENVIRONMENT, PASSWORD)
+    link = connect(listener.endpoint)
+    link.write(b"$I\n")
+    assert link.read(5).startswith(b"GrblHAL")
+    over.set()
+    thread.join(5)
+    link.close()
+    listener.close()
+
+
 def test_a_control_that_does_not_ask_for_a_known_password_is_not_spoken_to(
     echoing: Callable[[str, Security], Endpoint], monkeypatch: pytest.MonkeyPatch
 ) -> None:
