@@ -9,6 +9,9 @@ SCENARIOS = {
     "velocity": "amp_studio.sim.scenarios.velocity:SCENARIO",
     "frequency": "amp_studio.sim.scenarios.frequency:SCENARIO",
     "circle": "amp_studio.sim.scenarios.circle:SCENARIO",
+    "home": "amp_studio.sim.scenarios.home:SCENARIO",
+    "jog": "amp_studio.sim.scenarios.jog:SCENARIO",
+    "travel": "amp_studio.sim.scenarios.travel:SCENARIO",
 }
 """Scenario of any family -> where it is."""
 

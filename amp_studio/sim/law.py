@@ -43,13 +43,15 @@ from amp_studio.schema.registration import load_part, registered_families, regis
 from .axis_parameters import AxisParameters
 from .compiled import Sample
 from .errors import SimulationError
+from .events import RAMPS, Homing, Jogging, Ramp, Travel
 from .machine import Machine
 from .scenario import Scenario
 from .trace import Recommendation, Trace
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
-RAMPS = ("none", "linear", "exponential", "s-curve", "sine-squared")
+SCENARIOS = ("step", "velocity", "frequency", "circle")
+"""Scenarios of every family."""
 
 
 @dataclass(frozen=True)
@@ -67,24 +69,6 @@ class Source:
     """Upper bound in the file."""
     page: str = ""
     """Page of the manual."""
-
-
-@dataclass(frozen=True)
-class Ramp:
-    """How the speed of the command changes; a figure of 0 is "none of it"."""
-
-    kind: str = "none"
-    """One of RAMPS."""
-    acceleration: float = 0.0
-    """u/s2; 0 for no ramp."""
-    deceleration: float = 0.0
-    """u/s2; 0 for the acceleration."""
-    jerk: float = 0.0
-    """u/s3 of an S-curve."""
-    time: float = 0.0
-    """s: time constant of an exponential ramp, least time of a sine-squared one."""
-    velocity_step: float = 0.0
-    """u/s: a change of velocity that needs no ramp."""
 
 
 @dataclass(frozen=True)
@@ -148,6 +132,12 @@ class AxisLaw:
     """predict(feedrate in u/s) -> figures by name; ``steady_following_error`` and others that the motion is compared with."""
     circle_feedrate: Callable[[float], float | None] = lambda _radius: None
     """circle_feedrate(radius in u) -> the highest feedrate in u/s that the control allows on a circle; None for no limit."""
+    manual_ramp: Callable[[bool], Ramp] | None = None
+    """manual_ramp(whether the axis is being homed) -> the ramp of homing and jogging; None for that of positioning."""
+    homing: Callable[[], Homing] | None = None
+    jogging: Callable[[], Jogging] | None = None
+    travel: Callable[[], Travel] | None = None
+    """Read when a scenario asks for it; raises SimulationError naming what is missing. None where no manual prints it."""
     undamped: str = ""
     """What to do first if the loop is not stable, a sentence; "" where the law knows nothing better than lower gains."""
     limits: Mapping[str, float] = field(default_factory=dict)
@@ -188,7 +178,7 @@ class Law:
     axes: Callable[[ParameterFile], Sequence[str]] = fitted_axes
     without_axes: str = "No axis is fitted. Set the type of an axis first"
     settings: Mapping[str, str] = field(default_factory=dict)
-    scenarios: Sequence[str] = ("step", "velocity", "frequency", "circle")
+    scenarios: Sequence[str] = SCENARIOS
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice
     own: Mapping[str, Scenario] = field(default_factory=dict)
 
@@ -207,3 +197,17 @@ def law_of(family: str) -> Law:
     found = load_part(place)
     assert isinstance(found, Law)
     return found
+
+
+__all__ = [
+    "RAMPS",
+    "SCENARIOS",
+    "AlarmText",
+    "AxisLaw",
+    "Law",
+    "Prediction",
+    "Ramp",
+    "Source",
+    "law_of",
+    "simulated_families",
+]

@@ -161,6 +161,9 @@ _TOLD = {
     "radius_error": "radius error {}",
     "predicted_radius_error": "predicted {}",
     "reversal_spike": "reversal spike {}",
+    "home_position": "home position {}",
+    "overrun": "stops {} behind the limit",
+    "time": "after {}",
 }
 
 

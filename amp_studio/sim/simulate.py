@@ -43,7 +43,7 @@ def simulate(
         raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
     if scenario not in (*law.scenarios, *law.own):
         raise SimulationError(
-            f"{file.schema.family.name} has no scenario '{scenario}': {', '.join(law.scenarios)}"
+            f"{file.schema.family.name} has no scenario '{scenario}': {', '.join((*law.scenarios, *law.own))}"
         )
     length = length_unit(file, system)
     unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)
@@ -53,17 +53,18 @@ def simulate(
     read: list[Address] = []
     bound = bind_axis(file, law, axis, model, read.append)
     refuse_other_unit(written, bound.axis, bound.unit)
-    doubtful, letter = doubts(file, read, model), axis_name(file.evaluation, bound.axis)
+    letter = axis_name(file.evaluation, bound.axis)
     if scenario in law.own:
         trace = law.own[scenario].run(bound, own)
         advice = (*trace.recommendations, *law.advise(bound, trace))
+        doubtful = doubts(file, read, model)
         return in_unit(replace(trace, recommendations=advice, doubts=doubtful, letter=letter), length)
     chosen = SCENARIOS[scenario]
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
     found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
-    notes = (*trace.assumptions, *notes)
+    notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)
     done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful, letter=letter)
     return in_unit(done, length)
 

@@ -28,5 +28,5 @@ print([name for name in sys.modules if name in ("numba", "pydantic") or name.sta
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     listed, loaded = done.stdout.splitlines()
-    assert listed == "[('step, velocity, frequency, circle, tune, gear, cam, backlash',)]"
+    assert listed == "[('step, velocity, frequency, circle, home, jog, travel, tune, gear, cam, backlash',)]"
     assert loaded == "['amp_studio.scenarios']"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
@@ -23,10 +24,12 @@ from amp_studio.sim import (
     Source,
     Trace,
 )
+from amp_studio.sim.law import SCENARIOS
 from amp_studio.sim.linear import linear_model
 from amp_studio.sim.model import with_model
 from amp_studio.sim.steady import error_at_speed
 
+from . import law_events as events
 from . import law_plant as plant
 from . import law_sample as loop
 from .law_filters import PASS, Biquad, lopass, notch
@@ -130,6 +133,8 @@ def bind(read: AxisParameters) -> AxisLaw:
         ramps={"linear": Ramp("linear", ramp), "none": Ramp()},
         monitors=loop.MONITORS,
         alarms={1: AlarmText("EXCESS ERROR", _excess(excess))},
+        homing=partial(events.homing, read, pulses),
+        jogging=partial(events.jogging, read),
         undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
         sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
@@ -315,5 +320,6 @@ LAW = Law(
     bind=bind,
     axes=axes,
     without_axes="Number of Axes (view.number_of_axes) is 0: set it to simulate an axis",
+    scenarios=(*SCENARIOS, "home", "jog"),
     advise=advise,
 )

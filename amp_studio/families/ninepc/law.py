@@ -13,10 +13,11 @@ from functools import partial
 from amp_studio.schema import canonical, load_schema
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AlarmText, AxisLaw, Law, Ramp, Source
+from amp_studio.sim.law import SCENARIOS, AlarmText, AxisLaw, Law, Ramp, Source
 from amp_studio.sim.rounding import shown
 
 from . import law_dac as dac
+from . import law_events as events
 from . import law_notes as notes_of
 from . import law_samples as samples
 from . import law_split as split
@@ -124,6 +125,14 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
         "alarms": _alarms(read, kind, parameters),
         "monitors": [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS]
         + shown_in_volts,
+    }
+    if kind.loop != "open":
+        common["homing"] = partial(events.homing, read, feedback)
+    linear = common["ramps"]["linear"]  # type: ignore[index]
+    common |= {
+        "manual_ramp": partial(events.manual_ramp, read, linear),
+        "jogging": partial(events.jogging, read),
+        "travel": partial(events.travel, read),
     }
     partner = split.slave_named(read)
     if partner is not None:
@@ -235,4 +244,10 @@ def _bounded(source: Source, unit: str) -> Source:
     return Source(source.parameter, source.scale, source.unit, source.whole, largest, source.page)
 
 
-LAW = Law(bind, settings=SETTINGS, advise=advise, own={TUNE.name: TUNE})
+LAW = Law(
+    bind,
+    scenarios=(*SCENARIOS, "home", "jog", "travel"),
+    settings=SETTINGS,
+    advise=advise,
+    own={TUNE.name: TUNE},
+)

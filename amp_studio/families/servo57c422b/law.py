@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
@@ -23,6 +24,7 @@ from amp_studio.sim import (
     Source,
     Trace,
 )
+from amp_studio.sim.law import SCENARIOS
 from amp_studio.sim.model import with_model
 from amp_studio.sim.steady import error_at_speed
 
@@ -30,6 +32,7 @@ from . import law_plant as plant
 from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_commands import COMMANDS
+from .law_home import homing
 from .law_tune import Scales
 
 AXES = ("X", "Y")
@@ -137,6 +140,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         assumed=assumed,
         sweep_parameters=_without_faults(p),
         linear_parameters=_linear(p),
+        homing=partial(homing, read),
         read=read,
         names={parameter: _named(parameter, read.axis) for parameter in COMMAND_DATA},
         scales=Scales(*(_scale(read, name) for name in _SCALES)),
@@ -306,4 +310,6 @@ def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     )
 
 
-LAW = Law(bind=bind, axes=axes, settings=SETTINGS, advise=advise, own=COMMANDS)
+LAW = Law(
+    bind=bind, axes=axes, settings=SETTINGS, scenarios=(*SCENARIOS, "home"), advise=advise, own=COMMANDS
+)

@@ -9,14 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source
+from amp_studio.sim.law import SCENARIOS, AlarmText, AxisLaw, Law, Prediction, Ramp, Source
 from amp_studio.sim.machine import Machine
 from amp_studio.sim.rounding import shown
 
+from . import law_events as events
 from . import law_sample as sample
 from .formulas import (
     DDA_LIMIT,
@@ -127,6 +129,18 @@ def bind(read: AxisParameters) -> AxisLaw:
         assumptions=(*notes, *ALWAYS),
         assumed=ASSUMED,
         linear_parameters=linear,
+        homing=partial(events.homing, read, _turn(read, axis)),
+        jogging=partial(events.jogging, read),
+        travel=partial(events.travel, read),
+    )
+
+
+def _turn(read: AxisParameters, axis: _Axis) -> float:
+    """Return u for a turn of the motor: from index to index."""
+    if axis.encoder == "linear":
+        return read.number("resolution.pitch") * STANDARD_BLU
+    return axis.pulse * pulses_per_turn(
+        read.number("resolution.encoder"), float(read.choice("resolution.multiplication"))
     )
 
 
@@ -339,5 +353,6 @@ LAW = Law(
     bind,
     axes,
     "No axis has a port. Give one its port (Pr21) and its type (Pr221)",
+    scenarios=(*SCENARIOS, "home", "jog", "travel"),
     advise=advise,
 )

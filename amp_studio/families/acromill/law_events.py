@@ -1,0 +1,48 @@
+"""Homing and jogging of an AcroMill axis (pages 65 and 67)."""
+
+from __future__ import annotations
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.events import Homing, Jogging, Ramp
+
+LINES = 4096.0
+"""Pulses from marker to marker: an encoder of appendix C, after multiplication (page 113)."""
+NOTES = (
+    "To the switch at Home Fast Speed, away from it at Home Slow Speed, on to the marker at Marker Speed (page 65).",
+    (
+        "ASSUMED: a marker each 4096 pulses (page 113); at the marker the position becomes Home Preset, and the axis stops along Home STP; where it rests is not"
+        " printed."
+    ),
+)
+
+
+def _above_zero(read: AxisParameters, name: str) -> float:
+    value = read.number(name)
+    if not value > 0.0:
+        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
+    return value
+
+
+def homing(read: AxisParameters, pulses: float) -> Homing:
+    """Return the sequence; ``pulses`` for 1 u."""
+    sign = -1.0 if read.choice("home.direction") == "neg" else 1.0
+    return Homing(
+        approach=sign * _above_zero(read, "home.fast_speed") / 60.0,
+        leave=-sign * _above_zero(read, "home.slow_speed") / 60.0,
+        marker="next",
+        turn=LINES / pulses,
+        coordinate=read.optional("home.preset") or 0.0,
+        search=_above_zero(read, "home.marker_speed") / 60.0,
+        ramp=Ramp("linear", _above_zero(read, "home.acceleration"), _above_zero(read, "home.stop")),
+        page="65",
+        notes=NOTES,
+    )
+
+
+def jogging(read: AxisParameters) -> Jogging:
+    """Return the jog speeds and increments (page 67)."""
+    speeds = {name: _above_zero(read, f"jog.{name}") / 60.0 for name in ("feedrate", "rapid")}
+    increments = {str(n): read.optional(f"jog.increment_{n}") or 0.0 for n in range(1, 6)}
+    ramp = Ramp("linear", _above_zero(read, "jog.acceleration"), _above_zero(read, "jog.deceleration"))
+    return Jogging(speeds, {name: way for name, way in increments.items() if way}, ramp=ramp, page="67")

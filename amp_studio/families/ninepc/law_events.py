@@ -1,0 +1,100 @@
+"""Homing, jogging and overtravels of a 9/PC axis (chapters 5, 6 and 8)."""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.events import Homing, Jogging, Ramp, Travel
+
+from .law_feedback import COUNTS, DEVICE, Feedback
+from .law_ramps import SCAN, SCANS
+from .law_reading import above_zero, if_set
+
+OFF, CALIBRATION, POSITION, OFF_SPEED = (
+    "home.direction_off_switch",
+    "home.calibration",
+    "home.position",
+    "home.speed_off_switch",
+)
+DIRECTION, SPEED = "home.g28_direction", "home.g28_speed"
+MANUAL_MODE, MANUAL_DELAY = "accdec.manual_mode", "accdec.manual_delay"
+SIGN = {"plus": 1.0, "positive": 1.0, "minus": -1.0, "negative": -1.0}
+JOGS = ("lowest", "second", "third", "fourth", "highest")
+INCREMENTS = ("smallest", "second", "third", "fourth", "largest")
+
+HOMED = (
+    (
+        "The axis has not been homed: G28 searches at G28 Home Speed in G28 Direction to Home (5-13), a manual homing at the jog speed (5-3); from the switch"
+        " on both are the same (steps 3 to 10, 5-3 and 5-4)."
+    ),
+    "The home position is the marker nearest to where the switch goes off, and Home Calibration from there (5-4, 5-10).",
+    "ASSUMED: the ramp of homing is that of manual moves, exponential by Manual Delay Constant (10-14 calls homing exponential).",
+)
+STOPPED = "A software overtravel stops all commands at once, without a ramp; the axis moves past it by its following error (10-18)."
+JOGGED = (
+    "Incremental jogs go at Third Jog Speed (8-2). Linear manual ramps are those of programmed moves (10-18)."
+)
+
+
+def manual_ramp(read: AxisParameters, linear: Ramp, homing: bool) -> Ramp:
+    """Return the ramp of manual moves (10-14, 10-18): exponential, or linear as Manual ACC./DEC Mode is set, but for homing."""
+    if not homing and read.value(MANUAL_MODE, everywhere=True) == "linear":
+        return linear
+    delay = read.optional(MANUAL_DELAY)
+    fine = read.optional(SCAN, everywhere=True)
+    if delay is None or fine is None:
+        return linear
+    scans = read.optional(SCANS, everywhere=True)
+    return Ramp("exponential", time=delay * fine * (1.0 if scans is None else scans) / 1000.0)
+
+
+def homing(read: AxisParameters, feedback: Feedback) -> Homing:
+    """Return the homing sequence, with a marker each turn of the position device. Raises SimulationError for devices that home without a switch."""
+    if read.choice(DEVICE) == "dcm":
+        raise SimulationError(
+            f"Axis {read.axis} has distance-coded markers: it is homed by three of them without a switch (5-5), which is not simulated",
+            DEVICE,
+        )
+    off = SIGN[read.choice(OFF)]
+    speed = above_zero(read, OFF_SPEED) / 60.0
+    return Homing(
+        approach=SIGN[read.choice(DIRECTION)] * above_zero(read, SPEED) / 60.0,
+        leave=off * speed,
+        marker="nearest",
+        turn=feedback.position_count * above_zero(read, COUNTS),
+        coordinate=read.number(POSITION),
+        final=speed,
+        offset=read.optional(CALIBRATION) or 0.0,
+        too_fast="JOGGED HOME TOO FAST",
+        page="5-4",
+        notes=HOMED,
+    )
+
+
+def jogging(read: AxisParameters) -> Jogging:
+    """Return the speeds (8-2 to 8-5, 8-14) and increments (8-7 to 8-10) that are set."""
+    speeds = {name: if_set(read, f"jog.speed_{name}") / 60.0 for name in JOGS}
+    speeds["traverse"] = if_set(read, "jog.traverse_speed") / 60.0
+    increments = {name: if_set(read, f"jog.increment_{name}") for name in INCREMENTS}
+    return Jogging(
+        {name: speed for name, speed in speeds.items() if speed},
+        {name: way for name, way in increments.items() if way},
+        "third",
+        page="8-2",
+        notes=(JOGGED,),
+    )
+
+
+def travel(read: AxisParameters) -> Travel:
+    """Return the software overtravels (6-10, 6-11), if they are used."""
+    if read.value("zone.overtravel_used") is not True:
+        return Travel({}, "OVERTRAVEL", "6-10")
+    low, high = (read.optional(f"zone.overtravel_{side}") for side in ("negative", "positive"))
+    edges = (-math.inf if low is None else low, math.inf if high is None else high)
+    notes = (
+        STOPPED,
+        "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on the measured position.",
+    )
+    return Travel({"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes)

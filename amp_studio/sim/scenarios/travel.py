@@ -1,0 +1,98 @@
+"""Scenario `travel`: from a speed against a limit of the travel, and where the axis stops."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from amp_studio.sim.course import Course
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw, Ramp
+from amp_studio.sim.model import assumptions
+from amp_studio.sim.rounding import shown
+from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
+from amp_studio.sim.trace import Alarm, Figure, Trace
+
+from .columns import alarms_of, column_units, per_minute
+from .step import feedrate_of
+
+SETTINGS = {
+    "move.start": "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit as it reaches its speed",
+    "move.direction": "plus or minus; default: plus",
+    "move.feedrate": "feedrate against the limit (mm/min or deg/min); default: the rapid feedrate",
+}
+
+
+def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
+    """Move an axis against the next limit in its way; raises SimulationError where there is none."""
+    refuse_unknown(settings, SETTINGS)
+    if axis.travel is None:
+        raise SimulationError(f"What stops axis {axis.axis} at a limit of its travel is not printed")
+    travel, feedrate = axis.travel(), feedrate_of(axis, settings)
+    sign = {"plus": 1.0, "minus": -1.0}.get(str(settings.get("move.direction", "plus")))
+    if sign is None:
+        raise SimulationError("move.direction must be plus or minus", "move.direction")
+    ramp = axis.manual_ramp(False) if axis.manual_ramp else next(iter(axis.ramps.values()))
+    given = number(settings, "move.start")
+    found = travel.nearest(-sign * math.inf if given is None else given, sign)
+    if found is None:
+        raise SimulationError(
+            f"No limit of the travel is active in the way of axis {axis.axis} (page {travel.page})"
+        )
+    if given is None:  # from inside of all limits
+        ends = [high if sign > 0.0 else low for low, high in travel.limits.values()]
+        finite = [edge for edge in ends if math.isfinite(edge)]
+        if finite:
+            edge = min(finite, key=lambda each: sign * each)
+            found = next((name, edge) for name, edges in travel.limits.items() if edge in edges)
+    name, edge = found
+    run_up = feedrate * (
+        5.0 * ramp.time
+        + (feedrate / ramp.acceleration if ramp.acceleration else 0.0)
+        + 5.0 / axis.position_rate
+    )
+    start = edge - sign * run_up if given is None else given
+    course, limit = Course(axis), edge - start
+    seen = course.go(
+        sign * feedrate, ramp, lambda c: sign * (c["measured_position"] - limit) >= 0.0, abs(limit) + run_up
+    )
+    if seen is not None:
+        course.stop(Ramp())  # at once
+    motion = course.run()
+    columns = {key: each.copy() for key, each in per_minute(motion.columns).items()}
+    for key in ("command_position", "position", "measured_position"):
+        columns[key] += start
+    alarms = alarms_of(axis, motion)
+    speed = None
+    if seen is not None:
+        at = int(np.searchsorted(motion.columns["time_s"], seen.time))
+        speed = abs(float(motion.columns["velocity"][min(at, len(motion.columns["velocity"]) - 1)]))
+        text = f"The axis has passed {name}, {shown(edge, axis.unit)} (page {travel.page}): the command stops at once"
+        alarms = (*alarms, Alarm(travel.alarm, seen.time, text))
+    end = float(columns["position"][-1])
+    reached = seen is not None and motion.command_end is not None
+    result: dict[str, Figure] = {
+        "feedrate": (feedrate * 60.0, f"{axis.unit}/min"),
+        "limit": (edge, axis.unit),
+        "speed_at_limit": (None if speed is None else speed * 60.0, f"{axis.unit}/min"),
+        "stop_position": (end if reached else None, axis.unit),
+        "overrun": (sign * (end - edge) if reached else None, axis.unit),
+        "time": (motion.command_end if reached else None, "s"),
+        "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), axis.unit),
+    }
+    return Trace(
+        scenario="travel",
+        axis=axis.axis,
+        model=axis.title,
+        columns=columns,
+        units=column_units(axis),
+        result=result,
+        alarms=alarms,
+        recommendations=(),
+        assumptions=(*travel.notes, *assumptions(axis)),
+        limits={},
+    )
+
+
+SCENARIO = Scenario("travel", "Against a limit of the travel: where the axis stops", SETTINGS, run_travel)

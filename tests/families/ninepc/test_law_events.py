@@ -1,0 +1,140 @@
+"""Homing, jogs and overtravels of a 9/PC axis, by chapters 5, 6, 8 and 10."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.schema import Value
+from amp_studio.sim import SimulationError, simulate
+
+MILL = Path(__file__).parents[3] / "examples" / "mill-1394" / "MILL_1394.amp"
+HOME = {
+    "servo.lead_screw_pitch": Value(10.0, "mm"),
+    "home.g28_direction": Value("plus"),
+    "home.g28_speed": Value(2500.0, "mm/min"),
+    "home.direction_off_switch": Value("negative"),
+    "home.speed_off_switch": Value(254.0, "mm/min"),
+    "home.calibration": Value(0.0, "mm"),
+    "home.position": Value(6.0, "mm"),
+}
+
+
+def mill(**changes: Value | None) -> ParameterFile:
+    """Return the example mill, axis 1 with the homing above; changes by parameter id with ``__`` for the point."""
+    file = open_file(MILL).file
+    for parameter, value in (
+        HOME | {name.replace("__", "."): value for name, value in changes.items()}
+    ).items():
+        file.set((parameter, "1"), value)
+    return file
+
+
+def test_the_home_position_is_the_marker_nearest_to_the_switch_and_the_calibration_from_there() -> None:
+    # Steps 3 to 10 of 5-3 and 5-4: off the switch at 40 mm, a marker 2 mm from it, one turn of the screw is 10 mm.
+    move = {"move.switch": 40.0, "move.marker": 2.0}
+    plain = simulate(mill(), "home", "1", move).result
+    assert plain["home_from_start"] == (pytest.approx(38.0), "mm")
+    assert plain["home_position"] == (6.0, "mm")  # Axis Position after Homing, 5-11
+    assert plain["stop_position"][0] == pytest.approx(6.0, abs=0.0254)
+    for calibration in (3.5, -12.0):  # in either direction
+        moved = simulate(mill(home__calibration=Value(calibration, "mm")), "home", "1", move).result
+        assert moved["home_from_start"][0] == pytest.approx(38.0 + calibration)
+        assert moved["home_position"] == (6.0, "mm")
+
+
+def test_it_runs_onto_the_switch_waits_and_comes_off_at_the_slow_speed() -> None:
+    trace = simulate(mill(), "home", "1", {"move.switch": 40.0, "move.marker": 2.0})
+    velocity, position = trace.columns["velocity"], trace.columns["position"]
+    assert velocity.max() == pytest.approx(2500.0, rel=0.01)  # G28 Home Speed, 5-16
+    assert velocity.min() == pytest.approx(-254.0, rel=0.01)  # Home Speed from Limit Switch, 5-12
+    first_back = int(np.flatnonzero(trace.columns["command_velocity"] < 0.0)[0])
+    # Steps 4 and 7: until the following error is inside of the Inposition Band.
+    assert abs(trace.columns["following_error"][first_back - 1]) <= 0.0254
+    assert position[:first_back].max() - 40.0 == pytest.approx(trace.result["switch_overrun"][0])
+    # Homing is exponential whatever Manual ACC./DEC Mode is (10-14): the first change of the speed is the steepest.
+    command = trace.columns["command_velocity"][: first_back // 3]
+    assert np.argmax(np.diff(command)) < 10
+
+
+def test_a_marker_on_the_other_side_of_half_a_turn_is_the_nearest_one() -> None:
+    # The caution of 5-4: at half a turn the home position is another one.
+    near, far = (
+        simulate(mill(), "home", "1", {"move.switch": 40.0, "move.marker": marker}) for marker in (4.7, 5.3)
+    )
+    assert near.result["home_from_start"][0] == pytest.approx(35.3)
+    assert far.result["home_from_start"][0] == pytest.approx(44.7)
+    for trace in (near, far):
+        assert any("may be another one each time (page 5-4)" in text for text in trace.assumptions)
+    quiet = simulate(mill(), "home", "1", {"move.switch": 40.0, "move.marker": 2.0})
+    assert not any("may be another one" in text for text in quiet.assumptions)
+
+
+def test_an_axis_that_passes_a_short_switch_is_jogged_home_too_fast() -> None:
+    # 5-3: off in the direction of the approach, and the switch is off again before the axis has stopped.
+    through = mill(home__direction_off_switch=Value("positive"))
+    trace = simulate(through, "home", "1", {"move.switch": 40.0, "move.switch_length": 5.0})
+    assert [alarm.code for alarm in trace.alarms] == ["JOGGED HOME TOO FAST"]
+    assert trace.result["home_position"] == (None, "mm")
+    slow = simulate(
+        through, "home", "1", {"move.switch": 40.0, "move.switch_length": 20.0, "move.marker": 1.0}
+    )
+    assert not slow.alarms
+    assert slow.result["home_from_start"][0] == pytest.approx(61.0)  # off at 60, the marker behind it
+    with pytest.raises(SimulationError, match=r"give move\.switch_length"):
+        simulate(through, "home", "1")
+
+
+def test_what_is_not_homed_by_a_switch_is_said() -> None:
+    lathe = open_file(MILL.parents[1] / "lathe-ls176" / "LATHE_LS176.amp").file
+    with pytest.raises(SimulationError, match=r"distance-coded markers.*5-5"):
+        simulate(lathe, "home", "1")
+    opened = mill(servo__position_loop_type=Value("open"))  # 5-1
+    with pytest.raises(SimulationError, match="not homed"):
+        simulate(opened, "home", "1")
+    with pytest.raises(SimulationError, match=r"home.g28_speed is not set"):
+        simulate(mill(home__g28_speed=None), "home", "1")
+
+
+def test_an_overtravel_is_passed_by_the_following_error() -> None:
+    # 10-18: all commands stop at once, and the axis moves past it by the amount of its following error.
+    file = mill(
+        zone__overtravel_used=Value(True),
+        zone__overtravel_positive=Value(100.0, "mm"),
+        zone__overtravel_negative=Value(-50.0, "mm"),
+    )
+    for feedrate, behind in ((10000.0, 10.0), (5000.0, 5.0)):
+        trace = simulate(file, "travel", "1", {"move.feedrate": feedrate})
+        assert trace.result["overrun"][0] == pytest.approx(behind, rel=0.01)
+        assert trace.result["stop_position"][0] == pytest.approx(100.0 + behind, rel=0.01)
+        assert trace.alarms[0].code == "OVERTRAVEL"
+    back = simulate(file, "travel", "1", {"move.direction": "minus", "move.start": 0.0})
+    assert back.result["limit"] == (-50.0, "mm")
+    assert back.result["stop_position"][0] < -50.0
+    with pytest.raises(SimulationError, match="No limit of the travel is active"):
+        simulate(mill(zone__overtravel_used=Value(False)), "travel", "1")
+    with pytest.raises(SimulationError, match="No limit of the travel is active"):
+        simulate(file, "travel", "1", {"move.start": 200.0})
+
+
+def test_an_incremental_jog_goes_at_the_third_speed() -> None:
+    # 8-2; a continuous one at the lowest unless another is chosen.
+    file = mill(
+        jog__speed_third=Value(600.0, "mm/min"),
+        jog__speed_lowest=Value(100.0, "mm/min"),
+        jog__increment_largest=Value(25.0, "mm"),
+    )
+    jog = simulate(file, "jog", "1", {"move.increment": "largest", "move.direction": "minus"})
+    assert jog.result["feedrate"] == (600.0, "mm/min")
+    assert jog.result["stop_position"][0] == pytest.approx(-25.0, abs=0.0254)
+    held = simulate(file, "jog", "1", {"move.hold": "2 s"})
+    assert held.result["feedrate"] == (100.0, "mm/min")
+    # With an exponential ramp the axis goes on by what it has not been given yet: 2 s at the full speed in all.
+    assert held.result["distance"][0] == pytest.approx(100.0 / 60.0 * 2.0)
+    with pytest.raises(SimulationError, match=r"leave out move\.speed"):
+        simulate(file, "jog", "1", {"move.increment": "largest", "move.speed": "highest"})
+    with pytest.raises(SimulationError, match="Unknown jog speed 'warp'"):
+        simulate(file, "jog", "1", {"move.speed": "warp"})

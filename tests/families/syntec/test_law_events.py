@@ -1,0 +1,72 @@
+"""Homing, jogs and stroke limits of a Syntec axis (2.2, 3.2)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.schema import Value
+from amp_studio.sim import SimulationError, simulate
+
+MILL = Path(__file__).parents[3] / "examples" / "syntec-mill" / "SYNTEC_MILL.amp"
+SWITCH = {"move.switch": 20.0, "move.marker": 1.0}
+
+
+def mill(**changes: Value) -> ParameterFile:
+    """Return the example mill with axis 1 homed in the positive direction; changes by parameter id with ``__`` for the point."""
+    file = open_file(MILL).file
+    given = {"home.direction": Value("positive"), "home.grid": Value(False), "home.offset": Value(0)}
+    for parameter, value in (
+        given | {name.replace("__", "."): value for name, value in changes.items()}
+    ).items():
+        file.set((parameter, "1"), value)
+    return file
+
+
+@pytest.mark.parametrize(
+    ("method", "home", "coordinate"),
+    [
+        ("offset", 21.0, 0.0),  # on the index 1 mm off the dog, and 2 mm on; there it is 0
+        ("stay", 19.0, 2.0),  # on the index, which is called 2
+        ("dog-only", 22.0, 0.0),  # 2 mm from the end of the dog
+    ],
+)
+def test_the_methods_end_where_the_slides_say(method: str, home: float, coordinate: float) -> None:
+    file = mill(home__search_method=Value(method), home__offset=Value(2000))
+    found = simulate(file, "home", "1", SWITCH).result
+    assert found["home_from_start"][0] == pytest.approx(home, abs=0.01)
+    assert found["home_position"] == (coordinate, "mm")
+    assert found["stop_position"][0] == pytest.approx(coordinate, abs=0.005)
+
+
+def test_index_only_goes_to_the_first_index() -> None:
+    found = simulate(mill(home__search_method=Value("index-only")), "home", "1", {"move.marker": 3.0}).result
+    assert found["home_from_start"][0] == pytest.approx(3.0)
+    assert "switch_overrun" not in found
+
+
+def test_home_grid_passes_an_index_over_that_is_nearer_than_half_a_turn() -> None:
+    near = simulate(mill(), "home", "1", SWITCH).result
+    grid = simulate(mill(home__grid=Value(True)), "home", "1", SWITCH).result
+    assert near["home_from_start"][0] == pytest.approx(19.0)
+    turn = near["home_from_start"][0] - grid["home_from_start"][0]
+    assert turn == pytest.approx(5.0)  # the pitch of the example
+
+
+def test_beyond_a_stroke_limit_the_axis_runs_on_by_its_following_error() -> None:
+    trace = simulate(mill(), "travel", "1", {"move.feedrate": 6000.0})
+    assert trace.result["limit"] == (400.0, "mm")
+    assert trace.alarms[0].code == "MOT-017/018"
+    assert trace.result["overrun"][0] == pytest.approx(
+        6000.0 / 60.0 / 30.0, rel=0.1
+    )  # speed / loop gain, 1.5.3
+    assert any("the slides print the alarm alone" in text for text in trace.assumptions)
+
+
+def test_a_jog_goes_at_its_speed_and_has_no_increment() -> None:
+    trace = simulate(mill(jog__feedrate=Value(1200, "mm/min")), "jog", "1", {"move.hold": 0.5})
+    assert trace.result["feedrate"] == (1200.0, "mm/min")
+    with pytest.raises(SimulationError, match="No jog increment of this axis is set"):
+        simulate(mill(), "jog", "1", {"move.increment": "1"})
