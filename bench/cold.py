@@ -22,20 +22,21 @@ PROGRAM = (sys.executable, "-m", "amp_studio.cli")
 def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield the measures of cold processes; ``folder`` takes what they write."""
     settings = _private(folder)
-    python = [_run((sys.executable, "-c", "pass"), settings) for _ in range(times + 1)]
-    yield Measure("  Python itself, cold process", tuple(python[1:]))
+    runs = times + 1 if times > 1 else 1  # the first leaves compiled modules, and is thrown away
+    python = [_run((sys.executable, "-c", "pass"), settings) for _ in range(runs)][-times:]
+    yield Measure("  Python itself, cold process", tuple(python))
 
     def program(*arguments: str | Path) -> tuple[float, ...]:
-        return tuple([_run((*PROGRAM, *map(str, arguments)), settings) for _ in range(times + 1)][1:])
+        return tuple([_run((*PROGRAM, *map(str, arguments)), settings) for _ in range(runs)][-times:])
 
-    bare = median(python[1:])  # a start is judged by it, not in seconds
+    bare = median(python)  # a start is judged by it, not in seconds
     yield Measure("--version, cold process", program("--version"), 8 * bare)
     yield Measure("validate, cold process", program("validate", full), 25 * bare)
     picture = program("simulate", example, "step", "-o", folder / "step.svg")
     yield Measure("simulate a move and draw it, cold process", picture, 1.0)
     yield Measure("report to PDF, cold process", program("report", full, "-o", folder / "full.pdf"), 3.0)
-    paint = [_until_painted(example, settings) for _ in range(times + 1)]
-    yield Measure("first paint of the desktop program, cold process", tuple(paint[1:]), 1.5)
+    paint = [_until_painted(example, settings) for _ in range(runs)][-times:]
+    yield Measure("first paint of the desktop program, cold process", tuple(paint), 1.5)
 
 
 def _private(folder: Path) -> Mapping[str, str]:

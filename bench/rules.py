@@ -72,13 +72,14 @@ def _edits(name: str, path: Path, times: int) -> Iterator[Measure]:
             file.apply(Change(address, file.values[address], now))
             validator.update([address])
 
-    every = {a: median(timed(lambda a=a: touch(a), min(times, 5))) for a in list(file.values)}
+    touched = list(file.values) if times > 1 else list(file.values)[::20]
+    every = {a: median(timed(lambda a=a: touch(a), min(times, 5))) for a in touched}
     halved = tuple([seconds / 2 for seconds in every.values()])
     yield Measure(f"re-validate after one edit of a {name} value", halved, 0.0005)
     worst = max(every, key=every.__getitem__)
     slowest = timed(lambda: touch(worst), times)
     yield Measure(f"  the slowest: {written(worst)}", tuple([seconds / 2 for seconds in slowest]))
-    if EDITED in every:
+    if EDITED in file.values:
         values = cycle([Value(12.0, "mm"), Value(11.0, "mm")])
 
         def edit() -> None:
@@ -126,7 +127,7 @@ def _hall(folder: Path, files: int, times: int) -> Iterator[Measure]:
         shutil.copyfile(examples[n % len(examples)], hall / f"{n:04}.amp")
     validate = (sys.executable, "-m", "amp_studio.cli", "validate", str(hall))
     for title, jobs, target in (
-        ("on all processors", (), 1 / 150),
+        ("on all processors", (), 1 / 250),
         ("in one process", ("--jobs", "1"), None),
     ):
         seconds = []

@@ -60,8 +60,8 @@ def close_sessions() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def short_pauses(monkeypatch: pytest.MonkeyPatch) -> None:
     """Call again sooner than a person would need it."""
-    for module in ("connection", "session"):
-        monkeypatch.setattr(f"amp_studio.transfer.house.{module}.PAUSE", 0.03)
+    for pause in ("connection.PAUSE", "session.RESTART_PAUSE"):
+        monkeypatch.setattr(f"amp_studio.transfer.house.{pause}", 0.03)
 
 
 def keep(image: bytes) -> str:
