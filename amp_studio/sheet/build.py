@@ -43,12 +43,13 @@ def make_sheet(
     rules. Secrets are on the sheet only with ``secrets``. Raises SheetError where the two are of different families or machine types.
     """
     _check_sides(wanted, present)
-    present = by_schema(present, wanted.schema)
+    there, present = present.schema, by_schema(present, wanted.schema)
     keying = keying_of(wanted.schema.family.family)
     found = compare(wanted.schema, wanted.values, present.values)
     lines, left_out, same = [], [], found.same
     for difference in found.differences:
-        made = _line(keying, wanted, present, difference, secrets)
+        absent = difference.address[0] in wanted.schema.parameters.keys() - there.parameters.keys()
+        made = _absent(wanted, difference) if absent else _line(keying, wanted, present, difference, secrets)
         if isinstance(made, _Line):
             lines.append(made)
         elif made is not None:
@@ -76,6 +77,10 @@ def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
             f"the file is for the machine type {wanted.machine}, and the control contains one for {present.machine}: "
             "numbers may mean something else there, so it has to be downloaded as a whole"
         )
+
+
+def _absent(wanted: ParameterFile, difference: Difference) -> LeftOut:
+    return LeftOut(*_number_and_name(wanted, difference.address), "this control does not have it")
 
 
 def _line(

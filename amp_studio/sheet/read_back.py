@@ -27,7 +27,7 @@ STATES: dict[ReadBackState, str] = {
 
 _NUMBER_HEAD, _SHOWN_HEAD = "number", "read back"
 _MOST = 1 << 20  # characters
-_LINE = re.compile(r"([^\s=;]+)(?:\s*[=;]\s*|\s+)(.*)")
+_LINE = re.compile(r"([^\s=;:,]+)(?:,\s*|\s*[=;:]\s*|\s+)(.*)")
 
 
 class ReadBackError(ValueError):
@@ -59,7 +59,7 @@ class ReadBack:
 def read_shown(text: str) -> list[Shown]:
     """Return what somebody has read on the screen, of lines ``1750 203.20000``; raises ReadBackError.
 
-    Number and value are parted by blanks, a tab, ``=`` or ``;``; what begins with ``#`` is for the reader. The sheet's own
+    Number and value are parted by blanks, a tab, or one of ``= ; : ,``; what begins with ``#`` is for the reader. The sheet's own
     CSV is taken too, with its column ``read back`` filled in.
     """
     if len(text) > _MOST:

@@ -102,6 +102,7 @@ class ControlActions:
         workspace = self._workspace()
         if not self._is_ready(workspace):
             return
+        self._name_the_only_way(workspace)
         address = self.exchanges.ask_address("Download")
         if address is None:
             return
@@ -122,6 +123,13 @@ class ControlActions:
             self.exchanges.remember(workspace, file)
         if notes:
             self.window.show_status("; ".join(notes))
+
+    def _name_the_only_way(self, workspace: Workspace) -> None:
+        """Show in the status bar that real controls of this family take values at their screens only, if so."""
+        from amp_studio.sheet.keying import keying_of
+
+        if only := keying_of(workspace.file.schema.family.family).only_way.partition(":")[0]:
+            self.window.show_status(f"{only}: use Control > Enter Values by Hand")
 
     def _is_ready(self, workspace: Workspace) -> bool:
         """Ask about unsaved changes and errors; returns whether the file may be downloaded."""
@@ -172,6 +180,7 @@ class ControlActions:
     def verify(self) -> None:
         """Compare the file with the parameters of the control."""
         workspace = self._workspace()
+        self._name_the_only_way(workspace)
         address = self.exchanges.ask_address("Verify")
         if address is None:
             return

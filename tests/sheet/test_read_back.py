@@ -22,6 +22,11 @@ def states(text: str, wanted, present) -> dict[str, str]:
 def test_the_same_number_in_other_digits_is_the_same(wanted, present) -> None:
     text = "# as on the screen\n1750 40.00000\n1740 = 39,0\n\n399;1\n"
     assert states(text, wanted, present) == {"1750": "same", "1740": "same", "399": "same"}
+    assert states("1750: 40\n1740,39.0\n399\t+1", wanted, present) == {
+        "1750": "same",
+        "1740": "same",
+        "399": "same",
+    }
 
 
 @pytest.mark.parametrize(
@@ -29,6 +34,11 @@ def test_the_same_number_in_other_digits_is_the_same(wanted, present) -> None:
 )
 def test_whatever_else_the_screen_shows_is_another_value(wanted, present, shown) -> None:
     assert states(f"1750 {shown}", wanted, present)["1750"] == "other"
+
+
+def test_a_comma_behind_a_blank_is_that_of_a_decimal_fraction(changed, present) -> None:
+    file = changed({"1750": "5 mm", "1740": "0.5 mm"})
+    assert states("1750 ,5\n1740 ,5", file, present) == {"1750": "other", "1740": "same"}
 
 
 def test_the_old_value_and_a_missing_one_are_told_apart(wanted, present) -> None:
