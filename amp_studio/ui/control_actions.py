@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QMessageBox, QStyle
 from amp_studio.files import Document, ParameterFile
 from amp_studio.files.by_schema import by_schema
 from amp_studio.files.out_of_range import settle
-from amp_studio.transfer.progress import Progress
 
 from .control_exchange import ControlExchange
 from .emulated_control import EmulatedControl
@@ -23,6 +22,7 @@ from .questions import ask, show_message
 from .restore import restore
 from .sheet_actions import enter_by_hand
 from .studio_window import StudioWindow
+from .task import TaskProgress
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class ControlActions:
 
         notes: list[str] = []
 
-        def work(progress: Progress, cancel: threading.Event) -> Outcome:
+        def work(progress: TaskProgress, cancel: threading.Event) -> Outcome:
             from amp_studio.transfer.client.parameters import download_file, sha256
 
             return download_file(file, address, path.parent, path.stem, progress, cancel,

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 from amp_studio.files import ParameterFile
-from amp_studio.transfer.progress import Progress
 
 from .emulated_control import EmulatedControl
 from .questions import show_message
 from .studio_window import StudioWindow
-from .task import ProgressDialog
+from .task import ProgressDialog, TaskProgress
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -58,7 +57,7 @@ class ControlExchange:
     def fetch(self, address: str, title: str, family: str = "") -> bytes:
         """Return the image of the control, byte for byte; raises an error for a control of another family."""
 
-        def work(progress: Progress, cancel: threading.Event) -> bytes:
+        def work(progress: TaskProgress, cancel: threading.Event) -> bytes:
             from amp_studio.transfer.client.parameters import fetch_image
 
             return fetch_image(address, progress, cancel, family=family)
@@ -66,7 +65,7 @@ class ControlExchange:
         image: bytes = ProgressDialog(title, work, self.window, "Waiting for the control …", STAGES).run()
         return image
 
-    def run(self, title: str, work: Callable[[Progress, threading.Event], Outcome]) -> Outcome:
+    def run(self, title: str, work: Callable[[TaskProgress, threading.Event], Outcome]) -> Outcome:
         """Run a download or restore, show its outcome and return it."""
         hint = "Waiting for the control …"
         outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()

@@ -28,7 +28,6 @@ from amp_studio.files.by_schema import by_schema
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import EditLock
 from amp_studio.report.wording import counted
-from amp_studio.transfer.progress import Progress
 from amp_studio.validate import Validator, rules_beside
 
 from .file_page import FilePage
@@ -36,7 +35,7 @@ from .format_actions import FormatActions
 from .questions import ask
 from .settings import is_there
 from .studio_window import StudioWindow
-from .task import ProgressDialog, in_background
+from .task import ProgressDialog, TaskProgress, in_background
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -372,7 +371,7 @@ class FileActions:
         file = workspace.file.copy()
         notes: list[str] = []
 
-        def work(_: Progress, __: threading.Event) -> None:
+        def work(_: TaskProgress, __: threading.Event) -> None:
             from amp_studio.report import write_report
 
             write_report(

@@ -39,13 +39,12 @@ from amp_studio.sim import (
 )
 from amp_studio.sim.listing import SimulationListing
 from amp_studio.sim.picture import picture_of, settling_span
-from amp_studio.transfer.progress import Progress
 
 from .motion_plot import MotionPlot
 from .motion_results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .motion_settings import SettingsForm, refill, scrolled
 from .pages import LINK
-from .task import Task
+from .task import Task, TaskProgress
 from .theme import severity_ink
 from .workspace import Workspace
 
@@ -236,7 +235,7 @@ class MotionView(QWidget):
         if asked != self._asked:
             self.before, self._asked = None, asked
 
-        def work(_: Progress, __: threading.Event) -> Trace:
+        def work(_: TaskProgress, __: threading.Event) -> Trace:
             return simulate(file, scenario, str(axis) if axis else None, settings)
 
         self.summary.setText("Simulating …")

@@ -14,9 +14,9 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWi
 from amp_studio.files import ParameterFileError, open_file
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address
-from amp_studio.transfer.progress import Progress
 from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
 
+from .task import TaskProgress
 from .theme import severity_icon, severity_ink
 
 _GOES_TO = Qt.ItemDataRole.UserRole
@@ -38,7 +38,7 @@ class CheckedFile:
         return sum(finding.severity == severity for finding in self.findings)
 
 
-def check_files(paths: list[Path], progress: Progress, cancelled: threading.Event) -> list[CheckedFile]:
+def check_files(paths: list[Path], progress: TaskProgress, cancelled: threading.Event) -> list[CheckedFile]:
     """Return the findings of files, with the rules beside them; after a cancel only those of the files checked so far."""
     checked = []
     for n, path in enumerate(paths):

@@ -10,12 +10,11 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import compare
 from amp_studio.files.by_schema import by_schema
-from amp_studio.transfer.progress import Progress
 from amp_studio.validate import Validator, rules_beside
 
 from .control_exchange import ControlExchange
 from .questions import ask
-from .task import in_background
+from .task import TaskProgress, in_background
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Copy, Outcome
@@ -48,7 +47,7 @@ def restore(control: ControlExchange) -> None:
 
     notes: list[str] = []
 
-    def work(progress: Progress, cancel: threading.Event) -> Outcome:
+    def work(progress: TaskProgress, cancel: threading.Event) -> Outcome:
         return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present), record=path,
                             notify=notes.append)  # fmt: skip
 

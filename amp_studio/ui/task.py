@@ -9,11 +9,11 @@ from typing import Any, ClassVar, TypeVar
 from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
-from amp_studio.transfer.progress import Progress
-
 from .garbage import collect_by_timer
 
-Work = Callable[[Progress, threading.Event], Any]
+TaskProgress = Callable[[str, int, int], None]
+"""Takes a stage, how much is done and of how much; that of an exchange (``transfer.progress``) has the same arguments."""
+Work = Callable[[TaskProgress, threading.Event], Any]
 Result = TypeVar("Result")
 
 PATIENCE_MS = 300
@@ -171,7 +171,7 @@ class ProgressDialog(QDialog):
 def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:
     """Return the result of ``work``, run in a thread while the window stays responsive; raises its errors."""
 
-    def run(_: Progress, __: threading.Event) -> Result:
+    def run(_: TaskProgress, __: threading.Event) -> Result:
         return work()
 
     result: Result = ProgressDialog(title, run, parent, f"{title} …", cancellable=False).run(PATIENCE_MS)
