@@ -38,9 +38,13 @@ _VALUES = (
     "Units: mm, in, deg, mm/min, ipm, deg/min, rpm, ms, s, %, V, Hz",
 )
 _ADDRESSES = (
-    "tcp://HOST:PORT      tls://HOST:PORT      rfc2217://HOST:PORT",
+    "tcp://HOST:PORT      a control in the network",
+    "tls://HOST:PORT      the same over TLS: ?ca=FILE.pem or ?fingerprint=sha256:… checks its certificate",
     "/dev/ttyUSB0, COM3   serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even&stop=2&flow=xonxoff",
+    "rfc2217://HOST:PORT  a serial port of a device server, with the same options",
     "pty:                 (emulate only) make a terminal and print its name",
+    "?protocol=NAME       how it is spoken to, where its family has several ways",
+    "Passwords come from AMP_STUDIO_PASSWORD, the system's keyring, or a question at the terminal.",
 )
 
 

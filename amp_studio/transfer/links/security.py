@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import ipaddress
 import os
 import socket
 from dataclasses import dataclass
@@ -46,7 +45,7 @@ def read_password(path: Path) -> str:
 
 
 def can_others_read(path: Path) -> bool:
-    """Whether other users of this computer may read a file; where the system cannot tell, False."""
+    """Whether other users of this computer may read a file; False on other systems than POSIX."""
     return os.name == "posix" and bool(path.stat().st_mode & 0o077)
 
 
@@ -85,6 +84,8 @@ def fingerprint_of(certificate: Path) -> str:
 
 def is_public(host: str) -> bool:
     """Whether others than this computer reach what listens at a host."""
+    import ipaddress
+
     try:
         found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
     except (OSError, UnicodeError):

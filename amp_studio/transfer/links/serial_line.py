@@ -22,7 +22,7 @@ SLICE = (
 WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
 HELD_LIMIT = 60.0  # seconds the other end may hold the line by flow control
 MOMENT = 0.02  # seconds between two looks at what has not left yet
-STANDSTILL = 0.2  # seconds in which a line that is not held moves at least a byte
+STANDSTILL = 0.2  # seconds in which a line that is not stopped moves at least a byte
 LOOK = 0.1  # seconds between two looks while the line takes nothing
 PIECE = 256  # bytes for which a port that reports room has some
 PSEUDO_TERMINALS = range(136, 144)  # their device numbers on Linux
@@ -83,7 +83,7 @@ class SerialLink:
             time.sleep(MOMENT)
 
     def close(self) -> None:
-        """Give the line up; what the other end holds back by flow control is lost, or the system would wait for it."""
+        """Give the line up; what the other end stops by flow control is lost, or the system would wait for it."""
         with contextlib.suppress(OSError, TypeError, AttributeError):
             waiting, end = -1, 0.0
             while self.is_open and self._held_limit == HELD_LIMIT and (left := self._port.out_waiting) > 0:
@@ -98,7 +98,7 @@ class SerialLink:
             self._port.close()
 
     def _leaving(self) -> int:
-        """Return how many bytes have been written and not left yet; 0 where that is not known."""
+        """Return how many bytes have been written and not left yet; 0 if unknown."""
         try:
             return int(getattr(self._port, "out_waiting", 0))
         except (OSError, TypeError) as error:

@@ -97,7 +97,7 @@ def receive_files(
 
 
 def _drain(link: Link) -> None:
-    """Wait for the other end of a serial line that holds the last bytes back; raises PlainFileError."""
+    """Wait for the other end of a serial line that stops the last bytes; raises PlainFileError."""
     if isinstance(link, SerialLink):
         try:
             link.drain()
