@@ -22,6 +22,7 @@ def loop(
     p[sample.SHARE], p[sample.TERMS], p[sample.WHOLE] = words.share, float(words.terms), 1.0
     p[sample.VOLTS] = words.voltage / words.top
     p[sample.FRICTION], p[sample.FRICTION_LEFT] = _friction(read, words, notes)
+    p[sample.AHEAD] = _ahead(read, words, notes)
     p[sample.EMAX] = read.number("servo.max_following_error") * words.length
     p[sample.TOLERANCE] = _tolerance(read, words, notes)
     p[sample.SYNC_LIMIT], p[sample.BACKLASH] = math.inf, _backlash(read, words, notes)
@@ -42,15 +43,31 @@ def loop(
     return p, alarms, {"maximum following error": p[sample.EMAX], "in-position window": band}
 
 
+def _ahead(read: AxisParameters, words: Words, notes: list[str]) -> float:
+    """Return the acceleration anticipation in samples (6-34), 0 for none.
+
+    In the printed formula one reference is missing: Ri - Ri-2j-1 + Ri-2j-2. Only - Ri-1 makes it 0 at rest and at a constant speed, the change
+    of the filtered speed from one sample to the next.
+    """
+    anticipation = read.optional("servo.acceleration_anticipation") or 0.0
+    if not anticipation:
+        return 0.0
+    if words.share < 1.0:
+        notes.append(
+            f"Acceleration Anticipation (P19N{read.axis}) is not used: it belongs to a speed anticipation of 100 % (6-34), and P55 has"
+            f" {100.0 * words.share:g} %."
+        )
+        return 0.0
+    notes.append(
+        f"ASSUMED: in the printed formula of the acceleration anticipation (P19N{read.axis}, 6-34) - Ri-1 is missing, without which it would act at"
+        " rest and at a constant speed; its time times the acceleration is added to the speed reference."
+    )
+    return anticipation / 1000.0 / words.period
+
+
 def _friction(read: AxisParameters, words: Words, notes: list[str]) -> tuple[float, float]:
     """Return (amplitude in u, share that one sample leaves of the correction) of the dry friction correction (6-34)."""
     amplitude = read.optional("servo.friction_amplitude") or 0.0
-    anticipation = read.optional("servo.acceleration_anticipation") or 0.0
-    if anticipation:
-        notes.append(
-            f"Acceleration Anticipation (P19N{read.axis}) is set, but not simulated: one reference is missing in the printed"
-            " formula (6-34), and which one is unknown."
-        )
     if not amplitude:
         return 0.0, 0.0
     time = (read.optional("servo.friction_time") or 0.0) / 1000.0

@@ -37,12 +37,12 @@ MOST_TERMS = 13
 
 # Parameters
 GAIN, CONSTANT, PERIOD, SHARE, TERMS, FRICTION, FRICTION_LEFT, EMAX, TOLERANCE, VOLTS = range(10)
-LEADER, CORRECTION, SYNC_LIMIT, WHOLE, BACKLASH = 10, 11, 12, 13, 14
-PARAMETERS = 15
+LEADER, CORRECTION, SYNC_LIMIT, WHOLE, BACKLASH, AHEAD = 10, 11, 12, 13, 14, 15
+PARAMETERS = 16
 
 # State
-REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL, ADDED = range(7)
-RING = 7
+REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL, ADDED, STEP = range(8)
+RING = 8
 STATES = RING + MOST_TERMS
 
 # Monitors
@@ -59,7 +59,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     filter, FRICTION amplitude in u and what a sample leaves of it, EMAX in u, TOLERANCE in u per sample (negative: no
     check), VOLTS for 1 u/s; number of samples of the LEADER (0: not synchronised), whose
     measured positions in u come behind the parameters, CORRECTION 0 to 1, SYNC_LIMIT in u;
-    WHOLE: 0 for a converter without steps (the linear model); BACKLASH: u added on positive moves.
+    WHOLE: 0 for a converter without steps (the linear model); BACKLASH: u added on positive moves; AHEAD: acceleration anticipation in samples.
     """
     if io[MODE] == VELOCITY_LOOP or io[MODE] == OUTPUT_TEST:
         volts = io[COMMAND] if io[MODE] == OUTPUT_TEST else p[VOLTS] * io[COMMAND_VELOCITY]
@@ -93,7 +93,8 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     s[FRICTION_NOW] = amplitude - s[AMPLITUDE] + s[FRICTION_NOW] * p[FRICTION_LEFT]
 
     error = reference + s[ADDED] - io[POSITION]
-    wanted = error + p[SHARE] * p[CONSTANT] / p[PERIOD] * step
+    ahead = p[SHARE] * step + p[AHEAD] * (step - s[STEP])
+    wanted = error + p[CONSTANT] / p[PERIOD] * ahead
     points = p[GAIN] * (wanted + p[CORRECTION] * apart + s[FRICTION_NOW])
     if p[WHOLE] != 0.0:
         points = 1.0 * math.floor(points + 0.5)
@@ -115,7 +116,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     io[MONITOR + THEORETICAL_SPEED] = theoretical / p[PERIOD]
     io[MONITOR + REAL_SPEED] = moved / p[PERIOD]
     io[MONITOR + SYNC_ERROR] = apart
-    s[REFERENCE] = reference
+    s[REFERENCE], s[STEP] = reference, step
     s[MEASURED] = io[POSITION]
     s[AMPLITUDE] = amplitude
     s[THEORETICAL] = wanted * p[PERIOD] / p[CONSTANT]

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from amp_studio.families.num import law_sample as sample
 from amp_studio.families.num.law import LAW
 from amp_studio.sim import AxisLaw, SimulationError
 from amp_studio.sim.axis_parameters import AxisParameters
@@ -246,9 +247,14 @@ def test_the_sampling_period_is_the_one_in_force(given: float, application: str,
     assert law.servo_period == pytest.approx(taken)
 
 
-def test_acceleration_anticipation_is_named_as_not_simulated() -> None:
-    law = bound(servo__acceleration_anticipation_at_0=400.0)
-    assert any("P19N0" in each and "unknown" in each for each in law.assumptions)
+def test_acceleration_anticipation_works_with_a_whole_speed_anticipation_and_is_assumed() -> None:
+    # 6-34: 400 us of a sample of 5 ms; the speed anticipation of this corrector is 100 %.
+    whole = bound(servo__acceleration_anticipation_at_0=0.4, servo__speed_anticipation_at_1=100.0)
+    assert whole.parameters[sample.AHEAD] == pytest.approx(0.08)
+    assert any("P19N0" in each and each.startswith("ASSUMED") for each in whole.assumptions)
+    part = bound(servo__acceleration_anticipation_at_0=0.4, servo__speed_anticipation_at_1=60.0)
+    assert part.parameters[sample.AHEAD] == 0.0
+    assert any("P19N0" in each and "not used" in each and "60 %" in each for each in part.assumptions)
 
 
 def test_a_filter_makes_the_anticipation_whole_and_e11012_can_switch_it_off() -> None:

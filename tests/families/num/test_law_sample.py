@@ -205,3 +205,22 @@ def test_the_output_test_sends_the_command_as_volts() -> None:
     axis.io[signals.MODE] = signals.OUTPUT_TEST
     assert axis.sample(2.5, 7.0) == 2.5
     assert axis.sample(12.0, 7.0) == 10.0
+
+
+@pytest.mark.parametrize("terms", [1.0, 5.0])
+def test_acceleration_anticipation_is_the_printed_formula_with_the_reference_that_it_misses(
+    terms: float,
+) -> None:
+    # 6-34: (Ri - Ri-2j-1 + Ri-2j-2) / (2j + 1) misses - Ri-1: with it the sum is 0 at rest and at a constant speed.
+    def points(ahead: float, references: list[float]) -> float:
+        axis = Axis(mill(TERMS=terms, SHARE=1.0, WHOLE=0.0, AHEAD=ahead))
+        for reference in references:
+            axis.sample(reference, reference)
+        return axis.io[signals.MONITOR + law.POINTS]
+
+    rest, even, rising = [3.0] * 20, [0.01 * k for k in range(20)], [0.001 * k * k for k in range(20)]
+    assert points(0.1, rest) == points(0.0, rest)
+    assert points(0.1, even) == pytest.approx(points(0.0, even))
+    last = {k: rising[-1 - k] for k in range(int(terms) + 2)}
+    printed = (last[0] - last[1] - last[int(terms)] + last[int(terms) + 1]) / terms
+    assert points(0.1, rising) - points(0.0, rising) == pytest.approx(4915.0 * 0.06 / PERIOD * 0.1 * printed)
