@@ -15,7 +15,7 @@ from .validator import Validator
 
 if TYPE_CHECKING:
     from .calculator import Argument, Calculator, calculate, calculators, shown_result
-    from .explanation import Explanation, Seen, explain
+    from .explanation import Explanation, SeenValue, explain
     from .fixes import Fixed, apply_all_safe, apply_fixes
     from .rule_file import read_builder_rules, suppress
 
@@ -24,7 +24,7 @@ _PLACES = {
     "Calculator": "calculator",
     "Explanation": "explanation",
     "Fixed": "fixes",
-    "Seen": "explanation",
+    "SeenValue": "explanation",
     "apply_all_safe": "fixes",
     "apply_fixes": "fixes",
     "calculate": "calculator",
@@ -55,7 +55,7 @@ __all__ = [
     "Finding",
     "Fixed",
     "RuleError",
-    "Seen",
+    "SeenValue",
     "Setting",
     "Suppressed",
     "Validator",

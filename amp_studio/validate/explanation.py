@@ -21,7 +21,7 @@ _LONG_LIST = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class SeenValue:
     """A parameter that a finding hangs on."""
 
     name: str
@@ -44,7 +44,7 @@ class Explanation:
     """The demand with the values in the place of the names."""
     sides: tuple[tuple[str, str], ...]
     """What the two sides of a comparison come to, where they are more than a name or a number."""
-    seen: tuple[Seen, ...]
+    seen: tuple[SeenValue, ...]
     errata: tuple[str, ...]
     """Of the parameters it hangs on, where the manual contradicts itself."""
     source: str = ""
@@ -119,10 +119,10 @@ def _is_secret(validator: Validator, address: Address) -> bool:
     return validator.file.schema.parameters[address[0]].secret
 
 
-def _seen(validator: Validator, address: Address, name: str) -> Seen:
+def _seen(validator: Validator, address: Address, name: str) -> SeenValue:
     file = validator.file
     value = show_value(file.schema.parameters[address[0]], file.values.get(address))
-    return Seen(name, address, value, file.evaluation.state(address))
+    return SeenValue(name, address, value, file.evaluation.state(address))
 
 
 def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:

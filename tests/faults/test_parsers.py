@@ -71,7 +71,7 @@ READERS = {
     "transfer/links/endpoint.py": "damaged addresses of controls",
     "transfer/links/password.py": "hostile ends of a password",
     "transfer/links/passwords.py": "",  # a password may be any text
-    "transfer/links/opening.py": "",  # the fingerprint of its own certificate
+    "transfer/links/opening.py": "",  # the fingerprint of the emulator's certificate
     "transfer/links/pseudo_terminal.py": "damaged frames",
     "transfer/links/rfc2217.py": "damaged telnet",
     "transfer/links/serial_ports.py": "",  # the system's text about its ports is only shown
