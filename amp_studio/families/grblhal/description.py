@@ -185,7 +185,7 @@ def _read_setting(found: Description, _tag: str, rest: str) -> None:
 
 def _read_help(found: Description, _tag: str, rest: str) -> None:
     number, _, text = rest.partition("|")
-    _keep(found.helps, _number(number, rest), _text(text), _MOST_SETTINGS, "help of setting")
+    _keep(found.helps, _number(number, rest), _lines(text), _MOST_SETTINGS, "help of setting")
 
 
 def _read_code(found: Description, tag: str, rest: str) -> None:
@@ -229,12 +229,17 @@ def _bound(text: str, rest: str) -> str:
     return text
 
 
+def _lines(text: str) -> str:
+    r"""Return a help without control signs; ``\n`` becomes a new line."""
+    return "\n".join(map(_text, text.split("\\n")))[:_LONGEST].strip()
+
+
 def _text(text: str) -> str:
-    r"""Return a text without control signs; ``\n`` becomes a new line."""
+    """Return a text of one line without control signs."""
     plain = re.sub(
         r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff\ud800-\udfff]", " ", text
     )
-    return plain.replace("\\n", "\n")[:_LONGEST].strip()
+    return plain[:_LONGEST].strip()
 
 
 def _axes_of_groups(found: Description) -> str:

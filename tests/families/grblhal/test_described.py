@@ -105,6 +105,13 @@ def test_a_setting_that_nobody_knows_has_an_id_of_its_group_and_name() -> None:
     assert schema.parameters["other.ssid"].help.what == "SSID. At most 32 characters."
 
 
+def test_texts_of_a_control_are_of_one_line_and_steer_no_terminal() -> None:
+    line = "[SETTING:350|1|Arc\\n\x1b[31m voltage\u202e|V|6|##0.00|10|300|0|0]"
+    schema = schema_of(with_lines(line, "[SETTINGDESCR:350|One\x1b[2J.\\nTwo.]"))
+    (found,) = [p for p in schema.parameters.values() if "voltage" in p.name]
+    assert (found.name, found.help.what) == ("Arc\\n [31m voltage", "One [2J.\nTwo.")
+
+
 def test_a_known_number_of_another_type_is_another_parameter() -> None:
     """Older builds enable homing by yes or no: rules that look at bits of $22 must not look there."""
     old = schema_of(with_lines("[SETTING:22|11|Homing cycle enable||0||||0|0]", without="[SETTING:22|"))
