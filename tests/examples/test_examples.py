@@ -123,6 +123,7 @@ EDITS = {
         "axes.handwheels": "0x03",
         "comm.plctool_line": "Line $4 of the IT/serial line cards",
     },
+    "grblhal": {"homing.pull_off": "2.5 mm", "axis.max_rate@Y": "7500 mm/min", "general.mode": "Lathe mode"},
     "syntec": {"jog.feedrate@1": "2500 mm/min", "home.grid@1": "ON"},
 }
 """Values of each family that its examples do not have."""
