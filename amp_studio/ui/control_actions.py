@@ -37,6 +37,7 @@ class ControlActions:
         self.emulated = EmulatedControl(window)
         self.exchanges = ControlExchange(window, self.emulated)
         self.emulated.ready.connect(self._ready)
+        self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
         act, icons = window.action, QStyle.StandardPixmap
         menu = window.menuBar().addMenu("&Control")
@@ -81,6 +82,13 @@ class ControlActions:
             f"The emulated control stopped: {output}" if output else "Emulated control stopped"
         )
         self.enable()
+
+    def _shown(self, line: str) -> None:
+        """Show a line of the emulated control's screen; one that stays in E-stop stays so in the menu too."""
+        if line.startswith(("held in E-stop: ", "refused: the control stays in E-stop: ")):
+            self.estop_action.setChecked(True)
+        if not line.startswith("estop "):
+            self.window.show_status(f"Emulated control: {line}")
 
     def _estop(self) -> None:
         self.emulated.send("estop on" if self.estop_action.isChecked() else "estop off")

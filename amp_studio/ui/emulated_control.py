@@ -15,6 +15,8 @@ class EmulatedControl(QObject):
 
     ready = Signal(str)
     """The address it listens on."""
+    shown = Signal(str)
+    """A line of its screen: a message, or its answer to a command."""
     ended = Signal(str)
     """Its last output when it ended by itself; empty when it was stopped."""
 
@@ -65,6 +67,8 @@ class EmulatedControl(QObject):
             if line.startswith("listening on "):
                 self.address = line.removeprefix("listening on ").strip()
                 self.ready.emit(self.address)
+            elif line:
+                self.shown.emit(line)
 
     def _failed(self, error: QProcess.ProcessError) -> None:
         if error == QProcess.ProcessError.FailedToStart:

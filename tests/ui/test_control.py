@@ -383,3 +383,14 @@ def test_a_copy_that_was_changed_is_not_put_back(window: MainWindow, person: Per
     person.chooses(copy)
     action(window, "Restore Control From Backup").trigger()
     assert "is not what was kept" in person.reads()
+
+
+def test_a_control_that_stays_in_estop_stays_so_in_the_menu_and_its_reason_is_shown(
+    window: MainWindow,
+) -> None:
+    estop = window.control.estop_action
+    estop.setChecked(False)
+    reason = "the control stays in E-stop: 5 axes are configured and the control supports 3 (page 3-1)"
+    window.control.emulated.shown.emit(f"refused: {reason}")
+    assert estop.isChecked()
+    assert window.statusBar().currentMessage() == f"Emulated control: refused: {reason}"
