@@ -142,6 +142,8 @@ def _values(action: argparse.Action, values: Sequence[str], current: str) -> Ite
     if action.dest in (
         "param",
         "params",
+        "tick",
+        "untick",
         "assignments",
         "group",
         "table",

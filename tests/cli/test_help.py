@@ -248,6 +248,7 @@ LINES = [
     ("amp-studio set MILL_1394.amp control.ty", ["control.type="]),
     ("amp-studio set MILL_1394.amp 350=La", ["Lathe"]),
     ("amp-studio show 9pc home.cal", ["home.calibration"]),
+    ("amp-studio sheet MILL_1394.amp --tick 130", ["1300"]),
 ]
 """A line as it is typed, and what bash puts in the place of what comes after its last word break."""
 
