@@ -46,7 +46,11 @@ class ControlActions:
         upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
         put_back = act("&Restore Control From Backup…", partial(restore, self.exchanges), None, "")
         by_hand = act("Enter Values by &Hand…", partial(enter_by_hand, self.exchanges), None, "file")
+        several = act("Several &Controls…", self.several, None, "file")
+        exchanges = act("E&xchanges of This File…", self.recorded, None, "file")
         menu.addActions([download, verify, upload, put_back, by_hand])
+        menu.addSeparator()
+        menu.addActions([several, exchanges])
         menu.addSeparator()
         self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
         self.estop_action = act("Emulated Control in &E-Stop", self._estop, None, "")
@@ -184,6 +188,19 @@ class ControlActions:
         ):
             return image
         return None
+
+    def several(self) -> None:
+        """Open the dialog that exchanges the file with several controls."""
+        from .fleet_dialog import FleetDialog
+
+        known = self.exchanges.known_addresses()
+        FleetDialog(self._workspace(), known, self.window.guarded, self._is_ready, self.window).show()
+
+    def recorded(self) -> None:
+        """Open the list of the exchanges of the file."""
+        from .exchanges_dialog import ExchangesDialog
+
+        ExchangesDialog(self._workspace(), self.window).show()
 
     def verify(self) -> None:
         """Compare the file with the parameters of the control."""

@@ -36,15 +36,16 @@ class ControlExchange:
     def __init__(self, window: StudioWindow, emulated: EmulatedControl) -> None:
         self.window, self._emulated = window, emulated
 
+    def known_addresses(self) -> list[str]:
+        """Return the addresses of the emulated control, of the project's control and of the last one."""
+        project, settings = self.window.project, self.window.settings
+        known = (self._emulated.address, project.info.control if project else "", settings.control())
+        return list(dict.fromkeys(address for address in known if address))
+
     def ask_address(self, title: str) -> str | None:
         """Ask for the address of the control; suggests the emulated control, that of the project and the last one."""
-        project, settings = self.window.project, self.window.settings
-        known = (
-            self._emulated.address,
-            project.info.control if project else "",
-            settings.control(),
-        )
-        offered = list(dict.fromkeys(a for a in known if a)) or ["tcp://127.0.0.1:9600"]
+        settings = self.window.settings
+        offered = self.known_addresses() or ["tcp://127.0.0.1:9600"]
         label = (
             "Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)"
         )

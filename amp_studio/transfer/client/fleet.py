@@ -2,17 +2,30 @@
 
 from __future__ import annotations
 
+import csv
+import html
+import io
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from pathlib import Path
+from typing import Any, Generic, Literal, TypeVar
 
+from amp_studio.files import Notify, ParameterFile, write_atomic
+from amp_studio.files.spreadsheet import text_cell
 from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.errors import AtControl, TransferError, unforeseen
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.progress import Progress
 
+from .exchange import Outcome
+from .parameters import download_file, fetch_image, sha256
+from .record import add_look
+from .verification import ImageComparison, verify_content
+
+TABLES = (".csv", ".html")
+"""Endings of a table of results."""
 MOST = 16
 """Controls with which is exchanged at once; the others wait."""
 
@@ -91,3 +104,123 @@ def _one(address: str, work: FleetWork[T], progress: Progress) -> FleetResult[T]
         return FleetResult(address, error=str(error), state="old")
     except Exception as error:  # one control does not end the exchange with the others
         return FleetResult(address, error=unforeseen(error), state="unknown")
+
+
+# -- downloads and comparisons as rows of a table -----------------------------------
+
+
+@dataclass(frozen=True)
+class FleetRow:
+    """One control in the table of results: how its exchange ended, in a word and in a sentence.
+
+    ``ending``  "well"; "differs" of a comparison; "failed", and then ``state`` is what the control contains; "not tried"
+    """
+
+    address: str
+    word: str
+    ending: Literal["well", "differs", "failed", "not tried"] = "well"
+    state: AtControl = ""
+    sha256: str = ""
+    kept: str = ""
+    text: str = ""
+
+
+def download_each(
+    file: ParameterFile, path: Path, keep: Path, addresses: Sequence[str], progress: Callable[[str], Progress], *,
+    expected: str | None = None, stop_on_failure: bool = False, cancel: threading.Event | None = None,
+    notify: Notify = lambda _: None,
+) -> list[FleetRow]:  # fmt: skip
+    """Download a file to each control, as ``download_file`` does; ``path`` is its place, ``keep`` the folder of the copies."""
+    files = {address: file.copy() for address in addresses}  # a thread each
+
+    def work(address: str, show: Progress) -> Outcome:
+        return download_file(files[address], address, keep, path.stem, show, cancel, expected=expected, record=path,
+                             notify=notify)  # fmt: skip
+
+    found = with_each(addresses, work, progress, failed=lambda outcome: not outcome.verified,
+                      stop_on_failure=stop_on_failure, cancel=cancel)  # fmt: skip
+    return [_downloaded(each) for each in found]
+
+
+def _downloaded(found: FleetResult[Outcome]) -> FleetRow:
+    outcome = found.result
+    if outcome is None:
+        return failed_row(found)
+    kept = outcome.kept or ""
+    if not outcome.verified:
+        word = _WORDS.get(outcome.at_control, outcome.at_control)
+        return FleetRow(found.address, word, "failed", outcome.at_control, outcome.sha256, kept, outcome.text)
+    word = "done" if outcome.written else "had it already"
+    return FleetRow(found.address, word, "well", outcome.at_control, outcome.sha256, kept, outcome.text)
+
+
+def verify_each(
+    file: ParameterFile, path: Path, addresses: Sequence[str], progress: Callable[[str], Progress], *,
+    stop_on_failure: bool = False, cancel: threading.Event | None = None, notify: Notify = lambda _: None,
+) -> list[FleetRow]:  # fmt: skip
+    """Compare a file with what each control contains, and record that."""
+    family = file.schema.family.family
+    files = {address: file.copy() for address in addresses}
+
+    def work(address: str, show: Progress) -> tuple[ImageComparison, str]:
+        content = fetch_image(address, show, cancel, family=family)
+        compared = verify_content(files[address], content)
+        if problem := add_look("verify", path, family, address, content, compared.summary()):
+            notify(problem)
+        return compared, sha256(content)
+
+    found = with_each(addresses, work, progress, failed=lambda pair: not pair[0].is_same,
+                      stop_on_failure=stop_on_failure, cancel=cancel)  # fmt: skip
+    return [_compared(each) for each in found]
+
+
+def _compared(found: FleetResult[tuple[ImageComparison, str]]) -> FleetRow:
+    if found.result is None:
+        return failed_row(found)
+    compared, digest = found.result
+    if compared.is_same:
+        return FleetRow(found.address, "same", sha256=digest, text=compared.summary())
+    return FleetRow(found.address, "differs", "differs", sha256=digest, text=compared.summary())
+
+
+_WORDS: dict[AtControl, str] = {"": "failed", "old": "failed", "new": "not proved"}
+
+
+def failed_row(found: FleetResult[Any]) -> FleetRow:
+    """Return the row of an exchange without a result."""
+    if not found.was_tried:
+        text = "an exchange before it failed, or was stopped"
+        return FleetRow(found.address, "not tried", "not tried", text=text)
+    word = _WORDS.get(found.state, found.state)
+    return FleetRow(found.address, word, "failed", found.state, kept=found.kept, text=found.error)
+
+
+def write_rows(path: Path, rows: Sequence[FleetRow]) -> None:
+    """Write a table of results as .csv or .html under a new name; raises ValueError for another ending, SaveError."""
+    check_table(path)
+    heads = ("Address", "Result", "SHA-256", "Kept copy", "How it ended")
+    cells = [(r.address, r.word, r.sha256, r.kept, r.text) for r in rows]
+    content = _csv(heads, cells) if path.suffix.lower() == ".csv" else _page(heads, cells)
+    write_atomic(path, content.encode(), expected=None)
+
+
+def check_table(path: Path) -> None:
+    """Refuse a name whose ending is that of no table of results; raises ValueError."""
+    if path.suffix.lower() not in TABLES:
+        raise ValueError(f"{path}: the table is written as {' or '.join(TABLES)}")
+
+
+def _csv(heads: Sequence[str], cells: Sequence[Sequence[str]]) -> str:
+    text = io.StringIO()
+    csv.writer(text).writerows([text_cell(cell) for cell in row] for row in (heads, *cells))
+    return text.getvalue()
+
+
+def _page(heads: Sequence[str], cells: Sequence[Sequence[str]]) -> str:
+    def line(tag: str, row: Sequence[str]) -> str:
+        return f"<tr>{''.join(f'<{tag}>{html.escape(cell)}</{tag}>' for cell in row)}</tr>"
+
+    body = "\n".join([line("th", heads), *(line("td", row) for row in cells)])
+    style = "table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:4px 8px;text-align:left}"
+    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>Controls</title><style>{style}</style>\n'
+            f"<table>\n{body}\n</table></html>\n")  # fmt: skip

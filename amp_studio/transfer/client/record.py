@@ -78,6 +78,14 @@ def add_exchange(beside: Path, exchange: Exchange) -> str:
     return ""
 
 
+def add_look(verb: str, beside: Path, family: str, control: str, content: bytes, text: str) -> str:
+    """Record an exchange that replaced nothing; returns as ``add_exchange``."""
+    digest = _digest(content)
+    return add_exchange(
+        beside, exchange_now(verb, beside, family, control, before=digest, after=digest, text=text)
+    )
+
+
 def exchange_now(verb: str, file: Path, family: str, control: str, **facts: object) -> Exchange:
     """Return an exchange of this moment by this user; ``facts`` are the other fields."""
     return Exchange(now(), user(), verb, file.name, family, control, **facts)  # type: ignore[arg-type]  # as asked for

@@ -1,0 +1,52 @@
+"""The recorded exchanges of a file: who put what into which control, and what that changed."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+
+from amp_studio.files import real_path
+from amp_studio.files.local_time import local_time
+from amp_studio.report.wording import counted
+
+from .workspace import Workspace
+
+_HEADS = ("When", "Who", "Exchange", "Control", "Before", "After", "How it ended")
+
+
+class ExchangesDialog(QDialog):
+    """Lists the exchanges, the newest first; under each the parameters that it changed."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        from amp_studio.transfer.client.record import read_exchanges
+
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(f"Exchanges — {workspace.path.name}")
+        self.resize(980, 480)
+        path = real_path(workspace.path)
+        found = read_exchanges(path.parent, path.name)
+        self.tree = QTreeWidget()
+        self.tree.setHeaderLabels(_HEADS)
+        self.tree.setUniformRowHeights(True)
+        self.tree.setAccessibleName("Recorded exchanges")
+        for each in reversed(found):
+            digests = (each.before[:12], each.after[:12])
+            item = QTreeWidgetItem(
+                [local_time(each.when), each.who, each.verb, each.control, *digests, each.text]
+            )
+            kept = f"\nKept copy: {each.kept}" if each.kept else ""
+            item.setToolTip(6, each.text + kept)
+            for param, old, new in each.changes:
+                item.addChild(QTreeWidgetItem(["", "", "", param, old or "not set", new or "not set"]))
+            self.tree.addTopLevelItem(item)
+        for column in range(6):
+            self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        count = counted(len(found), "exchange", none="no")
+        text = QLabel(f"{count[:1].upper()}{count[1:]} recorded in {path.parent}. "
+                      "Control > Restore Control From Backup puts a kept copy back.")  # fmt: skip
+        text.setWordWrap(True)
+        layout = QVBoxLayout(self)
+        layout.addWidget(text)
+        layout.addWidget(self.tree)
+        workspace.closed.connect(self.close)

@@ -1,0 +1,166 @@
+"""One file and several controls: which, what to do with them, and a table of how it ended."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.report.wording import counted
+from amp_studio.transfer.progress import Progress
+
+from .questions import ask
+from .task import ProgressDialog
+from .theme import severity_icon
+from .workspace import Workspace
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.fleet import FleetRow
+
+
+class FleetDialog(QDialog):
+    """Downloads a file to several controls, or compares it with them. Stays open beside the table.
+
+    ``guarded`` runs an action and shows its error; ``is_ready`` asks about unsaved changes and errors before a download.
+    """
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        addresses: list[str],
+        guarded: Callable[[Callable[[], object], str], object],
+        is_ready: Callable[[Workspace], bool],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(f"Several Controls — {workspace.path.name}")
+        self.resize(900, 480)
+        self._workspace, self._is_ready = workspace, is_ready
+        self.rows: list[FleetRow] = []
+        self.addresses = QPlainTextEdit("\n".join(addresses))
+        self.addresses.setPlaceholderText("One address a line: tcp://192.168.0.11:9600")
+        self.addresses.setTabChangesFocus(True)
+        self.addresses.setAccessibleName("Addresses of the controls")
+        self.addresses.setMaximumHeight(110)
+        self.stop = QCheckBox("One after the other, and &stop at the first failure")
+        self.stop.setChecked(True)
+        self.table = QTreeWidget()
+        self.table.setHeaderLabels(["Control", "Result", "SHA-256", "How it ended"])
+        self.table.setRootIsDecorated(False)
+        self.table.setAccessibleName("Results")
+        for column in range(3):
+            self.table.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        self.verify_button, self.download_button = QPushButton("&Verify"), QPushButton("&Download…")
+        self.save_button, close = QPushButton("Save &Table…"), QPushButton("&Close")
+        self.save_button.setEnabled(False)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.save_button)
+        buttons.addStretch()
+        for button, act in (
+            (self.verify_button, lambda: guarded(self.verify, "Verify")),
+            (self.download_button, lambda: guarded(self.download, "Download")),
+            (close, self.close),
+        ):
+            button.clicked.connect(act)
+            buttons.addWidget(button)
+        self.save_button.clicked.connect(lambda: guarded(self.save, "Save Table"))
+        for each in (self.verify_button, self.download_button, self.save_button, close):
+            each.setAutoDefault(False)
+        layout = QVBoxLayout(self)
+        layout.addWidget(QLabel("Controls, one address a line:"))
+        layout.addWidget(self.addresses)
+        layout.addWidget(self.stop)
+        layout.addWidget(self.table)
+        layout.addLayout(buttons)
+        workspace.closed.connect(self.close)
+
+    def _named(self) -> list[str]:
+        """Return the addresses; raises ValueError."""
+        from amp_studio.transfer.client.fleet import check_addresses
+
+        found = [line.strip() for line in self.addresses.toPlainText().splitlines() if line.strip()]
+        if not found:
+            raise ValueError("Name at least one control: its address, one a line.")
+        check_addresses(found)
+        return found
+
+    def verify(self) -> None:
+        """Compare the file with what each control contains."""
+        from amp_studio.transfer.client.fleet import verify_each
+
+        named, file, path = self._named(), self._workspace.file.copy(), self._workspace.path
+        stop_on_failure = self.stop.isChecked()
+        self._run("Verify", lambda progress, cancel: verify_each(
+            file, path, named, _of_each(progress), stop_on_failure=stop_on_failure, cancel=cancel))  # fmt: skip
+
+    def download(self) -> None:
+        """Download the file to each control; what each contained is kept beside the file first."""
+        from amp_studio.transfer.client.fleet import download_each
+
+        named = self._named()
+        if not self._is_ready(self._workspace):
+            return
+        what = f"Download {self._workspace.path.name} to {counted(len(named), 'control')}?"
+        question = (
+            f"{what} All parameters of each are replaced; what it contains now is kept beside the file first."
+        )
+        if ask(self, "Download", question, "&Download", "Cancel", default=1) != "&Download":
+            return
+        file, path = self._workspace.file.copy(), self._workspace.path
+        stop_on_failure = self.stop.isChecked()
+        self._run("Download", lambda progress, cancel: download_each(
+            file, path, path.parent, named, _of_each(progress), stop_on_failure=stop_on_failure, cancel=cancel))  # fmt: skip
+
+    def _run(self, title: str, work: Callable[[Progress, threading.Event], list[FleetRow]]) -> None:
+        self.rows = ProgressDialog(title, work, self, "Waiting for the controls …").run()
+        self.table.clear()
+        for row in self.rows:
+            item = QTreeWidgetItem([row.address, row.word, row.sha256[:12], row.text])
+            severity = {"well": None, "differs": "warning", "not tried": "warning"}.get(row.ending, "error")
+            if severity is not None:
+                item.setIcon(1, severity_icon(severity))
+            item.setToolTip(3, row.text)
+            self.table.addTopLevelItem(item)
+        well = sum(row.ending == "well" for row in self.rows)
+        self.table.setAccessibleDescription(
+            f"{well} of {counted(len(self.rows), 'control')} without a failure"
+        )
+        self.save_button.setEnabled(bool(self.rows))
+
+    def save(self) -> None:
+        """Ask for a name and write the table of results."""
+        from amp_studio.transfer.client.fleet import write_rows
+
+        near = str(self._workspace.path.with_name("controls.csv"))
+        text, _ = QFileDialog.getSaveFileName(self, "Save table", near, "Tables (*.csv *.html)")
+        if text:
+            write_rows(Path(text), self.rows)
+
+
+def _of_each(progress: Progress) -> Callable[[str], Progress]:
+    """Return the progress of each control: its stage with its address before it."""
+
+    def of(address: str) -> Progress:
+        def show(stage: str, done: int, total: int) -> None:
+            if stage != "silent":
+                progress(f"{address}: {stage}", done, total)
+
+        return show
+
+    return of
