@@ -248,6 +248,9 @@ class TerminalDriver(AcrContent):
         """Return the error with what the card contains now, read from it."""
         if not sending.touched:
             return error
+        if isinstance(error, ConnectionCutError):  # it was called long enough
+            error.at_control = "unknown"
+            return error
         try:
             now = _joined(CardContent.read(self._fetched("verify")), sending)
             error.at_control, error.new = state_after_break(

@@ -147,6 +147,9 @@ class NumControl:
         except TableError as error:
             self._fail(str(error))
             return
+        except OSError as error:
+            self._fail(f"the memory takes nothing more: {error.strerror}")
+            return
         if self._doing == "reading" and self._lines % LINES_A_STOP == 0:
             self._stop_peripheral()
 

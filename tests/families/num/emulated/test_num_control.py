@@ -180,6 +180,13 @@ def test_a_cut_load_leaves_the_lines_that_came_whole(bench: Bench, tmp_path: Pat
     assert words[10] == "0"
 
 
+def test_a_full_memory_stops_the_load(bench: Bench) -> None:
+    bench.control._parameters._memory.full_at = 10
+    bench.press("load", "enter")
+    bench.send(line("%00000000") + line("P9N0:t0n32") + line("#7 8"))
+    assert bench.screen[-1].endswith("[line 3: the memory takes nothing more: No space left on device]")
+
+
 def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
     (tmp_path / "table").write_bytes(b"no table\n")
     with pytest.raises(ValueError, match="is not what an emulated control writes"):
