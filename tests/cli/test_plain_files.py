@@ -127,6 +127,9 @@ def test_a_broken_transfer_says_how_much_has_arrived(
         in told
     )
 
+    address, _ = other_end(lambda line: line.put(b"C") and line.get(133, 5) and line.put(b"\x18\x18"))
+    assert run(["send", str(tmp_path / "plan.txt"), "--to", address]) == 4, "a block was on the line"
+    assert "; 0 of 300 bytes were acknowledged" in capsys.readouterr().err
     address, _ = other_end(lambda line: line.put(b"\x18\x18"))
     assert run(["send", str(tmp_path / "plan.txt"), "--to", address]) == 2, "nothing has arrived"
     assert run(["send", str(tmp_path / "plan.txt"), "--to", "tcp://127.0.0.1:1"]) == 2
@@ -162,6 +165,7 @@ def test_raw_text_goes_with_marks_and_leader(
             ["send", "odd.txt", "--to", "/dev/ttyS0?bits=7", "--protocol", "raw"],
             "line 2 contains the byte B5h",
         ),
+        (["send", "x" * 120, "--to", "tcp://127.0.0.1:1", "--protocol", "ymodem"], "it has 100 at most"),
         (["receive", "--from", "tcp://127.0.0.1:1", "-o", "."], "is a folder, and xmodem carries no name"),
         (["receive", "--from", "tcp://127.0.0.1:1", "-o", "x", "--wait", "0"], "no number of seconds"),
         (["send", "plan.txt", "--to", "tcp://127.0.0.1:1", "--leader", "-3"], "--leader"),
@@ -176,6 +180,7 @@ def test_what_cannot_be_sent_is_refused_before_anything_is_opened(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("plan.txt").write_bytes(b"x")
+    Path("x" * 120).write_bytes(b"x")
     Path("odd.txt").write_bytes(b"N1\n10 \xb5m\n")
     assert run(arguments) == 2
     assert said in capsys.readouterr().err

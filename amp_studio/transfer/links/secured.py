@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ipaddress
 import ssl
 import time
 from collections import Counter
@@ -74,8 +75,8 @@ class SecuredListener:
 
     def _most_numerous(self) -> Entering:
         """Return the first of those who wait from the host that has most of them: a crowd displaces only its own."""
-        hosts = Counter(caller.peer.host for caller, _, _ in self._entering)
-        return max(self._entering, key=lambda entry: hosts[entry[0].peer.host])
+        hosts = Counter(neighbourhood(caller.peer.host) for caller, _, _ in self._entering)
+        return max(self._entering, key=lambda entry: hosts[neighbourhood(entry[0].peer.host)])
 
     def _let_in(self) -> Link | None:
         """Take each of those who wait a step further; return the first who is through."""
@@ -135,7 +136,18 @@ class SecuredListener:
             got += came
             if not came:
                 yield None
-        answer, is_right = gate.answer(link.peer.host, challenge, got, self._certificate)
+        answer, is_right = gate.answer(neighbourhood(link.peer.host), challenge, got, self._certificate)
         link.write(answer)
         if not is_right:
             raise LinkError(self.endpoint, "wrong password")
+
+
+def neighbourhood(host: str) -> str:
+    """Return what counts as one host: an IPv4 address, or the 64 bits of an IPv6 network, in which anybody has any address."""
+    try:
+        found = ipaddress.ip_address(host.partition("%")[0])
+    except ValueError:
+        return host
+    if isinstance(found, ipaddress.IPv4Address):
+        return str(found)
+    return str(found.ipv4_mapped or ipaddress.ip_network((found, 64), strict=False))

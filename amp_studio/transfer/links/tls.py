@@ -113,8 +113,8 @@ def _connected(endpoint: Endpoint, timeout: float) -> ssl.SSLSocket:
 
 
 def client_context(endpoint: Endpoint) -> ssl.SSLContext:
-    """Return what a certificate is checked by: the one fingerprint, a file of certificates, or those of the system."""
-    if endpoint.fingerprint:
+    """Return what a certificate is checked by: the one fingerprint, a file of certificates (or both), or those of the system."""
+    if endpoint.fingerprint and not endpoint.ca:
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         context.check_hostname = False
         context.verify_mode = ssl.CERT_NONE  # its digest is compared instead

@@ -18,7 +18,7 @@ from .line import ByteLine, Patience, PlainFileError
 from .raw import Tape, punch, read_tape
 from .receiver import BlockReceiver
 from .sender import BlockSender
-from .ymodem import PlainFile, receive_batch, send_batch, without_padding
+from .ymodem import PlainFile, header_of, receive_batch, send_batch, without_padding
 
 SENDING = ("xmodem", "xmodem-1k", "ymodem", "raw")
 RECEIVING = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
@@ -49,12 +49,14 @@ def send_files(
     """Send files (one, unless by YMODEM); raises PlainFileError, whose ``at_control`` is "unknown" once some has arrived."""
     if protocol == "raw":
         _need_fitting(endpoint, files[0].content)
+    if protocol == "ymodem":
+        for file in files:
+            header_of(file)  # a name that does not fit is refused before anything is opened
     with _line(endpoint, protocol != "raw", patience, progress, cancel) as (line, link):
         sender = BlockSender(line, long_blocks=protocol != "xmodem")
-        began = False
         try:
             if protocol == "raw":
-                began = True
+                sender.has_begun = True
                 punch(line, files[0].content, tape or Tape(), link.bytes_per_second)
                 _drain(link)
             elif protocol == "ymodem":
@@ -63,12 +65,12 @@ def send_files(
                 sender.await_start()
                 sender.send(files[0].content)
         except PlainFileError as error:
-            if sender.taken or began:
+            if sender.has_begun:
                 total = sum(len(file.content) for file in files)
                 error.at_control = "unknown"
                 error.what += (
                     "; how much has arrived is not known: look at the control"
-                    if began
+                    if protocol == "raw"
                     else f"; {sender.taken} of {total} bytes were acknowledged: look at the control what it has made of them"
                 )
             raise

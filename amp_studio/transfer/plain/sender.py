@@ -10,13 +10,17 @@ EASY = 32  # short blocks after one that needed several tries; then long ones ag
 
 
 class BlockSender:
-    """Sends numbered blocks. ``taken`` counts the bytes that were acknowledged."""
+    """Sends numbered blocks.
+
+    ``has_begun`` once a block was on the line, whatever became of it; ``taken`` counts the bytes that were acknowledged.
+    """
 
     def __init__(self, line: ByteLine, *, long_blocks: bool) -> None:
         self._line = line
         self._long_blocks = long_blocks
         self._easy = 0
         self._crc = False
+        self.has_begun = False
         self.taken = 0
 
     def await_start(self) -> None:
@@ -58,6 +62,7 @@ class BlockSender:
         for tries in range(1, TRIES + 1):
             if line.drop():
                 raise PlainFileError("the other end has given the transfer up")
+            self.has_begun = True
             answer = self._answer(line.put(data), line.patience.answer, (ACK, NAK, WANT_CRC))
             if answer == ACK:
                 if late:

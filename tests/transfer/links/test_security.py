@@ -27,7 +27,7 @@ from amp_studio.transfer.links.password import (
     key_of,
     proof_of,
 )
-from amp_studio.transfer.links.secured import SecuredListener
+from amp_studio.transfer.links.secured import SecuredListener, neighbourhood
 from amp_studio.transfer.links.security import Security, exposure, read_password
 
 HERE = Path(__file__).with_name("certificates")
@@ -366,6 +366,12 @@ def test_a_crowd_displaces_only_its_own() -> None:
     listener = SecuredListener(SimpleNamespace(endpoint=Endpoint("tcp")), None, None)  # type: ignore[arg-type]
     listener._entering = [(caller, 0.0, iter(())) for caller in callers]  # type: ignore[misc]
     assert listener._most_numerous()[0] is callers[1]
+
+
+def test_who_has_a_whole_network_of_addresses_is_one_who_guesses() -> None:
+    assert neighbourhood("192.168.0.5") == neighbourhood("::ffff:192.168.0.5") == "192.168.0.5"
+    assert neighbourhood("2001:db8::1") == neighbourhood("2001:db8::ffff:2%eth0") == "2001:db8::/64"
+    assert neighbourhood("room") == "room"
 
 
 def test_a_control_whose_first_words_begin_like_a_challenge_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
