@@ -4,11 +4,15 @@ and answers ``ok``.
 
 from __future__ import annotations
 
+import re
+
 from .description import AXES, BOOLEAN, CHOICE, DECIMAL, IPV4, MASK, PASSWORD, SWITCHED_MASK, TEXT, Setting
 from .numbers import LARGEST, read_number
 
 CLASSIC = {0: 255, 1: 255, 2: 255, 3: 255, 10: 255, 23: 255, 26: 65_535}
 """The largest whole numbers of a Grbl 1.1, which does not check them either (settings.h ``settings_t``)."""
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)")
 
 
 class BoundsError(ValueError):
@@ -23,6 +27,8 @@ def check_text(setting: Setting | None, number: int, text: str, axes: int) -> No
     name = f"${number} {setting.name}" if setting else f"${number}"
     if not text.isascii() or not text.isprintable():
         raise BoundsError(f"{name} takes plain ASCII signs only")
+    if (setting is None or setting.type == DECIMAL) and not _NUMBER.fullmatch(text):
+        raise BoundsError(f"{name} takes a number, not '{text[:40]}'")
     if setting is None:
         if text.isdecimal() and int(text) > CLASSIC.get(number, LARGEST):
             raise BoundsError(f"{name} takes 0 to {CLASSIC.get(number, 0)}, not {text}")

@@ -13,6 +13,7 @@ from amp_studio.transfer.errors import (
     CancelledError,
     ConnectionCutError,
     ImageChangedError,
+    NoConnectionError,
     ProtocolMismatchError,
     TransferError,
     WrongFamilyError,
@@ -92,7 +93,7 @@ class GrblDriver(GrblContentKind):
                     if stage == "verify":
                         line.rest(SETTLE)
                     return write_content(self._read(line, progress, stage))
-            except ConnectionCutError:
+            except (ConnectionCutError, NoConnectionError):
                 if stage != "verify" or self._clock() >= end:
                     raise
                 self._sleep(PAUSE)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from decimal import Decimal
 
 from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import InvalidValueError, Schema, Value, load_schema
@@ -16,7 +15,7 @@ from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content
 from .description import Setting, description_of, read_description
 from .fitting import fit_to
-from .numbers import decimals_of, is_shown_as, read_number, shown_number, written_number
+from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
 from .offsets import PUT_BACK, offset_differences
 from .settings import compiled_in, settings_of_file, values_of_settings
 
@@ -119,7 +118,9 @@ def _wanted(file: ParameterFile, schema: Schema) -> dict[int, str]:
         if fitted.misfits:
             named = "; ".join(map(str, fitted.misfits[:_SHOWN]))
             more = f" and {len(fitted.misfits) - _SHOWN} more" if len(fitted.misfits) > _SHOWN else ""
-            raise ImageError(f"this control cannot take all of the file: {named}{more}")
+            raise ImageError(
+                f"this control cannot take all of the file: {named}{more} (a value of not-set is not sent)"
+            )
         file = fitted.file
     others = {int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)}
     return {**others, **settings_of_file(file)}
@@ -157,16 +158,23 @@ def _lacking_text(numbers: list[int]) -> str:
 
 def _is_as_fine(text: str, shown: str) -> bool:
     """Whether what is shown is all of it: of 0.0004 a control shows 0.000, and may contain either."""
-    return text == shown or (decimals_of(shown) is not None and Decimal(text) == Decimal(shown))
+    return text == shown or is_same_number(text, shown)
 
 
 def _as_shown(text: str, shown: str) -> str:
     """Return a text in the form in which the control will show it, if it is the same number."""
     decimals = decimals_of(shown)
-    if decimals is None:
+    try:
+        will_show = "" if decimals is None else shown_number(read_number(text), decimals)
+        return (
+            will_show
+            if is_same_number(will_show, text)
+            else text
+            if decimals is None
+            else written_number(float(text))
+        )
+    except ValueError:
         return text
-    will_show = shown_number(read_number(text), decimals)
-    return will_show if Decimal(will_show) == Decimal(text) else written_number(float(text))
 
 
 def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bool) -> dict[int, str]:

@@ -13,6 +13,7 @@ DIGITS = 9
 LARGEST = 4_000_000_000.0
 """Beyond it the whole part is not shown any more (32 bits)."""
 
+_WHOLE_NUMBER = re.compile(r"-?\d{1,40}(\.\d{0,40})?")
 _NUMBER = re.compile(r"[+-]?(\d*)(?:\.(\d*))?")
 
 
@@ -83,7 +84,7 @@ def decimals_of(shown: str) -> int | None:
 
 def is_shown_as(sent: str, shown: str) -> bool:
     """Whether a control that shows a setting so may have got it so."""
-    if sent == shown:
+    if sent == shown or is_same_number(sent, shown):
         return True
     decimals = decimals_of(shown)
     try:
@@ -92,3 +93,9 @@ def is_shown_as(sent: str, shown: str) -> bool:
         return shown_number(read_number(sent), decimals) == shown
     except ValueError:
         return False
+
+
+def is_same_number(a: str, b: str) -> bool:
+    """Whether two texts are the same number, whatever zeros are written."""
+    numbers = [_WHOLE_NUMBER.fullmatch(text) for text in (a, b)]
+    return all(numbers) and Decimal(a) == Decimal(b)

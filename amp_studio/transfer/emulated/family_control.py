@@ -6,7 +6,7 @@ import contextlib
 import tempfile
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from amp_studio.files import new_file
@@ -65,7 +65,8 @@ def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
             f"Known: {', '.join(offered)}"
         )
     run: Emulate = load_part(offered[name])
-    return run(place, options)
+    # Its address names the protocol, where a client would try the house protocol on it.
+    return run(replace(place, protocol=place.protocol or ("" if name in GENERAL else name)), options)
 
 
 def emulators_of(family: str) -> dict[str, str]:

@@ -51,7 +51,8 @@ def test_a_number_is_shown_as_the_firmware_shows_it(value: float, decimals: int,
 @pytest.mark.parametrize(
     ("sent", "shown", "same"),
     [("0.0004", "0.000", True), ("0.0006", "0.000", False), ("250", "250.00000", True), ("70000", "4464", False),
-     ("301.5", "301.501", False), ("7", "7", True), ("text", "text", True), ("x", "0.000", False), ("3", "", False)],
+     ("301.5", "301.501", False), ("7", "7", True), ("text", "text", True), ("x", "0.000", False), ("3", "", False),
+     ("250.004", "250.00400", True), ("-0.0", "0.000", True)],
 )  # fmt: skip
 def test_what_is_shown_is_compared_as_it_is_rounded(sent: str, shown: str, same: bool) -> None:
     assert is_shown_as(sent, shown) is same
