@@ -1,0 +1,60 @@
+"""The window exchanges files with controls in their own ways of speaking, through the same actions as any other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from amp_studio.families.acromill.emulated.card import AcrCard
+from amp_studio.files import new_file, save_file
+from amp_studio.schema import Value
+from amp_studio.transfer.emulated.line_device import DeviceSetup
+from amp_studio.transfer.emulated.memory import Memory
+from amp_studio.transfer.waiting import PERSON
+from amp_studio.ui.compare_dialog import DownloadPreview
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.task import ProgressDialog
+from tests.transfer.device_line import served
+
+from .conftest import Person, action
+
+
+def test_an_acr_card_is_verified_and_downloaded_over_its_terminal(
+    window: MainWindow, person: Person, accept, tmp_path: Path
+) -> None:
+    path = tmp_path / "router.amp"
+    file = new_file("acromill")
+    file.set(("servo.p_gain", "X"), Value(0.08, "V/count"))
+    save_file(file, path)
+    window.open_first(path)
+    previews = []
+    accept(DownloadPreview, lambda dialog: previews.append(len(dialog.list.items)))
+    card = AcrCard(DeviceSetup("acromill", Memory(tmp_path / "card"), print))
+    with served(card, "tcp://127.0.0.1:0?protocol=terminal") as (address, _):
+        person.types(address)
+        action(window, "Download to Control").trigger()
+        message = person.reads()
+        person.types(address)
+        action(window, "Verify With Control").trigger()
+        compared = person.reads()
+    assert message.startswith("Download complete and read back equal. The card has saved it (ESAVE).")
+    assert previews == [1], "what a card does not keep is not shown as a change of it"
+    assert card.settings.values["PGAIN X"] == "0.08"
+    assert compared.startswith("Nothing differs: 112 values and every byte are the same.")
+
+
+def test_what_a_person_is_to_do_at_the_control_is_shown_until_it_is_done(window: MainWindow) -> None:
+    texts: list[str] = []
+
+    def work(progress, cancel):  # type: ignore[no-untyped-def]
+        progress("At the control: 3 UNLOAD", 0, PERSON)
+        progress("silent", 5, 0)
+        progress("upload", 1, 2)
+
+    dialog = ProgressDialog("Work", work, window, "Waiting …", {"upload": "Reading …"})
+    dialog.task.progressed.connect(lambda *_: texts.append(dialog.text.text()))
+    dialog.run()
+    assert texts == [
+        "At the control: 3 UNLOAD",
+        "At the control: 3 UNLOAD\nNo answer for 5 s, trying again …",
+        "Reading …",
+    ]
