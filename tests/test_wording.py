@@ -83,6 +83,7 @@ DOCUMENTS = (
     "docs/protocols/exchange.md",
     "docs/protocols/num-table.md",
     "docs/protocols/acr-terminal.md",
+    "docs/protocols/grblhal.md",
     "Makefile",
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
 )
