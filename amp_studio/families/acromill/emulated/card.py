@@ -12,7 +12,7 @@ from amp_studio.transfer.emulated.family_control import EmulatedOptions
 from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
 from amp_studio.transfer.links.endpoint import Endpoint
 
-from .settings import CardSettings, CommandError
+from .settings import COMMANDS_LISTED, CardSettings, CommandError
 
 BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
 LONGEST = 128  # signs of a line; more are neither taken nor echoed (assumed)
@@ -82,6 +82,8 @@ class AcrCard:
                 self.settings.erase()
             case "VER":
                 return list(BANNER)
+            case "HELP":
+                return [*BANNER, "Commands: " + COMMANDS_LISTED]
             case "ECHO":
                 return ["ON" if self._echoes else "OFF"]
             case word if found := re.fullmatch("PROG([0-9])", word):

@@ -33,6 +33,28 @@ RATCH RATIO REBOOT REN RES RESUME RETURN REV ROTARY ROTATE ROV RUN SAMP SAVE SCA
 SRC STEP STEPPER STP SYS THEN TLM TRG TRJ TROFF TRON UNLOCK USING VECDEF VECTOR VEL WIDTH XID
 """
 """Words that the terminal lists (page 91) and this card knows by name only."""
+COMMANDS_LISTED = " ".join(
+    sorted(
+        (
+            *_LISTED.split(),
+            *_BY_AXIS,
+            "EXC",
+            "NOTCH",
+            "DAC",
+            "BSC",
+            "ECHO",
+            "ELOAD",
+            "ERASE",
+            "ESAVE",
+            "HELP",
+            "PRINT",
+            "PROG",
+            "REM",
+            "VER",
+        )
+    )
+)
+"""All of them, as HELP shows them."""
 
 
 class CommandError(ValueError):

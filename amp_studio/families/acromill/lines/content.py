@@ -23,6 +23,8 @@ from amp_studio.transfer.image import ImageError
 KIND = "ACR script 1"
 FAMILY = "acromill"
 TABLE = "ballscrew.table"
+LONGEST = 250
+"""Signs of a line; the longest figure that a card shows has some hundred."""
 DIGITS = 7
 """Digits that a card shows (pages 92 and 94)."""
 _HEAD = re.compile(rf"{KIND}\nREM units ([a-z]+)\n")
@@ -60,9 +62,9 @@ class CardContent:
         return found
 
     def _take(self, line: str, number: int, by_name: dict[str, CommandSetting]) -> None:
-        word = _BALLSCREW.fullmatch(line)
+        word = _BALLSCREW.fullmatch(line[: LONGEST + 1])
         name, figures = (f"BSC {word[1]}", (str(word[3]),)) if word else _figures_of(line, by_name)
-        if not name or name in self.figures or name in self.ballscrew:
+        if not name or len(line) > LONGEST or name in self.figures or name in self.ballscrew:
             raise ImageError(
                 f"line {number} of the script of the card sets nothing that is known, or twice: {line[:60]}"
             )
@@ -208,7 +210,7 @@ def _figures_of(line: str, by_name: dict[str, CommandSetting]) -> tuple[str, tup
     """Return which setting a line sets and with which figures, none for its name alone; an empty name where it sets none."""
     if line in by_name:
         return line, ()
-    figure = r"([+-]?[0-9]*\.?[0-9]+)"
+    figure = r"([+-]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+))"
     for name, setting in by_name.items():
         if line.startswith(name):
             pattern = re.escape(setting.write(["\0"] * len(setting.addresses))).replace("\0", figure)

@@ -34,6 +34,7 @@ from amp_studio.transfer.waiting import OpenLink, Waiting
 
 from .content import (
     FAMILY,
+    LONGEST,
     AcrContent,
     CardContent,
     changed,
@@ -54,7 +55,7 @@ CAN_BE_OFF = ("LOPASS", "NOTCH")
 AXES = "XYZABCUV"
 SHOWN = 60  # signs of the card's words in a message
 
-_FIGURE = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]{1,2})?"
+_FIGURE = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:E[+-]?[0-9]{1,2})?"
 _FIGURES = re.compile(rf"\(?\s*({_FIGURE})(?:\s*,\s*({_FIGURE}))?\s*\)?", re.IGNORECASE)
 
 Figures = tuple[str, ...]
@@ -170,7 +171,7 @@ class TerminalDriver(AcrContent):
         rows = self._twice(name)
         if not rows:
             return () if name.startswith(CAN_BE_OFF) else None
-        found = _FIGURES.fullmatch(rows[0].removeprefix(name).strip())
+        found = _FIGURES.fullmatch(rows[0][:LONGEST].removeprefix(name).strip())
         if found is None or len(rows) > 1:
             return None
         figures = tuple(plain_figure(figure) for figure in found.groups() if figure is not None)

@@ -34,7 +34,7 @@ LARGEST = 1 << 15  # bytes of an answer
 BACKSPACE = b"\b"
 SPOIL = b"Q)"
 """No figure ends so, and no command has a bracket that was not opened: what is left of a line is not obeyed with it."""
-_PROMPT = re.compile(rb"(?:^|\r\n)P([0-9]{2})>$")
+_PROMPT = re.compile(rb"(?:^|[\r\n])P([0-9]{2})> ?$")
 
 
 class _DamagedError(Exception):
@@ -128,14 +128,14 @@ class Terminal:
         link.write(b"\r")
         answer = self._read_until(link, lambda got: _PROMPT.search(got) is not None, seconds)
         found = _PROMPT.search(answer)
-        if found is None or not answer.startswith(b"\r\n"):
+        if found is None or not answer.startswith((b"\r", b"\n")):
             raise _DamagedError("there is no prompt behind its answer")
         self._is_clear = True
         self.program = found[1].decode()
-        rows = answer[2 : found.start()].decode("latin-1")
+        rows = answer[: found.start()].decode("latin-1")
         if re.search(r"[^\r\n -~]", rows):
             raise _DamagedError("its answer is damaged")
-        return [row.strip() for row in rows.split("\r\n") if row.strip()]
+        return [row.strip() for row in re.split("[\r\n]+", rows) if row.strip()]
 
     def _clear(self, link: Link) -> None:
         """Take half a line away, or spoil it where the card knows no backspace, and wait for a prompt."""

@@ -81,7 +81,6 @@ def test_a_command_sets_and_its_word_without_a_figure_shows(
         ("BSC X1E.00325", "Position out of range\r\n"),
         ("BSC X0E0.00325", "Syntax error\r\n"),
         ("P99999=1", "Number out of range\r\n"),
-        ("HELP", "Unknown command\r\n"),
     ],
 )
 def test_what_the_card_does_not_obey_it_answers_in_words(terminal: Terminal, line: str, shown: str) -> None:
@@ -145,4 +144,5 @@ def test_a_full_memory_is_told(terminal: Terminal) -> None:
 
 def test_the_version_and_the_prompt_of_another_program(terminal: Terminal) -> None:
     assert terminal.obey("VER") == "ACR8000 (c) 1993-1998 by AMCS Inc.\r\nVersion 1.17.08 CARD 0\r\n"
+    assert "Commands: ? ABS ACC" in terminal.obey("HELP")
     assert terminal.type("PROG3\r") == "PROG3\r\nP03>"

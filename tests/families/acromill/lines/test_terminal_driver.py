@@ -340,6 +340,19 @@ def test_a_content_that_was_cut_off_or_is_no_script_is_refused(bench: CardBench)
             bench.driver.decode(damaged)
 
 
+def test_a_long_line_of_a_copy_is_refused_at_once(bench: CardBench) -> None:
+    held = upload(bench.driver)
+    for digits in (b"1" * 200_000 + b"x", b"1" * 200_000, b"(" * 200_000):
+        with pytest.raises(ImageError, match="line 3 of the script of the card sets nothing that is known"):
+            bench.driver.decode(held.replace(b"PPU X10000", b"PPU X" + digits))
+
+
+def test_a_prompt_may_have_a_blank_and_lines_may_end_with_a_line_feed_alone(bench: CardBench) -> None:
+    answer = bench.card.answer
+    bench.card.answer = lambda: answer().replace(b"\r\n", b"\n").replace(b">", b"> ")  # type: ignore[method-assign]
+    assert b"PPU X10000\n" in upload(bench.driver)
+
+
 def test_the_driver_is_for_acr_cards() -> None:
     with pytest.raises(WrongFamilyError):
         TerminalDriver.at(parse_endpoint("tcp://127.0.0.1:1?protocol=terminal"), "num")
