@@ -15,6 +15,7 @@ from amp_studio.transfer.progress import SILENT, Progress, quiet
 from .blocks import CAN, CANCEL
 
 LOOK = 0.1  # seconds between two looks at the cancel event
+SERIAL_QUIET, SERIAL_NOISE = 0.1, 0.3  # seconds, where no network delays what was sent
 STORED = 65_536  # bytes that are kept while nobody reads
 SILENT_AFTER = 1.8  # seconds without a byte until the person who waits is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
@@ -61,6 +62,16 @@ class ByteLine:
         self._cancel = cancel
         self._rest = bytearray()
         self._heard_at = self._told_at = clock()
+
+    @property
+    def quiet(self) -> float:
+        """Seconds after which a disturbed line has come to rest; on a serial line a gap is a fault much sooner."""
+        return min(self.patience.quiet, SERIAL_QUIET) if self._link.bytes_per_second else self.patience.quiet
+
+    @property
+    def noise(self) -> float:
+        """Seconds for which an answer is waited for again that was disturbed."""
+        return min(self.patience.noise, SERIAL_NOISE) if self._link.bytes_per_second else self.patience.noise
 
     def get(self, count: int, seconds: float) -> bytes:
         """Return ``count`` bytes, or fewer where no further one has come for so long."""
@@ -119,8 +130,8 @@ class ByteLine:
 
     def rest(self) -> None:
         """Forget what comes until the line is at rest, for some seconds at most."""
-        end = self.now() + max(3.0, 10 * self.patience.quiet)
-        while self.now() < end and (self._rest or self.get(1, self.patience.quiet)):
+        end = self.now() + max(3.0, 10 * self.quiet)
+        while self.now() < end and (self._rest or self.get(1, self.quiet)):
             self._rest.clear()
 
     def look(self) -> None:

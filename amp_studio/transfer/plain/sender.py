@@ -86,5 +86,5 @@ class BlockSender:
             if came[0] in wanted:
                 return came[0]
             if ACK in wanted:
-                end = min(end, max(since, self._line.now()) + self._line.patience.noise)
+                end = min(end, max(since, self._line.now()) + self._line.noise)
         return None
