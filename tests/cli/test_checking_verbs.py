@@ -130,7 +130,7 @@ def test_a_file_that_cannot_be_read_does_not_hide_the_others(
 def test_a_folder_without_files_and_no_processes_are_refused(amp, tmp_path: Path, mill: Path) -> None:
     (tmp_path / "empty").mkdir()
     assert amp("validate", tmp_path / "empty").err.endswith("empty: contains no .amp files\n")
-    assert "0 is no number of processes" in amp("validate", mill, "--jobs", 0).err
+    assert "0 is no number from 1 to 100000" in amp("validate", mill, "--jobs", 0).err
 
 
 def test_validate_writes_nothing(amp, mill: Path, folder) -> None:

@@ -12,9 +12,10 @@ from amp_studio.schema.visible import visible
 
 HEAD = "amp_studio: 1\nfamily: 9pc\n"
 STARTS = """
-import json, sys
+import json, os, sys
 from amp_studio.cli import program
 
+os._exit = sys.exit  # one process for all starts
 for number, arguments in enumerate(json.load(sys.stdin)):
     print(f"<{number}>", flush=True)
     try:
