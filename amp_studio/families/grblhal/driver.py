@@ -8,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
+from amp_studio.schema.visible import visible
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -37,7 +38,7 @@ PROTOCOL = "grbl"
 SETTLE = 0.3  # seconds between the last answer and the reading back: the memory is written after the answer, and surely
 # before the next command is executed (protocol.c ``protocol_execute_realtime``)
 RECONNECT = 10.0  # seconds in which a cut line is tried again to read what the control contains
-PAUSE = 0.3  # seconds between two tries
+PAUSE = 0.15  # seconds between two tries
 RESTING = ("Idle", "Alarm", "Check")
 """States in which settings are taken (system.c ``system_execute_line``)."""
 
@@ -113,7 +114,7 @@ class GrblDriver(GrblContentKind):
         writing = Writing(wanted, present, described(held))
         try:
             with self._conversation(progress, cancel) as line:
-                self._check_rest(line)
+                self._check_rest(line, writing)
                 found = self._read(line)
                 if hashlib.sha256(write_content(found)).digest() != expected:
                     raise ImageChangedError("somebody has changed the settings since they were read")
@@ -122,7 +123,7 @@ class GrblDriver(GrblContentKind):
                 self._check_memory(line)
         except GrblRefusalError as refusal:
             why = refusal_text(refusal, writing.names, present)
-            raise self._told(TransferError(why), writing, progress, is_answered=True) from None
+            raise self._told(TransferError(why), writing, progress, cancel, is_answered=True) from None
         except CancelledError as error:
             error.at_control, error.new = answered_state(writing)
             raise
@@ -131,7 +132,7 @@ class GrblDriver(GrblContentKind):
         except TransferError as error:
             if not writing.has_begun:
                 raise
-            raise self._told(error, writing, progress) from None
+            raise self._told(error, writing, progress, cancel) from None
         settings = writing.settings
         notes = (
             *coarse_notes(settings, present.settings, writing.names),
@@ -188,10 +189,17 @@ class GrblDriver(GrblContentKind):
         self._last = content
         return content
 
-    def _check_rest(self, line: GrblLine) -> None:
+    def _check_rest(self, line: GrblLine, writing: Writing) -> None:
+        """Refuse what the state of the control does not allow, before anything is sent."""
         state = line.state()
         if state not in RESTING:
-            raise TransferError(f"the control is in the state {state}: stop the machine before a download")
+            raise TransferError(
+                f"the control is in the state {visible(state[:20])}, in which it takes no settings: bring it to rest first"
+            )
+        if state != "Idle" and writing.others:
+            raise TransferError(
+                "the control is locked, and takes no offsets and start-up lines: unlock it ($X) or home it ($H) first"
+            )
 
     def _check_memory(self, line: GrblLine) -> None:
         """Notice that the control could not write its memory, of which there is only a message."""
@@ -200,13 +208,21 @@ class GrblDriver(GrblContentKind):
             raise TransferError(f"the control cannot write its memory ({failed})", "unknown")
 
     def _told(
-        self, error: TransferError, writing: Writing, progress: Progress, *, is_answered: bool = False
+        self,
+        error: TransferError,
+        writing: Writing,
+        progress: Progress,
+        cancel: threading.Event | None,
+        *,
+        is_answered: bool = False,
     ) -> TransferError:
-        """Read everything again after a break, where the control answers, and return the error with what is true now."""
+        """Read everything again after a break, while the control may answer, and return the error with what is true now."""
         end = self._clock() + RECONNECT
         found: GrblContent | None = None
-        while writing.has_begun and found is None and self._clock() < end:
-            with contextlib.suppress(TransferError), self._conversation(progress, None) as line:
+        while (
+            writing.has_begun and found is None and self._clock() < end and not (cancel and cancel.is_set())
+        ):
+            with contextlib.suppress(TransferError), self._conversation(progress, cancel) as line:
                 line.rest(SETTLE)
                 found = self._read(line)
             if found is None:

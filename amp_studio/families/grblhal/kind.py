@@ -13,10 +13,10 @@ from amp_studio.transfer.image import ImageError
 
 from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content
-from .description import Setting, description_of, read_description
+from .description import PASSWORD, Setting, description_of, read_description
 from .fitting import fit_to
 from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
-from .offsets import PUT_BACK, offset_differences
+from .offsets import PUT_BACK, at_axes, offset_differences, reports_inches
 from .settings import compiled_in, settings_of_file, values_of_settings
 
 FAMILY, CLASSIC = "grblhal", "grbl-1.1"
@@ -71,13 +71,12 @@ class GrblContentKind:
         How the control describes itself stays, so that a copy of another build goes back too, by the numbers.
         """
         copy, present = read_content(content), read_content(held)
+        if copy.axes != present.axes and reports_inches(copy) != reports_inches(present):
+            raise ImageError(
+                "the copy is of a control with other axes, and shows offsets in another unit: set $13 alike first"
+            )
         settings = _fitted(copy.settings, present, described(held))
-        offsets = {
-            **present.offsets,
-            **{n: at for n, at in copy.offsets.items() if n in present.offsets},
-        }
-        if copy.axes != present.axes and copy.offsets != present.offsets:
-            offsets = dict(present.offsets)  # coordinates of other axes
+        offsets = {name: at_axes(copy, present, name) for name in present.offsets}
         startup = {**present.startup, **{n: line for n, line in copy.startup.items() if n in present.startup}}
         return write_content(replace(present, settings=settings, offsets=offsets, startup=startup))
 
@@ -139,6 +138,8 @@ def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int,
         if number not in settings and number not in comes:
             continue
         shown = settings.get(number, "")
+        if number in known and known[number].type == PASSWORD and not text.strip("*"):
+            continue  # a mask, not a password
         if is_shown_as(text, shown) and _is_as_fine(text, shown):
             continue
         try:

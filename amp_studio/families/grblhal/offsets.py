@@ -43,6 +43,15 @@ def _millimeters(content: GrblContent, text: str) -> list[float]:
     return [float(part) * factor for part in text.split(",") if _COORDINATE.fullmatch(part)]
 
 
+def at_axes(copy: GrblContent, present: GrblContent, name: str) -> str:
+    """Return the coordinates of a copy on the axes of another control, which keeps its own where the copy has none."""
+    theirs, own = copy.offsets.get(name, "").split(","), present.offsets[name].split(",")
+    if copy.axes == present.axes or len(theirs) != len(copy.axes) or len(own) != len(present.axes):
+        return copy.offsets.get(name, present.offsets[name])
+    by_axis = dict(zip(copy.axes, theirs, strict=True))
+    return ",".join(by_axis.get(axis, at) for axis, at in zip(present.axes, own, strict=True))
+
+
 def offset_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple[str, str]]:
     """Yield name and command of each offset that is to be put back; a command is in the unit that it names."""
     unit = "G20" if reports_inches(wanted) else "G21"

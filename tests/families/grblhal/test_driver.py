@@ -185,7 +185,7 @@ def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
 
     with pytest.raises(
         TransferError,
-        match="the control is in the state Run: stop the machine before a download; nothing was",
+        match="the control is in the state Run, in which it takes no settings: bring it to rest first; nothing was",
     ):
         download(bench.driver, wanted, starts, signature="")
     assert sent(bench) == []
@@ -226,6 +226,21 @@ def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_told(b
     assert "The start-up line $N1=M3S100 is not put back: the control would execute it now." in outcome.text
 
 
+def test_a_locked_control_takes_no_offsets_and_nothing_else_of_the_copy_is_sent(bench: Bench) -> None:
+    present = held(bench)
+    wanted = replace(
+        present,
+        settings={**present.settings, 130: "5.000"},
+        offsets={**present.offsets, "G54": "1.000,0.000,0.000"},
+    )
+    bench.firmware.command("alarm 1")
+    with pytest.raises(
+        TransferError, match=r"the control is locked, and takes no offsets .*; nothing was replaced"
+    ):
+        download(bench.driver, write_content(wanted), lambda _: "kept", signature="")
+    assert sent(bench) == []
+
+
 def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -> None:
     bench.firmware.settings.store(13, "1")
     bench.firmware.offsets["G55"] = "25.400,0.000,-50.800"
@@ -253,13 +268,25 @@ def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str)
 def test_a_copy_of_another_build_goes_back_by_the_numbers_or_says_what_is_not_there(tmp_path: Path) -> None:
     three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
     three.firmware.settings.store(130, "300")
+    three.firmware.offsets["G54"] = "1.000,2.000,3.000"
+    four.firmware.offsets["G54"] = "0.000,0.000,0.000,45.000"
     copy = three.driver.fetch()
     assert download(four.driver, partial(four.driver.refit, copy), lambda _: "kept", signature="").verified
     assert held(four).settings[130] == "300.000"
     assert held(four).axes == ("X", "Y", "Z", "A")
+    assert held(four).offsets["G54"] == "1.000,2.000,3.000,45.000"
     with pytest.raises(ImageError, match=r"^the control does not have \$47, \$103, \$113, \$123, \$133"):
         download(
             three.driver, partial(three.driver.refit, four.driver.fetch()), lambda _: "kept", signature=""
+        )
+
+
+def test_a_copy_in_inches_is_not_put_on_other_axes_in_millimeters(tmp_path: Path) -> None:
+    three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
+    three.firmware.settings.store(13, "1")
+    with pytest.raises(ImageError, match=r"set \$13 alike first"):
+        download(
+            four.driver, partial(four.driver.refit, three.driver.fetch()), lambda _: "kept", signature=""
         )
 
 
@@ -333,6 +360,25 @@ def test_a_cable_that_is_out_for_good_leaves_it_unknown(bench: Bench) -> None:
         download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=pull)
     assert (caught.value.at_control, caught.value.kept) == ("unknown", "copy")
     assert bench.clock.now < 60
+
+
+def test_who_stops_while_a_broken_line_is_made_again_waits_for_nothing(bench: Bench) -> None:
+    cancel = threading.Event()
+
+    def pull(stage: str, done: int, total: int) -> None:
+        if (stage, done) == ("download", 1):
+            bench.is_cut = True
+            cancel.set()
+
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
+    began = bench.clock.now
+    with pytest.raises(TransferError) as caught:
+        download(
+            bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=pull, cancel=cancel
+        )
+    assert caught.value.at_control == "mixed"
+    assert bench.clock.now - began < 1.0
 
 
 def test_a_setting_that_is_never_answered_is_read_and_not_guessed(bench: Bench) -> None:
