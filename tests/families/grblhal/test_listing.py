@@ -89,6 +89,13 @@ def test_a_grbl_is_told_by_having_all_of_its_settings_and_no_other(
     assert ("homing.cycle", "") in read(older), "without $3 it is no Grbl, but a part of something"
 
 
+def test_start_up_lines_and_offsets_of_a_log_are_left_out_with_a_note() -> None:
+    text = "$I\n[VER:1.1f:]\n$#\n[G54:0.000,0.000,0.000]\n$N0=G21 G90\n$N1=\n$110=600\nok\n"
+    found = FORMAT.read(text, load_schema("grblhal"), False)
+    assert found.values == {("axis.max_rate", "X"): Value(600.0, "mm/min")}
+    assert found.notes == ["start-up lines are no settings and are left out: $N0"]
+
+
 def test_a_part_of_a_listing_is_read_as_one_of_grblhal() -> None:
     assert read("$22=1\n$110=600\n") == {
         ("homing.cycle", ""): Value(1),

@@ -22,8 +22,11 @@ from amp_studio.schema.storage import StorageError
 CLASSIC = "grbl-1.1"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})\s*=\s*(.*)")
 _REMARK = re.compile(r"\s*(\(.*\)|;.*)\s*$")
-_AROUND = re.compile(r"(ok|Grbl .*|GrblHAL .*|<.*>|\[.*\]|(>+ *)?\$\$|[;%(].*)?", re.IGNORECASE)
+_AROUND = re.compile(
+    r"(ok|Grbl .*|GrblHAL .*|<.*>|\[.*\]|(>+ *)?\$[$#GIN+]|\$N\d=.*|[;%(].*)?", re.IGNORECASE
+)
 """Lines of a sender's log that are no settings."""
+_STARTUP = re.compile(r"(\$N\d)=\s*\S.*")
 _STEPS = 100
 _NEW_IN_1_1 = {30, 31, 32}
 
@@ -60,6 +63,9 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     settings, lines = _settings(text)
     machine = _machine(schema, settings)
     found = TextRead(machine=machine)
+    startup = [line[1] for whole in text.split("\n") if (line := _STARTUP.fullmatch(whole.strip()))]
+    if startup:
+        found.notes.append(f"start-up lines are no settings and are left out: {', '.join(startup[:9])}")
     known = addresses_by_number(schema.on(machine))
     for number, value in settings.items():
         if number not in known:
