@@ -18,6 +18,7 @@ from .counts import nearest
 from .machine import (
     DELAY_SHARE,
     DELAY_STEPS,
+    GRAVITY,
     LOAD_SENSOR,
     MOTOR_COUNT,
     MOTOR_COUNTS,
@@ -122,12 +123,14 @@ def run(
     line: Vector,
     timing: Vector,
     profile: Vector,
+    push: Vector,
     rows: npt.NDArray[np.float64],
 ) -> int:
     """Run the axis until the command is over and the axis at rest, an alarm, or all rows are filled; return the rows.
 
     ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine, ``x`` the state of run and plant, ``line``
-    the delay line, ``timing`` and ``profile`` as their indices say; all but p, timing and profile are changed.
+    the delay line, ``timing`` and ``profile`` as their indices say, ``push`` the torque on the load at each servo sample (as many as there are);
+    all but p, timing, profile and push are changed.
     """
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])
@@ -142,8 +145,12 @@ def run(
     # Servo samples since the start, that of the last motion, that of the end of the command (-1 before).
     sample, restless, ended = 0, 0, -1
     piece, moment, share = 0, 0.0, 1.0
+    weight, pushed = m[GRAVITY], len(push)
     while True:
         start = sample * period
+        if pushed > 0:
+            now, later = min(sample, pushed - 1), min(sample + 1, pushed - 1)
+            m[GRAVITY] = weight - 0.5 * (push[now] + push[later])
         piece = piece_at(profile, piece, moment)
         begun = moment
         command(profile, piece, begun, io)

@@ -151,6 +151,8 @@ class AxisLaw:
     after: Callable[[AxisLaw, Leader], AxisLaw] | None = None
     """after(axis, run) -> the axis, for one that goes by the motion of another: run(other) moves that one first under the same
     command, and returns its columns at the servo samples."""
+    push: Sequence[float] = ()
+    """Torque on the load at each servo sample, from outside of the axis; the last one goes on. () for none."""
     sweep_parameters: Sequence[float] | None = None
     """The ``p`` of a swept sine, without the faults that its start would raise; None for the same."""
     linear_parameters: Sequence[float] | None = None

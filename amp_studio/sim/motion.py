@@ -88,8 +88,10 @@ def run_axis(
     if axis.after is not None:
 
         def lead(other: AxisLaw) -> dict[str, npt.NDArray[np.float64]]:
+            # A push from outside is found by many runs: worth the time to load machine code.
+            own: Engine = "compiled" if engine == "auto" and other.push else engine
             first = run_axis(
-                other, profile, until, mode=mode, share_rate=share_rate, engine=engine, refine=refine
+                other, profile, until, mode=mode, share_rate=share_rate, engine=own, refine=refine
             )
             return {name: column[:: first.rows_per_servo_period] for name, column in first.columns.items()}
 
@@ -148,7 +150,8 @@ def prepared(
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
     rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
-    return [parameters, state, io, machine, x, line, timing, profile], rows
+    push = [float(each) for each in axis.push]
+    return [parameters, state, io, machine, x, line, timing, profile, push], rows
 
 
 def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:

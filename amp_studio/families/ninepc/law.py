@@ -42,6 +42,7 @@ LONGEST_CYCLE = 1000.0
 
 SETTINGS = {
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
+    split.OWN_COUPLING: "torque that a skew of 1 mm or 1 deg between both servos of a split axis brings (torque)",
     OWN_TORQUE: "rated torque of a digital motor (N m)",
     OWN_INERTIA: "inertia of a digital motor without its load (kg m2)",
     "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
@@ -97,13 +98,30 @@ def bind(read: AxisParameters) -> AxisLaw:
     The slave of a split axis goes with its master (chapter 32).
     """
     slave = split.slave_of(read)
-    if slave is None or _kind(read).drive == "sercos":
+    if _kind(read).drive == "sercos":
         return _alone(read)
+    if slave is None:
+        return _leading(read)
     master = read.of(slave.master)
     if split.slave_of(master) is not None:
         raise SimulationError(f"The master of axis {read.axis} is a slave itself", split.SETS[0][0])
-    law, said = _alone(read, master), split.SLAVE.format(slave.master, _kind(read).unit)
-    return split.coupled(replace(law, assumptions=(*law.assumptions, said)), slave, _alone(master))
+    law, unit, stiffness = _alone(read, master), _kind(read).unit, split.coupling_of(read)
+    said = (split.SLAVE.format(slave.master, unit), split.JOINED if stiffness else split.LOOSE.format(unit))
+    law = replace(law, assumptions=(*law.assumptions, *said))
+    return split.coupled(law, slave, _alone(master), stiffness)
+
+
+def _leading(read: AxisParameters) -> AxisLaw:
+    """Return an axis that is no slave; with a coupling a master feels its slave."""
+    law, partner = _alone(read), split.slave_named(read)
+    if partner is None:
+        return law
+    stiffness, other = split.coupling_of(read), read.of(partner)
+    own = split.slave_of(other)
+    if own is None or not stiffness:
+        return replace(law, assumptions=(*law.assumptions, split.LOOSE.format(law.unit)))
+    law = replace(law, assumptions=(*law.assumptions, split.JOINED))
+    return split.leading(law, _alone(other, read), own, stiffness)
 
 
 def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLaw:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+
+import numpy as np
+import numpy.typing as npt
 
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
@@ -15,14 +19,28 @@ from . import law_samples as samples
 
 SETS = (("deskew.master", "deskew.slave", "1"), ("deskew.master_2", "deskew.slave_2", "2"))
 GAIN, LIMIT, NAME = "deskew.gain", "deskew.skew_limit", "axis.name"
+Positions = npt.NDArray[np.float64]
+Columns = Mapping[str, Positions]
 AXES = tuple(str(n) for n in range(1, 9))
 
 SLAVE = (
     "This servo is the slave of axis {0}: command, ramps and feedrates are those of its master (32-4), whose motion is simulated first. Its gain is"
-    " multiplied by 1 + Deskew Gain x skew; that the gain changes in proportion to the skew is printed (32-9), its unit, 1/{1}, is ASSUMED. The"
-    " mechanics join the two servos with no force, and a master does not feel its slave."
+    " multiplied by 1 + Deskew Gain x skew; that the gain changes in proportion to the skew is printed (32-9), its unit, 1/{1}, is ASSUMED."
 )
+LOOSE = (
+    "ASSUMED: model.coupling = 0 % for 1 {0}. The mechanics join the two servos of the split axis with no force, and each is moved for itself; set"
+    " the torque that a skew brings."
+)
+JOINED = "The loads of both servos of the split axis pull at each other by model.coupling; each is computed with the motion of the other until none changes."
 MASTER = "This servo is the master of a split axis (32-4); simulate axis {0} to see the skew."
+OWN_COUPLING = "model.coupling"
+STIFFEST = 1e9
+ROUNDS = 80
+"""Runs of both servos until neither changes any more."""
+KEPT = 20
+"""Motions that are mixed."""
+SAME = 0.2
+"""Counts that they may still change."""
 
 
 @dataclass(frozen=True)
@@ -56,23 +74,103 @@ def slave_named(read: AxisParameters) -> str | None:
     return None
 
 
-def coupled(law: AxisLaw, slave: Slave, master: AxisLaw) -> AxisLaw:
-    """Return the slave with its deskew gain and skew limit; it goes by the following errors of its master."""
+def coupling_of(read: AxisParameters) -> float:
+    """Return the torque in % that a skew of 1 u brings on both loads, 0 for none."""
+    value = read.optional(OWN_COUPLING) or 0.0
+    if not 0.0 <= value <= STIFFEST:
+        raise SimulationError(f"{OWN_COUPLING} is {value:g}; it must be 0 to {STIFFEST:g}", OWN_COUPLING)
+    return value
+
+
+def coupled(law: AxisLaw, slave: Slave, master: AxisLaw, stiffness: float) -> AxisLaw:
+    """Return the slave with its deskew gain and skew limit; it goes by the motion of its master."""
+    law = _deskewed(law, slave)
+    return replace(law, after=partial(_with_master, master, stiffness))
+
+
+def leading(law: AxisLaw, slave: AxisLaw, own: Slave, stiffness: float) -> AxisLaw:
+    """Return a master that feels its slave."""
+    return replace(law, after=partial(_with_slave, _deskewed(slave, own), stiffness))
+
+
+def _deskewed(law: AxisLaw, slave: Slave) -> AxisLaw:
     p = list(law.parameters)
     p[samples.DESKEW], p[samples.SKEW_LIMIT] = slave.gain, slave.limit
     text = f"Skew above {shown(slave.limit, law.unit)} ({LIMIT}): the control goes into E-STOP"
     alarms = {**law.alarms, int(samples.EXCESS_SKEW_ALARM): AlarmText("EXCESS SKEW", text)}
-    return replace(law, parameters=p, alarms=alarms, after=partial(_with_master, master))
+    return replace(law, parameters=p, alarms=alarms)
 
 
-def _with_master(master: AxisLaw, axis: AxisLaw, run: Leader) -> AxisLaw:
-    """Return the axis with the following errors of its master, servo sample by servo sample."""
+def _with_master(master: AxisLaw, stiffness: float, axis: AxisLaw, run: Leader) -> AxisLaw:
+    """Return a slave with the following errors of its master, servo sample by servo sample, and the force between both."""
     if not math.isfinite(axis.parameters[samples.EXCESS]):
         return replace(axis, after=None)  # a swept sine: the loop of the slave alone
-    errors = run(master)["control_following_error"]
-    p = [*axis.parameters[: samples.MASTER], *errors]
+    if stiffness:
+        return _joined(master, axis, stiffness, run)[1]
+    return _following(axis, run(master))
+
+
+def _with_slave(slave: AxisLaw, stiffness: float, axis: AxisLaw, run: Leader) -> AxisLaw:
+    """Return a master with the force of its slave."""
+    alone = replace(axis, after=None)
+    if not math.isfinite(axis.parameters[samples.EXCESS]):
+        return alone
+    return _joined(alone, slave, stiffness, run)[0]
+
+
+def _following(slave: AxisLaw, leads: Columns) -> AxisLaw:
+    """Return the slave with the following errors of its master."""
+    errors = leads["control_following_error"]
+    p = [*slave.parameters[: samples.MASTER], *errors]
     p[samples.MASTER_SAMPLES] = float(len(errors))
-    return replace(axis, parameters=p, after=None)
+    return replace(slave, parameters=p, after=None)
+
+
+def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> tuple[AxisLaw, AxisLaw]:
+    """Return both servos with the force of the other on their loads: each in turn with the last motion of the other, until neither
+    changes (waveform relaxation: E. Lelarasmee, A. Ruehli, A. Sangiovanni-Vincentelli, 1982).
+    """
+
+    def pulled(axis: AxisLaw, other: Positions) -> AxisLaw:
+        spring = axis.machine.spring + stiffness
+        push = (stiffness * other).tolist()
+        return replace(axis, machine=replace(axis.machine, spring=spring), push=push)
+
+    def answer(positions: Positions) -> tuple[AxisLaw, AxisLaw, Positions]:
+        """Return both servos with a motion of the slave given, and the one that it answers with."""
+        feels = pulled(master, positions) if positions.size else master
+        leads = run(feels)
+        goes = pulled(_following(slave, leads), leads["position"])
+        return feels, goes, run(goes)["position"]
+
+    same = SAME * max(master.machine.position_count, 1e-6)
+    given: list[Positions] = []
+    answers: list[Positions] = []
+    positions = np.zeros(0)
+    for _ in range(ROUNDS):
+        feels, goes, answered = answer(positions)
+        if positions.size:
+            length = min(len(positions), len(answered))
+            if float(np.max(np.abs(positions[:length] - answered[:length]))) < same:
+                return feels, goes
+            given, answers = [*given, positions][-KEPT:], [*answers, answered][-KEPT:]
+        positions = _mixed(given, answers) if len(given) > 1 else answered
+    raise SimulationError(
+        f"The coupling of {stiffness:g} % for 1 {master.unit} is too stiff for these loops to be computed: give a smaller one",
+        OWN_COUPLING,
+    )
+
+
+def _mixed(given: list[Positions], answers: list[Positions]) -> Positions:
+    """Return the mixture of the last answers whose error is least (D. G. Anderson, Journal of the ACM 12, 1965)."""
+    length = max(map(len, [*given, *answers]))
+    g, a = (
+        np.array([np.pad(each, (0, length - len(each)), "edge") for each in kept])
+        for kept in (given, answers)
+    )
+    errors = a - g
+    shares = np.linalg.lstsq((errors[1:] - errors[:-1]).T, errors[-1], rcond=1e-12)[0]
+    return np.asarray(a[-1] - shares @ (a[1:] - a[:-1]))
 
 
 def _axis_named(read: AxisParameters, name: str, parameter: str) -> str:

@@ -286,5 +286,11 @@ def test_advice_ends_at_the_bounds_that_the_manual_prints(axis: Axis) -> None:
 
 
 def test_the_settings_of_the_family_are_named() -> None:
-    own = {"model.travel_per_turn", "model.position_gain", "model.motor_torque", "model.motor_inertia"}
+    own = {
+        "model.coupling",
+        "model.travel_per_turn",
+        "model.position_gain",
+        "model.motor_torque",
+        "model.motor_inertia",
+    }
     assert set(LAW.settings) == own | {"model.dac_unit_86", "model.dac_unit_87"}

@@ -28,7 +28,7 @@ SETS: Values = {
 }
 
 
-def servo(axis: str = "4", **values: ParameterValue) -> AxisLaw:
+def servo(axis: str = "4", coupling: float | None = None, **values: ParameterValue) -> AxisLaw:
     """Return one servo of the pair X (1) and U (4); values by id@instance with _ for the point."""
     merged = {
         **SETS,
@@ -41,7 +41,8 @@ def servo(axis: str = "4", **values: ParameterValue) -> AxisLaw:
             return merged.get(found, VALUES.get(parameter))
         return None if parameter.startswith("deskew.") or parameter == "axis.name" else VALUES.get(parameter)
 
-    return bind(AxisParameters(value, axis, {}, load_schema("9pc").tables))
+    model: Values = {} if coupling is None else {"model.coupling": coupling}
+    return bind(AxisParameters(value, axis, model, load_schema("9pc").tables))
 
 
 def moved(law: AxisLaw) -> Trace:
@@ -90,3 +91,27 @@ def test_an_impossible_pair_says_why() -> None:
         servo(deskew__master_at_1="z")
     with pytest.raises(SimulationError, match=r"deskew\.gain@1 is -1; it must not be negative"):
         servo(deskew__gain_at_1=-1.0)
+
+
+def test_a_coupling_pulls_both_servos_with_the_same_force_and_takes_skew_away() -> None:
+    def run(axis: str, coupling: float | None) -> Trace:
+        law = servo(axis, coupling, servo__initial_gain_at_4=1.1)
+        return run_step(law, {"move.distance": 60.0, "move.feedrate": 6000.0, "move.duration": 0.7})
+
+    loose, slave, master = run("4", None), run("4", 10.0), run("1", 10.0)
+    middle = slave.columns["time_s"].searchsorted(
+        0.55
+    )  # at the full speed, which needs no torque without friction
+    skew = float(slave.columns["skew"][middle])
+    assert abs(skew) < 0.7 * abs(float(loose.columns["skew"][middle]))
+    pulls = [float(trace.columns["torque"][middle]) for trace in (slave, master)]
+    assert pulls[0] == pytest.approx(-pulls[1], rel=0.05)
+    assert abs(pulls[0]) == pytest.approx(10.0 * abs(skew), rel=0.05)
+
+
+def test_a_split_axis_without_a_coupling_is_named_and_an_impossible_coupling_refused() -> None:
+    for axis in ("1", "4"):
+        assert any("model.coupling = 0 % for 1 mm" in note for note in servo(axis).assumptions)
+        assert any("pull at each other" in note for note in servo(axis, 5.0).assumptions)
+    with pytest.raises(SimulationError, match=r"model\.coupling is -1"):
+        servo("4", -1.0)
