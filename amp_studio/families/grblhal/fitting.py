@@ -14,6 +14,8 @@ from amp_studio.schema import Address, InvalidValueError, Schema, Value, fault, 
 
 from .settings import addresses_by_number, number_at, text_of_value, value_of_text
 
+LACKING = "this control does not have the setting"
+
 
 @dataclass(frozen=True)
 class Misfit:
@@ -23,6 +25,11 @@ class Misfit:
     """``$140 Motor current``."""
     value: str
     why: str
+
+    @property
+    def is_lacking(self) -> bool:
+        """Whether the control does not have it at all."""
+        return self.why == LACKING
 
     def __str__(self) -> str:
         return f"{self.name} = {self.value}: {self.why}"
@@ -75,7 +82,7 @@ def _set(
     parameter = file.schema.parameters[address[0]]
     name, shown = file.machine_schema.label(address), show_value(parameter, value)
     if target is None:
-        return [Misfit(name, shown, "this control does not have the setting")]
+        return [Misfit(name, shown, LACKING)]
     other = found.schema.parameters[target[0]]
     if other.type == parameter.type and not other.choices and other.type != "bits":
         found.set(target, value)
@@ -89,7 +96,7 @@ def _set(
 
 def _set_text(found: ParameterFile, target: Address | None, name: str, text: str) -> list[Misfit]:
     if target is None:
-        return [Misfit(name, text, "this control does not have the setting")]
+        return [Misfit(name, text, LACKING)]
     try:
         value = value_of_text(found.schema.parameters[target[0]], text, turns=found.evaluation.turns(target))
     except InvalidValueError as error:

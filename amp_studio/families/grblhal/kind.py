@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from amp_studio.files import Header, ParameterFile
@@ -14,7 +14,7 @@ from amp_studio.transfer.image import ImageError
 from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content
 from .description import PASSWORD, Setting, description_of, read_description
-from .fitting import fit_to
+from .fitting import Misfit, fit_to
 from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
 from .offsets import PUT_BACK, at_axes, offset_differences, reports_inches
 from .settings import compiled_in, settings_of_file, values_of_settings
@@ -25,8 +25,8 @@ AXIS_LOCATE_RATE, AXIS_SEEK_RATE = 180, 190
 PER_AXIS_RATES = range(180, 200)
 """Settings that are there only while bit 9 of $22 is set (settings.c ``is_setting_available``)."""
 _PER_AXIS, _KEEP_HOMED = 1 << 9, 1 << 7
-_SHOWN = 5
-"""Differences that a message names."""
+_SHOWN, _NAMED = 5, 60
+"""Differences, and numbers, that a message names."""
 
 
 class GrblContentKind:
@@ -115,11 +115,7 @@ def _wanted(file: ParameterFile, schema: Schema) -> dict[int, str]:
     if file.schema.signature != schema.signature:
         fitted = fit_to(file, schema)
         if fitted.misfits:
-            named = "; ".join(map(str, fitted.misfits[:_SHOWN]))
-            more = f" and {len(fitted.misfits) - _SHOWN} more" if len(fitted.misfits) > _SHOWN else ""
-            raise ImageError(
-                f"this control cannot take all of the file: {named}{more} (a value of not-set is not sent)"
-            )
+            raise ImageError(_misfit_text(fitted.misfits))
         file = fitted.file
     others = {int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)}
     return {**others, **settings_of_file(file)}
@@ -150,11 +146,24 @@ def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int,
     return _moved(settings, wanted, has_rates=has_rates)
 
 
-def _lacking_text(numbers: list[int]) -> str:
-    named = ", ".join(f"${n}" for n in numbers[:20]) + (
-        f" and {len(numbers) - 20} more" if len(numbers) > 20 else ""
+def _misfit_text(misfits: Sequence[Misfit]) -> str:
+    """Return all that a control of another build cannot take: what it does not have by number, the rest with the reason."""
+    lacking = [misfit for misfit in misfits if misfit.is_lacking]
+    others = [misfit for misfit in misfits if not misfit.is_lacking]
+    named = "; ".join(map(str, others[:_SHOWN]))
+    more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
+    parts = [f"the control cannot take {named}{more}"] if others else []
+    numbers = sorted(int(f[1]) for misfit in lacking if (f := re.match(r"\$(\d+)", misfit.name)))
+    return "; ".join([*parts, *([_lacking_text(numbers)] if lacking else [])])
+
+
+def _lacking_text(numbers: Sequence[int]) -> str:
+    named = ", ".join(f"${n}" for n in numbers[:_NAMED])
+    more = f" and {len(numbers) - _NAMED} more" if len(numbers) > _NAMED else ""
+    hint = " ".join(f"'${n}=not-set'" for n in numbers[:2]) + (" …" if len(numbers) > 2 else "")
+    return (
+        f"the control does not have {named}{more} (amp-studio set FILE {hint} and a download sends the rest)"
     )
-    return f"the control does not have {named}: set {'it' if len(numbers) == 1 else 'them'} to not-set in the file to send the rest"
 
 
 def _is_as_fine(text: str, shown: str) -> bool:

@@ -296,7 +296,8 @@ def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(
     assert download(four.driver, partial(four.driver.encode, file), lambda _: "kept", signature="").verified
     assert held(four).settings[130] == "300.000"
     with pytest.raises(
-        ImageError, match=r"cannot take all of the file: .*\$103 .*: this control does not have the setting"
+        ImageError,
+        match=r"the control does not have \$47, \$103, .* \(amp-studio set FILE '\$47=not-set'",
     ):
         download(three.driver, partial(three.driver.encode, edited(four)), lambda _: "kept", signature="")
     assert sent(three) == []
