@@ -247,8 +247,8 @@ def editor(window: MainWindow) -> QWidget:
 class Control:
     """An emulated control in a separate process."""
 
-    def __init__(self, state: Path, *options: str) -> None:
-        command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--machine", "mill", "--state", str(state),
+    def __init__(self, state: Path, *options: str, family: str = "9pc", machine: str = "mill") -> None:
+        command = [sys.executable, "-m", "amp_studio.cli", "emulate", family, "--machine", machine, "--state", str(state),
                    "--listen", "tcp://127.0.0.1:0", *options]  # fmt: skip
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self._process.stdout is not None
@@ -270,8 +270,8 @@ def start_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
     """Return what starts an emulated control; it ends with the test."""
     controls: list[Control] = []
 
-    def start(*options: str) -> Control:
-        controls.append(Control(tmp_path / f"control-{len(controls)}", *options))
+    def start(*options: str, **kind: str) -> Control:
+        controls.append(Control(tmp_path / f"control-{len(controls)}", *options, **kind))
         return controls[-1]
 
     yield start

@@ -61,6 +61,27 @@ def test_download_verify_upload(
     assert on_disk(tmp_path / "from-control.amp").values == before
 
 
+def test_a_control_that_takes_single_settings_is_served_like_any_other(
+    window: MainWindow, start_control: Start, person: Person, accept, tmp_path: Path
+) -> None:
+    control = start_control(family="grblhal", machine="grblhal")
+    previews = []
+    accept(DownloadPreview, lambda dialog: previews.append(len(dialog.list.items)))
+    person.types(control.address)
+    person.chooses(tmp_path / "router.amp")
+    action(window, "Upload From Control").trigger()
+    window.workspace.edit("travel", {window.workspace.file.find("$130"): Value(301.5, "mm")})
+    assert window.save()
+
+    assert download(window, person, control).startswith(
+        "Download complete and read back equal. What it contained"
+    )
+
+    assert previews == [1]
+    held = parameters.fetch_file(control.address)
+    assert held.values[held.find("$130")] == Value(301.5, "mm")
+
+
 def test_what_a_download_would_change_is_shown_first_and_can_be_left(
     window: MainWindow, start_control: Start, person: Person, monkeypatch
 ) -> None:
