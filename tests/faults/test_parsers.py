@@ -17,6 +17,7 @@ CALLS = {
     "read_file", "read_yaml", "read_yaml_file", "loads", "reader", "recv", "readLine", "readAllStandardError", "unpack_from",
     "model_validate_json", "validate_python", "QSettings", "read_bytes", "read_text", "parse_qsl", "fromhex", "parse_args",
     "clipboard", "input", "comports", "os.read", "read_entries", "read_expression", "read_content", "decode_image",
+    "decode_content", "decode",
 }  # fmt: skip
 """Calls by which something comes in, or becomes what it means."""
 NAMES = {"stdin", "argv", "environ"}
@@ -35,10 +36,27 @@ READERS = {
     "families/grblhal/driver.py": "damaged answers of a Grbl control",
     "families/grblhal/emulated/firmware.py": "odd bytes at an emulated Grbl control",
     "families/grblhal/kind.py": "damaged copies of Grbl settings",
+    "cli/fleet.py": "damaged control image",
+    "families/acromill/emulated/card.py": "odd keys and bytes at emulated NUM and ACR controls",
+    "families/acromill/emulated/settings.py": "odd keys and bytes at emulated NUM and ACR controls",
+    "families/acromill/formats/acr_script.py": "damaged texts of controls",
+    "families/acromill/lines/content.py": "damaged contents of NUM and ACR",
+    "families/acromill/lines/terminal.py": "ACR terminal over a bad line, power off in the save",
+    "families/grblhal/content.py": "damaged copies of Grbl settings",
+    "families/grblhal/description.py": "damaged descriptions of a control",
+    "families/grblhal/line.py": "damaged answers of a Grbl control",
+    "families/num/emulated/parameter_memory.py": "odd keys and bytes at emulated NUM and ACR controls",
+    "families/num/lines/content.py": "damaged contents of NUM and ACR",
+    "families/num/lines/driver.py": "damaged unloads of a NUM control",
+    "families/servo57c422b/formats/automax.py": "damaged texts of controls",
+    "families/servo57c422b/lines/content.py": "damaged contents and racks of the 57C422B",
+    "families/servo57c422b/lines/driver.py": "57C422B registers over a bad line",
+    "families/servo57c422b/lines/register_line.py": "57C422B registers over a bad line",
     "families/ninepc/emulated/panel.py": "odd commands at the screen of a 9/PC",
     "files/atomic.py": "damaged backups",
     "files/document.py": "damaged journal and history",
     "files/lock.py": "damaged lock notes",
+    "files/paths.py": "",  # shortens a name
     "files/project.py": "damaged project.yaml",
     "files/reading.py": "damaged parameter file",
     "files/storage.py": "damaged parameter file",
@@ -84,6 +102,8 @@ READERS = {
     "ui/file_tabs.py": "",  # writes to the clipboard
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
     "ui/restore.py": "damaged control image",
+    "transfer/plain/ymodem.py": "hostile ends of plain files",
+    "ui/sheet_actions.py": "damaged control image",
     "ui/settings.py": "damaged settings",
     "validate/rule_file.py": "damaged suppressions",
     "validate/calculator.py": "odd arguments of formulas",
