@@ -8,7 +8,7 @@ from dataclasses import asdict
 
 from amp_studio.files import fitted_axes
 from amp_studio.report.wording import counted
-from amp_studio.transfer.client.drivers import open_driver
+from amp_studio.transfer.client.drivers import open_driver_at
 from amp_studio.transfer.client.exchange import look_at
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.image import ImageError
@@ -38,7 +38,7 @@ def identify_verb(options: argparse.Namespace) -> int:
     if options.family:
         family(options.family)
     with (
-        closing(open_driver(options.address, options.family or "")) as driver,
+        closing(open_driver_at(options.address, options.family or "", progress())) as driver,
         sheet_offered(options.family or ""),
     ):
         abilities = driver.abilities

@@ -28,6 +28,7 @@ class Registration:
     ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
     ``contents``  first line of what a control contains -> the ``ContentKind`` class that reads it
     ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
+    ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where nobody has named their family
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
     ``describe``  description of a control -> its schema (``described``), for a family whose controls describe themselves
@@ -40,6 +41,7 @@ class Registration:
     drivers: Mapping[str, str] = field(default_factory=dict)
     contents: Mapping[str, str] = field(default_factory=dict)
     emulators: Mapping[str, str] = field(default_factory=dict)
+    recognised: str = ""
     law: str = ""
     sheet: str = ""
     describe: str = ""

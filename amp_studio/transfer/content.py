@@ -74,15 +74,20 @@ class HouseContent(WholeContent):
 
 def kind_of(content: bytes) -> ContentKind:
     """Return how a content is read; as an image of the house where its first line names no kind that is known."""
-    first = content[:80].split(b"\n")[0].decode("latin-1")
-    for family in registered_families():
-        place = registration_of(family).contents.get(first)
-        if place is not None:
-            break
-    else:
-        place = GENERAL[MAGIC]
+    family, first = family_of(content), _first_line(content)
+    place = registration_of(family).contents[first] if family else GENERAL[MAGIC]
     kind: ContentKind = load_part(place)()
     return kind
+
+
+def family_of(content: bytes) -> str:
+    """Return the family whose own kind a content is; "" for the image of the house, which every family has."""
+    first = _first_line(content)
+    return next((f for f in registered_families() if first in registration_of(f).contents), "")
+
+
+def _first_line(content: bytes) -> str:
+    return content[:80].split(b"\n")[0].decode("latin-1")
 
 
 def decode_content(content: bytes) -> ParameterFile:

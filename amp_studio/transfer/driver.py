@@ -6,6 +6,7 @@ its peer and its waiting, and ends every exchange with a TransferError that name
 
 from __future__ import annotations
 
+import re
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -123,6 +124,18 @@ class ReadsBackPartly(Protocol):
     @property
     def read_back(self) -> str:
         """How the last fetch was proven, in words; "" where every byte was read."""
+
+
+@dataclass(frozen=True)
+class Recognised:
+    """How a control is known by its answer, where nobody has named its family.
+
+    ``question`` is sent to whatever is there, so it must do nothing to any machine; ``answer`` is looked for in what comes.
+    """
+
+    protocol: str
+    question: bytes
+    answer: re.Pattern[bytes]
 
 
 DriverFactory = Callable[[Endpoint, str], ControlDriver]

@@ -40,8 +40,7 @@ def restore(control: ControlExchange) -> None:
     address = control.ask_address("Restore")
     if address is None:
         return
-    family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
-    present = control.fetch(address, "Restore", family)
+    present = control.fetch(address, "Restore", copy.family)
     if not _is_wanted(control, copy, path, present):
         return
 

@@ -176,7 +176,7 @@ def test_every_exchange_is_recorded_with_what_it_changed_and_is_restored_from(
     put_back = amp("restore", second["kept"], "--to", control)
 
     assert put_back.code == 0
-    last = amp("history", mill.parent, "--json").json["exchanges"][-1]
+    last = amp("history", mill, "--json").json["exchanges"][-1]
     assert (last["verb"], last["after"]) == ("restore", first["after"])
 
 

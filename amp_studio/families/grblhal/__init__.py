@@ -11,5 +11,6 @@ REGISTRATION = Registration(
     drivers={"grbl": "amp_studio.families.grblhal.driver:GrblDriver.at"},
     contents={"grblHAL settings 1": "amp_studio.families.grblhal.kind:GrblContentKind"},
     emulators={"grbl": "amp_studio.families.grblhal.emulated.control:emulate_grbl"},
+    recognised="amp_studio.families.grblhal.line:RECOGNISED",
     describe="amp_studio.families.grblhal.described:schema_of",
 )

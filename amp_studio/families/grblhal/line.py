@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable
 
 from amp_studio.schema.visible import visible
+from amp_studio.transfer.driver import Recognised
 from amp_studio.transfer.errors import (
     CancelledError,
     ControlSilentError,
@@ -42,6 +43,10 @@ MESSAGES = 100  # pushed lines that are remembered
 _GREETING = re.compile(r"Grbl(HAL)? ", re.IGNORECASE)
 _ERROR = re.compile(r"error:(\d{1,3})")
 _ALARM = re.compile(r"ALARM:(\d{1,3})")
+
+
+RECOGNISED = Recognised("grbl", b"?", re.compile(rb"<[A-Z][A-Za-z:0-9]*\||^Grbl", re.MULTILINE))
+"""A status request acts on nothing, and every Grbl answers it at once, whatever it does."""
 
 
 class GrblRefusalError(Exception):

@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
+import threading
+from dataclasses import replace
+
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.registration import load_part, registered_families, registration_of
-from amp_studio.transfer.driver import ControlDriver, DriverFactory
+from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
+from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.waiting import Waiting
+
+RECOGNISED, RECOGNISED_SERIAL = 0.6, 2.5
+"""Seconds in which a control may answer by which it is known; one on a serial line may restart when it is opened."""
+ASK_AGAIN = 0.25  # seconds
+LONGEST_GREETING = 4_096  # bytes
 
 GENERAL = {"house": "amp_studio.transfer.house.driver:HouseDriver.at"}
 """Protocols of every family: what emulated controls speak."""
@@ -25,6 +38,45 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
         raise ValueError(f"Unknown protocol {quoted(name)}{of}. Known: {', '.join(offered)}")
     factory: DriverFactory = load_part(offered[name])
     return factory(place, family)
+
+
+def open_driver_at(
+    address: str, family: str = "", progress: Progress = quiet, cancel: threading.Event | None = None
+) -> ControlDriver:
+    """Return the driver for a control, whose protocol is found out where neither it nor a family is named.
+
+    Only what does nothing to any machine is sent for that: the frames of the house protocol may contain what a Grbl takes for
+    a feed hold or a reset. Raises as ``open_driver``, and CancelledError; a control that cannot be reached is left to the driver.
+    """
+    place = parse_endpoint(address)
+    if not family and not place.protocol:
+        with contextlib.suppress(LinkError):
+            place = replace(place, protocol=_recognise(place, progress, cancel))
+    return open_driver(place, family)
+
+
+def _recognise(place: Endpoint, progress: Progress, cancel: threading.Event | None) -> str:
+    """Return the protocol of a control that is known by its answer; "" for any other. Raises LinkError, CancelledError."""
+    places = (registration_of(family).recognised for family in registered_families())
+    known: list[Recognised] = [load_part(part) for part in places if part]
+    waiting = Waiting()
+    waiting.begin(progress, cancel)
+    link = connect(place, look=waiting.look)
+    try:
+        end = waiting.now() + (RECOGNISED_SERIAL if place.kind == "serial" else RECOGNISED)
+        heard = b""
+        while (left := end - waiting.now()) > 0 and len(heard) < LONGEST_GREETING:
+            waiting.look()
+            if not heard or heard.endswith(b"\n"):
+                for each in known:
+                    link.write(each.question)
+            heard += link.read(min(left, ASK_AGAIN))
+            for each in known:
+                if each.answer.search(heard):
+                    return each.protocol
+        return ""
+    finally:
+        link.close()
 
 
 def protocols_of(family: str) -> dict[str, str]:

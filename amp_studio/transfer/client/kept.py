@@ -17,7 +17,7 @@ from pathlib import Path
 from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
 from amp_studio.files.reading import ParameterFileError, read_content
 from amp_studio.schema.regular_file import read_file
-from amp_studio.transfer.content import decode_content, kind_of
+from amp_studio.transfer.content import decode_content, family_of, kind_of
 from amp_studio.transfer.image import MAGIC, ImageError
 
 IMAGE = ".img"
@@ -51,6 +51,13 @@ class Copy:
     fault: str
     is_checked: bool
     is_kept: bool
+
+    @property
+    def family(self) -> str:
+        """The family the control must be of; "" for an image of the house that a control has contained: it decides itself."""
+        if self.file is not None and not self.is_kept:
+            return self.file.schema.family.family
+        return family_of(self.image)
 
 
 def keep_image(image: bytes, folder: Path, stem: str, *, readable: bool = True) -> Path:

@@ -15,7 +15,7 @@ from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.progress import Progress, quiet
 
-from .drivers import open_driver
+from .drivers import open_driver, open_driver_at
 from .exchange import Outcome, download, upload
 from .kept import BEFORE, Copy, keep_image, keep_readable, open_copy
 from .record import Recording
@@ -64,9 +64,8 @@ def restore_copy(
 
     What is kept goes back whatever it is, for the control to decide whether it has contained it. Raises as ``download_file``.
     """
-    family = copy.file.schema.family.family if copy.file and not copy.is_kept else ""
     approved = read_digest(expected)
-    with closing(open_driver(address, family)) as driver, _Keeping(folder, stem) as before:
+    with closing(open_driver(address, copy.family)) as driver, _Keeping(folder, stem) as before:
         wanted = partial(driver.refit, copy.image)
         if copy.file is not None and not copy.is_kept:
             wanted = partial(driver.encode, copy.file)
@@ -123,7 +122,7 @@ def fetch_image(
     address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
 ) -> bytes:
     """Return what the control at ``address`` contains, byte for byte; raises TransferError."""
-    with closing(open_driver(address, family)) as driver:
+    with closing(open_driver_at(address, family, progress, cancel)) as driver:
         return upload(driver, progress, cancel)
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, compare, real_path
+from amp_studio.files import ENDING, ParameterFile, compare, real_path
 from amp_studio.files.atomic import append_line
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import now, user
@@ -22,6 +22,7 @@ from amp_studio.transfer.errors import AtControl, TransferError
 from amp_studio.transfer.image import ImageError
 
 from .exchange import Outcome
+from .kept import BEFORE
 
 RECORD = "exchanges.jsonl"
 
@@ -101,7 +102,13 @@ def read_exchanges(folder: Path, file: str = "") -> list[Exchange]:
     except FileNotFoundError:
         return []
     found = [each for line in content.decode("utf-8", "replace").split("\n") if (each := _exchange(line))]
-    return [each for each in found if not file or each.file == file]
+    return [each for each in found if file in ("", each.file, _file_of_copy(each.file))]
+
+
+def _file_of_copy(name: str) -> str:
+    """Return the file whose download a copy was kept of."""
+    stem, before, _ = name.partition(BEFORE)
+    return f"{stem}{ENDING}" if before else name
 
 
 def _exchange(line: str) -> Exchange | None:
