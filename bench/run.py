@@ -53,7 +53,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from sim.measures(folder, times)
     yield from sim_laws.measures(times)
     yield from screen.measures(folder, full, times)
-    yield from exchange.measures(folder, example, max(1, times // 3))
+    yield from exchange.measures(folder, full, example, max(1, times // 3))
 
 
 def processor() -> str:

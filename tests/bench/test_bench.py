@@ -33,6 +33,8 @@ TARGETS = {
     "another value of servo.excess_error@1",
     "re-validate after one edit of a NUM value",
     "import and validate a full NUM table",
+    "download of a full file, TCP (0.5 s of it is the control's restart)",
+    "verify of a full file, TCP",
     "validate 60 files from the command line on all processors: a file",
 }
 

@@ -83,7 +83,8 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
     try:
         content = kind.encode(file, fetched)
         is_same, is_whole = not kind.difference(content, fetched), content == fetched
-        wanted = kind.decode(content)  # in the control's own units, with what the file leaves as it is
+        # In the control's own units, with what the file leaves as it is.
+        wanted = present if is_whole else kind.decode(content)
     except ImageError as error:
         absent = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
