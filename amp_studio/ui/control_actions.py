@@ -89,7 +89,7 @@ class ControlActions:
 
     def _shown(self, line: str) -> None:
         """Show a line of the emulated control's screen; one that stays in E-stop stays so in the menu too."""
-        if line.startswith(("held in E-stop: ", "refused: the control stays in E-stop: ")):
+        if line.startswith(("kept in E-stop: ", "refused: the control stays in E-stop: ")):
             self.estop_action.setChecked(True)
         if not line.startswith("estop "):
             self.window.show_status(f"Emulated control: {line}")

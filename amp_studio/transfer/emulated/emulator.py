@@ -28,7 +28,7 @@ from amp_studio.transfer.links.opening import listen
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm
-from .panel import OperatorPanel, PlainPanel
+from .panel import OperatorPanel, PlainPanel, Start
 from .responder import CHUNK, WINDOW, Responder
 
 RESTART_SECONDS = 0.5
@@ -89,6 +89,8 @@ class Emulator:
         self._listener = listener
         self._patch = patch
         self._panel = panel or PlainPanel()
+        self._start: tuple[object, Start] | None = None
+        """What the next start brings, and for which state of the control."""
         faults = faults or Faults()
         self._line = FaultyLine(faults)
         self._restart_seconds = restart_seconds
@@ -126,6 +128,8 @@ class Emulator:
         if self._restart_due:
             self._restart_due = False
             self._back_at = self._clock() + self._restart_seconds
+            self._hang_up()
+            self._prepare_start()
         if self._back_at is not None:
             self._stay_away(self._back_at)
             return
@@ -234,9 +238,18 @@ class Emulator:
         self._control.restart()
         return f"restarted {self._control.incarnation}"
 
+    def _prepare_start(self) -> None:
+        """Ask the panel for the next start, while there is time; again if somebody has changed the control since."""
+        state = self._control.sha256, self._control.flags & Flags.CHANGED_AT_CONTROL
+        if self._start is None or self._start[0] != state:
+            self._start = state, self._panel.started(self._control)
+
     def _started(self) -> None:
         """Show what the family's control shows at a start, and keep it in E-stop where it does not come out of it."""
-        start = self._panel.started(self._control)
+        self._prepare_start()
+        assert self._start is not None
+        _, start = self._start
+        self._start = None
         for message in start.messages:
             self._show(_line(message))
         self._control.hold(start.held)
