@@ -18,6 +18,7 @@ from amp_studio.transfer.errors import (
     ProtocolMismatchError,
     TransferError,
     WrongFamilyError,
+    unforeseen,
 )
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.link import LinkError
@@ -29,10 +30,9 @@ from .aftermath import after_break, answered_state
 from .content import GrblContent, read_content, write_content
 from .kind import FAMILY, GrblContentKind, described
 from .line import GrblLine, GrblRefusalError, GrblRestartedError
-from .offsets import left_notes
 from .reading import read_control, read_identity
 from .refusals import refusal_text
-from .writing import Writing, coarse_notes, restart_notes
+from .writing import Writing
 
 PROTOCOL = "grbl"
 SETTLE = 0.3  # seconds between the last answer and the reading back: the memory is written after the answer, and surely
@@ -133,14 +133,12 @@ class GrblDriver(GrblContentKind):
             if not writing.has_begun:
                 raise
             raise self._told(error, writing, progress, cancel) from None
-        settings = writing.settings
-        notes = (
-            *coarse_notes(settings, present.settings, writing.names),
-            *restart_notes(settings, described(held)),
-            *left_notes(wanted, present),
-        )
-        needs_restart = bool(restart_notes(settings, described(held)))
-        return Receipt(restart_needed=needs_restart, notes=notes)
+        except Exception as error:  # no memory, no handle: something may have been written anyway
+            if not writing.has_begun:
+                raise
+            broken = TransferError(f"the download broke off ({unforeseen(error)})")
+            raise self._told(broken, writing, progress, cancel) from error
+        return writing.receipt()
 
     def wait_restarted(
         self,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
+from amp_studio.transfer.driver import Receipt
 from amp_studio.transfer.progress import Progress
 
 from .content import GrblContent
@@ -17,7 +18,7 @@ from .description import Setting
 from .kind import HOMING, LOCATE_RATE, PER_AXIS_RATES, SEEK_RATE
 from .line import GrblLine, GrblRefusalError
 from .numbers import decimals_of, is_shown_as, read_number, shown_number
-from .offsets import offset_commands, startup_commands
+from .offsets import left_notes, offset_commands, startup_commands
 from .reading import read_settings
 from .refusals import MAY_WAIT
 
@@ -32,7 +33,7 @@ class Writing:
     """
 
     def __init__(self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting]) -> None:
-        self.wanted, self.present = wanted, present
+        self.wanted, self.present, self._known = wanted, present, known
         self.names = {number: setting.name for number, setting in known.items()}
         has_rates = any(n in wanted.settings for n in PER_AXIS_RATES)
         self._moved = {LOCATE_RATE, SEEK_RATE} if has_rates else set()
@@ -62,6 +63,14 @@ class Writing:
             left = {n: text for n, text in self.wanted.settings.items() if not self._is_there(n, text, shown)}
         if self.others:
             self._write_others(line, progress, total)
+
+    def receipt(self) -> Receipt:
+        """Return what a person has to know of a download that was taken."""
+        waiting = restart_notes(self.settings, self._known)
+        coarse = coarse_notes(self.settings, self.present.settings, self.names)
+        return Receipt(
+            restart_needed=bool(waiting), notes=(*coarse, *waiting, *left_notes(self.wanted, self.present))
+        )
 
     def _is_there(self, number: int, text: str, shown: Mapping[int, str]) -> bool:
         return number in self._moved or is_shown_as(text, shown.get(number, ""))

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from amp_studio.families.grblhal.content import GrblContent, read_content, write_content
 from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.emulated.firmware import Firmware
+from amp_studio.files import ParameterFile
+from amp_studio.transfer.client.exchange import Outcome, download
+from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link, LinkError
@@ -92,3 +97,28 @@ def damage(random_: random.Random, every: int) -> Callable[[bytes], bytes]:
         return bytes(b ^ 1 << random_.randrange(7) if random_.randrange(every) == 0 else b for b in data)
 
     return spoil
+
+
+def held(bench: Bench) -> GrblContent:
+    return read_content(bench.driver.fetch())
+
+
+def put(bench: Bench, settings: Mapping[int, str], **others: object) -> Outcome:
+    """Download the settings that the control has, with these changed."""
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, **settings}, **others)  # type: ignore[arg-type]
+    return download(bench.driver, write_content(wanted), lambda _: "kept", signature="")
+
+
+def sent(bench: Bench) -> list[str]:
+    """Return the settings that were sent."""
+    return [line for line in bench.lines if "=" in line]
+
+
+def edited(bench: Bench, **values: float) -> ParameterFile:
+    """Return what the control contains as a file, with numbers changed: ``n130=5`` is $130."""
+    file = decode_content(bench.driver.fetch())
+    for name, value in values.items():
+        address = file.find("$" + name[1:])
+        file.take({**file.values, address: replace(file.values[address], value=value)})
+    return file

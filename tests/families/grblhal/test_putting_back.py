@@ -1,0 +1,138 @@
+"""What a copy of a Grbl control brings back: settings in their order, offsets, start-up lines; also on another build."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from amp_studio.families.grblhal.content import read_content, write_content
+from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.errors import (
+    TransferError,
+)
+from amp_studio.transfer.image import ImageError
+from tests.families.grblhal.bench import Bench, edited, held, put, sent
+
+
+def test_disabling_homing_takes_soft_limits_along_and_the_copy_brings_them_back(bench: Bench) -> None:
+    put(bench, {22: "1", 20: "1", 40: "1"})
+    copy = bench.driver.fetch()
+    assert put(bench, {22: "0", 20: "0", 40: "0", 676: "15"}).verified
+    assert [held(bench).settings[n] for n in (20, 22, 40)] == ["0", "0", "0"]
+    outcome = download(
+        bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="", what="Restore"
+    )
+    assert outcome.verified
+    assert bench.driver.fetch() == copy
+
+
+def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
+    before = bench.driver.fetch()
+    assert 180 not in read_content(before).settings
+    assert put(
+        bench, {22: "513", 180: "30.0", 181: "25.0", 182: "25.0", 190: "500.0", 24: "30.0", 676: "15"}
+    ).verified
+    assert held(bench).settings[180] == "30.0"
+    assert download(
+        bench.driver, partial(bench.driver.refit, before), lambda _: "kept", signature=""
+    ).verified
+    assert bench.driver.fetch() == before
+
+
+def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_told(bench: Bench) -> None:
+    bench.firmware.offsets |= {"G54": "1.500,-2.250,3.000", "G28": "5.000,0.000,0.000"}
+    bench.firmware.startup.update({0: "G21G54", 1: "M3S100"})
+    copy = bench.driver.fetch()
+    bench.firmware.offsets |= {"G54": "0.000,0.000,0.000", "G28": "0.000,0.000,0.000"}
+    bench.firmware.startup.update({0: "", 1: ""})
+    outcome = download(
+        bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="", what="Restore"
+    )
+    assert sent(bench) == ["$N0=G21G54"]
+    assert "G21G10L2P1X1.5Y-2.25Z3" in bench.lines
+    assert (bench.firmware.offsets["G54"], bench.firmware.startup) == (
+        "1.500,-2.250,3.000",
+        {0: "G21G54", 1: ""},
+    )
+    assert "G28 was 5.000,0.000,0.000 and is 0.000,0.000,0.000: it is not put back" in outcome.text
+    assert "The start-up line $N1=M3S100 is not put back: the control would execute it now." in outcome.text
+
+
+def test_a_locked_control_takes_no_offsets_and_nothing_else_of_the_copy_is_sent(bench: Bench) -> None:
+    present = held(bench)
+    wanted = replace(
+        present,
+        settings={**present.settings, 130: "5.000"},
+        offsets={**present.offsets, "G54": "1.000,0.000,0.000"},
+    )
+    bench.firmware.command("alarm 1")
+    with pytest.raises(
+        TransferError, match=r"the control is locked, and takes no offsets .*; nothing was replaced"
+    ):
+        download(bench.driver, write_content(wanted), lambda _: "kept", signature="")
+    assert sent(bench) == []
+
+
+def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -> None:
+    bench.firmware.settings.store(13, "1")
+    bench.firmware.offsets["G55"] = "25.400,0.000,-50.800"
+    copy = bench.driver.fetch()
+    bench.firmware.offsets["G55"] = "0.000,0.000,0.000"
+    assert download(bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="").verified
+    assert bench.firmware.offsets["G55"] == "25.400,0.000,-50.800"
+    assert bench.lines[-30:].count("G21") == 1, "the unit of the program is as it was"
+
+
+@pytest.mark.parametrize("line", ["M3S100", "G0X10", "G28", "$H", "G1F100X1", "M8", "T1M6", "G10L2P1X0", "G92X0", "G53G0Z0", "G4P1",
+                                  "M62P1", "G38.2Z-5F10", "(G21)", "#1=2", "G2 0X1", "M30", "S1000"])  # fmt: skip
+def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str) -> None:
+    present = held(bench)
+    outcome = download(
+        bench.driver,
+        write_content(replace(present, startup={0: line, 1: ""})),
+        lambda _: "kept",
+        signature="",
+    )
+    assert sent(bench) == []
+    assert f"$N0={line} is not put back" in outcome.text
+
+
+def test_a_copy_of_another_build_goes_back_by_the_numbers_or_says_what_is_not_there(tmp_path: Path) -> None:
+    three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
+    three.firmware.settings.store(130, "300")
+    three.firmware.offsets["G54"] = "1.000,2.000,3.000"
+    four.firmware.offsets["G54"] = "0.000,0.000,0.000,45.000"
+    copy = three.driver.fetch()
+    assert download(four.driver, partial(four.driver.refit, copy), lambda _: "kept", signature="").verified
+    assert held(four).settings[130] == "300.000"
+    assert held(four).axes == ("X", "Y", "Z", "A")
+    assert held(four).offsets["G54"] == "1.000,2.000,3.000,45.000"
+    with pytest.raises(ImageError, match=r"^the control does not have \$47, \$103, \$113, \$123, \$133"):
+        download(
+            three.driver, partial(three.driver.refit, four.driver.fetch()), lambda _: "kept", signature=""
+        )
+
+
+def test_a_copy_in_inches_is_not_put_on_other_axes_in_millimeters(tmp_path: Path) -> None:
+    three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
+    three.firmware.settings.store(13, "1")
+    with pytest.raises(ImageError, match=r"set \$13 alike first"):
+        download(
+            four.driver, partial(four.driver.refit, three.driver.fetch()), lambda _: "kept", signature=""
+        )
+
+
+def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(tmp_path: Path) -> None:
+    three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
+    file = edited(three, n130=300.0)
+    assert download(four.driver, partial(four.driver.encode, file), lambda _: "kept", signature="").verified
+    assert held(four).settings[130] == "300.000"
+    with pytest.raises(
+        ImageError,
+        match=r"the control does not have \$47, \$103, .* \(amp-studio set FILE '\$47=not-set'",
+    ):
+        download(three.driver, partial(three.driver.encode, edited(four)), lambda _: "kept", signature="")
+    assert sent(three) == []
