@@ -19,7 +19,15 @@ RAMPS = (
     ("sine-squared", "sine squared"),
     ("none", "no ramp"),
 )
-LENGTHS = ("move.distance", "move.radius", "move.amplitude")
+LENGTHS = (
+    "move.distance",
+    "move.radius",
+    "move.amplitude",
+    "move.start",
+    "move.switch",
+    "move.switch_length",
+    "move.marker",
+)
 FEEDRATE, SECOND = "move.feedrate", "move.second_axis"
 
 
@@ -59,6 +67,9 @@ class SettingsForm(QWidget):
             field.setToolTip(meaning)
             field.setAccessibleName(_title(name))
             self._layout.addRow(_title(name), field)
+            # In a window that is shown already, a new row has no height before it is shown too.
+            for widget in (field, self._layout.labelForField(field)):
+                widget.show()
             self.fields[name] = field
 
     def _line(self, name: str, meaning: str) -> QLineEdit:

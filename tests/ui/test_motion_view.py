@@ -289,3 +289,11 @@ def test_a_bode_plot_is_painted_with_plain_numbers_on_its_axis(qtbot: QtBot) -> 
     assert not plot.grab().isNull()
     ticks = plot.panels[1].getAxis("bottom").tickStrings([-1.0, 0.301, 2.0, 2.7782], 1.0, 1.0)
     assert ticks == ["0.1", "2", "100", ""]
+
+
+def test_another_scenario_shows_the_fields_of_its_settings(view: MotionView, qtbot: QtBot) -> None:
+    view.show()
+    for scenario in ("home", "circle", "travel", "step"):
+        choose(view, scenario, qtbot)
+        assert view._above.height() > 60, scenario
+    assert view.trace.scenario == "step"

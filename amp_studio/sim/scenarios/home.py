@@ -28,6 +28,8 @@ SETTINGS = {
 QUARTER = 0.25
 DOUBTFUL = 0.45
 """Share of a turn between switch and nearest marker from which a sample more or less may take another marker."""
+MOST_TURNS = 100.0
+"""Turns from the switch to the marker that is given."""
 MARKERS = 5.0
 """Turns after which a marker that does not come is none."""
 SEEN = "ASSUMED: switch and marker are seen at the servo sample after they change; logic and input filters, which no manual here times, come later."
@@ -66,6 +68,13 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
     if found.alarm:
         alarms = (Alarm(found.alarm, float(motion.columns["time_s"][-1]), found.why),)
     notes = [SEEN, *homing.notes, *assumptions(axis)]
+    length = number(settings, "move.switch_length")
+    if length is not None and found.overrun is not None and found.overrun > length and not found.alarm:
+        notes.insert(
+            0,
+            f"ASSUMED: the axis runs {shown(found.overrun, axis.unit)} over a switch of {shown(length, axis.unit)}, stops behind it and comes back over it; the"
+            " control waits until it goes off again.",
+        )
     if homing.marker == "nearest" and found.left and found.marker is not None:
         away = abs(found.marker - found.left.measured) / homing.turn
         if away > DOUBTFUL:
@@ -135,6 +144,11 @@ def _leave(
     """Leave the switch whose end is at ``edge``, go to the marker and to the home position."""
     sign, far = math.copysign(1.0, homing.leave), MARKERS * homing.turn
     given = number(settings, "move.marker")
+    if given is not None and abs(given) > MOST_TURNS * homing.turn:
+        raise SimulationError(
+            f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is {shown(homing.turn, course.axis.unit)}",
+            "move.marker",
+        )
     first = edge + sign * (QUARTER * homing.turn if given is None else given)
     if homing.approach:
         way = abs(course.position - edge) + far

@@ -138,3 +138,12 @@ def test_an_incremental_jog_goes_at_the_third_speed() -> None:
         simulate(file, "jog", "1", {"move.increment": "largest", "move.speed": "highest"})
     with pytest.raises(SimulationError, match="Unknown jog speed 'warp'"):
         simulate(file, "jog", "1", {"move.speed": "warp"})
+
+
+def test_odd_settings_of_the_switch_get_a_sentence() -> None:
+    with pytest.raises(SimulationError, match=r"move\.marker is 1e\+300"):
+        simulate(mill(), "home", "1", {"move.marker": 1e300})
+    with pytest.raises(SimulationError, match=r"move\.switch_length is -1; it must be above 0"):
+        simulate(mill(), "home", "1", {"move.switch_length": -1.0})
+    short = simulate(mill(), "home", "1", {"move.switch": 40.0, "move.switch_length": 1.0})
+    assert any("comes back over it" in text for text in short.assumptions)
