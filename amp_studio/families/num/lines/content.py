@@ -16,6 +16,9 @@ from amp_studio.transfer.image import ImageError
 KIND = "NUM table 1"
 FAMILY = "num"
 _START = f"{KIND}\n".encode()
+TEXT = 8
+"""The type of words that are texts (page 1-3)."""
+_LEADING = re.compile(r"^([+-]?)0+(?=[0-9A-F])")
 _NAMED = 5
 """Words that a message names."""
 
@@ -110,15 +113,16 @@ def reference_of(content: bytes) -> str:
 
 
 def words_of_table(content: bytes) -> dict[str, str]:
-    """Return every word of a table by its number, as the control spells it; raises ImageError."""
+    """Return every word of a table by its number, without leading zeros of a number; raises ImageError."""
     words: dict[str, str] = {}
     try:
         lines, _ = split_table(table_text(content))
         for block in blocks_of(lines):
             parameter, first = block.first
-            words.update(
-                (name_of((parameter, n)), text) for n, text in enumerate(block.data.split(" "), first)
-            )
+            texts = block.data.split(" ")
+            if block.code is not None and block.code != TEXT:
+                texts = [_LEADING.sub(r"\1", text) for text in texts]
+            words.update((name_of((parameter, n)), text) for n, text in enumerate(texts, first))
     except FormatError as error:
         raise ImageError(f"the parameter table of the control: {error}") from None
     return words
