@@ -52,9 +52,12 @@ class Comparison:
 def compare(schema: Schema, a: Mapping[Address, Value], b: Mapping[Address, Value]) -> Comparison:
     """Compare two sets of values exactly; 1 in and 25.4 mm are the same value."""
     order = {p: n for n, p in enumerate(schema.parameters)}
-    both = sorted(
-        {*a, *b}, key=lambda address: (order.get(address[0], len(order)), len(address[1]), *address)
-    )
+    places = schema.on(schema.family.default_machine).places  # axes by letter are in no order of letters
+
+    def place(address: Address) -> tuple[int, int, int, str, str]:
+        return order.get(address[0], len(order)), places.get(address, len(places)), len(address[1]), *address
+
+    both = sorted({*a, *b}, key=place)
     found = [
         Difference(address, a.get(address), b.get(address)) for address in both if not _same(a, b, address)
     ]

@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
-from amp_studio.files import Header, ParameterFile, merge, new_file, save_file
+from amp_studio.files import Header, ParameterFile, compare, merge, new_file, save_file
 from amp_studio.files.by_schema import by_schema
 from amp_studio.schema import Value
 from tests.families.grblhal.recorded import THREE_AXES, with_lines
@@ -92,3 +92,9 @@ def test_a_merge_is_by_the_schema_of_ours_and_keeps_what_it_does_not_have() -> N
     assert conflicts == []
     assert merged.values == {("axis.max_rate", "X"): Value(600.0, "mm/min")}
     assert merged.unknown == {"general.arc_voltage": "120.5 V"}
+
+
+def test_axes_are_compared_in_their_order() -> None:
+    file = new_file("grblhal", None, "XYZAB")
+    found = compare(file.schema, {}, {a: v for a, v in file.values.items() if a[0] == "axis.steps"})
+    assert [difference.address[1] for difference in found.differences] == ["X", "Y", "Z", "A", "B"]
