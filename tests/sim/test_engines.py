@@ -8,12 +8,16 @@ import numpy as np
 import pytest
 
 from amp_studio.files import open_file
-from amp_studio.sim import bind_axis, law_of
+from amp_studio.sim import bind_axis, law_of, simulated_families
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.ramps import move
 from amp_studio.sim.signals import POSITION_LOOP, VELOCITY_LOOP
 
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
+EXAMPLES = [
+    path
+    for path in sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
+    if any(f"family: {family}\n" in path.read_text() for family in simulated_families())
+]
 ROUGH = {
     "model.coulomb_friction": 0.5,
     "model.static_friction": 0.8,
