@@ -63,12 +63,14 @@ class Receipt:
     ``restarting``      whether it restarts now; ``incarnation`` is the number of the start that ends
     ``restart_needed``  whether a restart by hand makes it current, where it does not restart by itself
     ``notes``           sentences that the person has to know
+    ``is_answered``     whether the control itself has answered that it took it; without, only reading it back shows it
     """
 
     restarting: bool = False
     incarnation: int = 0
     restart_needed: bool = True
     notes: tuple[str, ...] = ()
+    is_answered: bool = True
 
 
 class ControlDriver(ContentKind, Protocol):

@@ -140,16 +140,19 @@ def download(
     try:
         if receipt.restarting:
             meanwhile()
-        return _prove(driver, content, receipt, kept, progress, cancel, restart_wait, what)
+        return _prove(driver, content, old, receipt, kept, progress, cancel, restart_wait, what)
     except TransferError as error:
         # Without a commit, what was taken last may not have reached the memory of a control that is gone.
-        is_new = driver.abilities.all_or_nothing or isinstance(error, CancelledError)
+        is_new = driver.abilities.all_or_nothing or (
+            receipt.is_answered and isinstance(error, CancelledError)
+        )
         error.at_control, error.kept = "new" if is_new else "unknown", kept
         raise
     except KeyboardInterrupt:
-        raise CancelledError("stopped", "new", kept) from None
+        raise CancelledError("stopped", "new" if receipt.is_answered else "unknown", kept) from None
     except Exception as error:  # no memory, no handle: the commit has happened anyway
-        raise TransferError(f"it was not read back ({unforeseen(error)})", "new", kept) from error
+        now: AtControl = "new" if receipt.is_answered else "unknown"
+        raise TransferError(f"it was not read back ({unforeseen(error)})", now, kept) from error
 
 
 def short(digest: bytes) -> str:
@@ -207,6 +210,7 @@ _RESTART_TEXT = {
 def _prove(
     driver: ControlDriver,
     content: bytes,
+    old: bytes,
     receipt: Receipt,
     kept: str | None,
     progress: Progress,
@@ -227,6 +231,9 @@ def _prove(
         restart = "done"
     fetched = driver.fetch(progress, cancel, "verify")
     where = driver.difference(content, fetched)
+    if where and fetched == old and not driver.abilities.all_or_nothing:
+        text = f"The control has taken nothing of it: {AT_CONTROL_TEXT['old']}."
+        return Outcome("old", False, True, kept, restart, digest, text)
     if where:
         at_control: AtControl = "unknown" if driver.abilities.all_or_nothing else "mixed"
         text = f"The control took the image, but what it contains differs {where}; "

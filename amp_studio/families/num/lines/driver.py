@@ -165,7 +165,9 @@ class PeripheralDriver(NumTableContent):
             if not load.has_changed:
                 raise broken from None
             raise self._after_break(broken, held, content) from None
-        return Receipt(notes=("Leave utility 5, confirm the changes and reset the CNC (page 13-8).",))
+        return Receipt(
+            is_answered=False, notes=("Leave utility 5, confirm the changes and reset the CNC (page 13-8).",)
+        )
 
     def wait_restarted(
         self,

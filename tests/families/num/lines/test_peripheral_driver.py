@@ -189,6 +189,28 @@ def test_a_person_who_does_not_unload_after_a_break_is_told_that_it_is_not_known
     assert bench.clock.now < 200
 
 
+def test_a_load_that_nobody_began_at_the_control_is_noticed(bench: NumBench) -> None:
+    bench.refuses.add("load")
+    outcome = send(bench, small_file(), [])
+    assert (outcome.verified, outcome.at_control) == (False, "old")
+    assert outcome.text == "The control has taken nothing of it: nothing was replaced in the control."
+
+
+def test_ctrl_c_before_the_last_unload_does_not_claim_that_the_control_has_taken_it(bench: NumBench) -> None:
+    cancel, told = threading.Event(), bench.progress
+
+    def progress(stage: str, done: int, total: int) -> None:
+        told(stage, done, total)
+        if stage == UNLOAD_TEXT and bench.told.count(UNLOAD_TEXT) == 2:
+            cancel.set()
+
+    bench.refuses.add("load")
+    bench.progress = progress  # type: ignore[method-assign]
+    with pytest.raises(CancelledError) as caught:
+        send(bench, small_file(), [], cancel)
+    assert caught.value.at_control == "unknown"
+
+
 @pytest.mark.parametrize(("lines", "state"), [(0, "old"), (2, "old"), (3, "unknown"), (200, "unknown")])
 def test_ctrl_c_leaves_no_half_line_and_says_what_is_known(bench: NumBench, lines: int, state: str) -> None:
     cancel = threading.Event()
