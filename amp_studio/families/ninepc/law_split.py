@@ -20,7 +20,7 @@ from . import law_samples as samples
 SETS = (("deskew.master", "deskew.slave", "1"), ("deskew.master_2", "deskew.slave_2", "2"))
 GAIN, LIMIT, NAME = "deskew.gain", "deskew.skew_limit", "axis.name"
 Positions = npt.NDArray[np.float64]
-Columns = Mapping[str, Positions]
+Leads = Mapping[str, Positions]
 AXES = tuple(str(n) for n in range(1, 9))
 
 SLAVE = (
@@ -118,7 +118,7 @@ def _with_slave(slave: AxisLaw, stiffness: float, axis: AxisLaw, run: Leader) ->
     return _joined(alone, slave, stiffness, run)[0]
 
 
-def _following(slave: AxisLaw, leads: Columns) -> AxisLaw:
+def _following(slave: AxisLaw, leads: Leads) -> AxisLaw:
     """Return the slave with the following errors of its master."""
     errors = leads["control_following_error"]
     p = [*slave.parameters[: samples.MASTER], *errors]
