@@ -73,6 +73,7 @@ DOCUMENTS = (
     "README.md",
     "CONTRIBUTING.md",
     "docs/architecture.md",
+    "docs/described.md",
     "docs/formats.md",
     "docs/rules.md",
     "docs/schema.md",
