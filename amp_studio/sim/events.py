@@ -84,6 +84,10 @@ class Travel:
     """Code where a limit is passed."""
     page: str
     notes: tuple[str, ...] = ()
+    zones: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Zones that a program switches on, by number; each side is a limit."""
+    zone_note: str = ""
+    """Page of the zones, and what is assumed of them."""
 
     def nearest(self, start: float, sign: float) -> tuple[str, float] | None:
         """Return name and place of the first limit in a direction from a place inside; None without one."""

@@ -33,6 +33,10 @@ HOMED = (
     "ASSUMED: the ramp of homing is that of manual moves, exponential by Manual Delay Constant (10-14 calls homing exponential).",
 )
 STOPPED = "A software overtravel stops all commands at once, without a ramp; the axis moves past it by its following error (10-18)."
+ZONES = (
+    "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and is stopped there as at an overtravel; for zones no"
+    " stop is printed (6-3)."
+)
 JOGGED = (
     "Incremental jogs go at Third Jog Speed (8-2). Linear manual ramps are those of programmed moves (10-18)."
 )
@@ -89,12 +93,23 @@ def jogging(read: AxisParameters) -> Jogging:
 
 def travel(read: AxisParameters) -> Travel:
     """Return the software overtravels (6-10, 6-11), if they are used."""
+    zones = _zones(read)
     if read.value("zone.overtravel_used") is not True:
-        return Travel({}, "OVERTRAVEL", "6-10")
+        return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_note=ZONES)
     low, high = (read.optional(f"zone.overtravel_{side}") for side in ("negative", "positive"))
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     notes = (
         STOPPED,
         "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on the measured position.",
     )
-    return Travel({"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes)
+    return Travel({"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONES)
+
+
+def _zones(read: AxisParameters) -> dict[str, tuple[float, float]]:
+    """Return the programmable zones 2 and 3 (6-7 to 6-9) that are set."""
+    found = {}
+    for zone in ("2", "3"):
+        low, high = (read.optional(f"zone.limit{zone}_{side}") for side in ("min", "max"))
+        if low is not None and high is not None and low < high:
+            found[zone] = (low, high)
+    return found

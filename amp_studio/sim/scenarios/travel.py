@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from amp_studio.sim.course import Course
 from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.events import Travel
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import shown
@@ -19,6 +21,7 @@ from .step import feedrate_of
 
 SETTINGS = {
     "move.start": "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit as it reaches its speed",
+    "move.zone": "a programmable zone that is on, by its number; default: the limits of the travel alone",
     "move.direction": "plus or minus; default: plus",
     "move.feedrate": "feedrate against the limit (mm/min or deg/min); default: the rapid feedrate",
 }
@@ -35,13 +38,17 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         raise SimulationError("move.direction must be plus or minus", "move.direction")
     ramp = axis.manual_ramp(False) if axis.manual_ramp else next(iter(axis.ramps.values()))
     given = number(settings, "move.start")
+    zone = _zone(travel, settings)
+    if zone is not None:
+        travel = replace(travel, limits=zone, notes=(travel.zone_note, *travel.notes))
     found = travel.nearest(-sign * math.inf if given is None else given, sign)
     if found is None:
         raise SimulationError(
             f"No limit of the travel is active in the way of axis {axis.axis} (page {travel.page})"
         )
     if given is None:  # from inside of all limits
-        ends = [high if sign > 0.0 else low for low, high in travel.limits.values()]
+        far = (sign > 0.0) != (zone is not None)  # a zone is met from outside
+        ends = [high if far else low for low, high in travel.limits.values()]
         finite = [edge for edge in ends if math.isfinite(edge)]
         if finite:
             edge = min(finite, key=lambda each: sign * each)
@@ -93,6 +100,18 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         assumptions=(*travel.notes, *assumptions(axis)),
         limits={},
     )
+
+
+def _zone(travel: Travel, settings: Settings) -> dict[str, tuple[float, float]] | None:
+    """Return the zone that is asked for; raises SimulationError for one that is not set."""
+    wanted = settings.get("move.zone")
+    if wanted is None:
+        return None
+    name = f"{wanted:g}" if isinstance(wanted, float) else str(wanted)
+    if name not in travel.zones:
+        known = f"; set are: {', '.join(travel.zones)}" if travel.zones else ""
+        raise SimulationError(f"Zone {name} of this axis is not set{known}", "move.zone")
+    return {f"programmable zone {name}": travel.zones[name]}
 
 
 SCENARIO = Scenario("travel", "Against a limit of the travel: where the axis stops", SETTINGS, run_travel)

@@ -147,3 +147,17 @@ def test_odd_settings_of_the_switch_get_a_sentence() -> None:
         simulate(mill(), "home", "1", {"move.switch_length": -1.0})
     short = simulate(mill(), "home", "1", {"move.switch": 40.0, "move.switch_length": 1.0})
     assert any("comes back over it" in text for text in short.assumptions)
+
+
+def test_a_programmable_zone_stops_the_axis_on_either_side() -> None:
+    # 6-4: an axis alone in its group is not allowed between the limits of zone 2.
+    file = mill(zone__limit2_min=Value(100.0, "mm"), zone__limit2_max=Value(110.0, "mm"))
+    for direction, edge, sign in (("plus", 100.0, 1.0), ("minus", 110.0, -1.0)):
+        trace = simulate(
+            file, "travel", "1", {"move.zone": "2", "move.direction": direction, "move.feedrate": 3000.0}
+        )
+        assert trace.result["limit"] == (edge, "mm")
+        assert trace.result["stop_position"][0] == pytest.approx(edge + sign * 3.0, rel=0.01)
+        assert "programmable zone 2" in trace.alarms[0].message
+    with pytest.raises(SimulationError, match="Zone 7 of this axis is not set"):
+        simulate(file, "travel", "1", {"move.zone": 7.0})
