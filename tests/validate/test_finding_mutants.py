@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 import pytest
@@ -19,7 +20,7 @@ from rule_machines import FAMILIES, HERE, Case, cases, read
 from amp_studio.schema import Rule, load_schema, program
 from amp_studio.schema.expression import Expression
 from amp_studio.validate import Finding
-from amp_studio.validate.expressions import Expressions, FindingExpressions
+from amp_studio.validate.expressions import Expressions
 from amp_studio.validate.formulas import rule_functions
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
@@ -48,13 +49,18 @@ class Mutant:
         """Return whether a piece of text is what was changed here."""
         return piece in self.text and piece not in self.before
 
-    def of(self, rule: Rule, expressions: FindingExpressions) -> Expressions:
-        """Return the expressions of the rule with this change; raises ValueError if it cannot be compiled."""
+    def of(self, rule: Rule, expressions: Expressions) -> Expressions:
+        """Return the expressions of the rule with this change; raises ValueError if it cannot be compiled.
+
+        Whether the rule is broken is decided as it was: that is not what was changed.
+        """
         field = PARTS[self.part]
-        all_of_it = list(getattr(expressions, field))
+        all_of_it = list(getattr(expressions.finding, field))
         functions = rule_functions(rule.id.partition(".")[0])
         all_of_it[self.n] = (all_of_it[self.n][0], Expression(program(self.text), functions))
-        return Expressions(rule, functions, expressions._replace(**{field: tuple(all_of_it)}))
+        changed = copy(expressions)
+        changed.finding = expressions.finding._replace(**{field: tuple(all_of_it)})
+        return changed
 
 
 def parts_of(rule: Rule) -> Iterator[tuple[str, int, str, str]]:
@@ -124,7 +130,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ..
         has_fix = any(one.fix for check in broken if (one := values.finding(check)) is not None)
         for mutant in mutants:
             try:
-                expressions = mutant.of(rule, broken[0].expressions.finding)
+                expressions = mutant.of(rule, broken[0].expressions)
             except ValueError:
                 continue
             found = [
