@@ -253,7 +253,10 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
         for recent in settings.recent():
             is_there(recent)
         settings.place(window)
-        settings.arrange(window)
+        if (kept := settings.arrangement()) is not None:
+            window.restoreState(kept)
+        settings.bring_back(window.findChildren(QDockWidget))
+        settings.session()
         assert window.width() >= 1
 
     path = folder / "settings.conf"
