@@ -8,8 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QUrl
-from PySide6.QtGui import QAction, QDesktopServices, QKeySequence
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
 
 from amp_studio.files import (
@@ -17,12 +16,10 @@ from amp_studio.files import (
     InUseError,
     Unsaved,
     backup_path,
-    check_output,
     open_file,
     real_path,
     recover_backup,
     same_file,
-    secret_values,
 )
 from amp_studio.files.by_schema import by_schema
 from amp_studio.files.local_time import local_time
@@ -35,11 +32,11 @@ from .format_actions import FormatActions
 from .questions import ask
 from .settings import is_there
 from .studio_window import StudioWindow
-from .task import ProgressDialog, TaskProgress, in_background
+from .task import in_background
 from .workspace import Workspace
 
 if TYPE_CHECKING:
-    import threading
+    pass
 
 FILTER = "Parameter files (*.amp);;All files (*)"
 _RECENT = 8
@@ -354,41 +351,9 @@ class FileActions:
 
     def report(self) -> None:
         """Print the file as PDF, HTML, CSV or text."""
-        from .file_dialogs import ReportDialog
+        from .printing import print_report
 
-        workspace = self._workspace()
-        dialog = ReportDialog(
-            workspace.path,
-            self.window,
-            has_secrets=bool(secret_values(workspace.file)),
-            shows_secrets=workspace.secrets,
-        )
-        if not dialog.exec():
-            return
-        path, sort, changed_only, show = dialog.chosen()
-        secrets = dialog.secrets.isChecked()
-        check_output(path, workspace.path)
-        file = workspace.file.copy()
-        notes: list[str] = []
-
-        def work(_: TaskProgress, __: threading.Event) -> None:
-            from amp_studio.report import write_report
-
-            write_report(
-                file,
-                path,
-                sort=sort,
-                changed_only=changed_only,
-                source=workspace.path,
-                own=workspace.validator.own,
-                secrets=secrets,
-                notify=notes.append,
-            )
-
-        ProgressDialog("Report", work, self.window, f"Writing {path.name} …", cancellable=False).run()
-        self.window.show_status("; ".join([f"{path} written", *notes]))
-        if show:
-            QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
+        print_report(self.window, self._workspace())
 
 
 def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:

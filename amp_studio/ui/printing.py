@@ -1,0 +1,51 @@
+"""The documentation of the open file, asked for in a dialog and written in a thread."""
+
+from __future__ import annotations
+
+import threading
+
+from PySide6.QtCore import QUrl
+from PySide6.QtGui import QDesktopServices
+
+from amp_studio.files import check_output, secret_values
+
+from .file_dialogs import ReportDialog
+from .studio_window import StudioWindow
+from .task import ProgressDialog, TaskProgress
+from .workspace import Workspace
+
+
+def print_report(window: StudioWindow, workspace: Workspace) -> None:
+    """Print a file as PDF, HTML, CSV or text; nothing where the dialog is cancelled."""
+    dialog = ReportDialog(
+        workspace.path,
+        window,
+        has_secrets=bool(secret_values(workspace.file)),
+        shows_secrets=workspace.secrets,
+    )
+    if not dialog.exec():
+        return
+    path, sort, changed_only, show = dialog.chosen()
+    secrets = dialog.secrets.isChecked()
+    check_output(path, workspace.path)
+    file = workspace.file.copy()
+    notes: list[str] = []
+
+    def work(_: TaskProgress, __: threading.Event) -> None:
+        from amp_studio.report import write_report
+
+        write_report(
+            file,
+            path,
+            sort=sort,
+            changed_only=changed_only,
+            source=workspace.path,
+            own=workspace.validator.own,
+            secrets=secrets,
+            notify=notes.append,
+        )
+
+    ProgressDialog("Report", work, window, f"Writing {path.name} …", cancellable=False).run()
+    window.show_status("; ".join([f"{path} written", *notes]))
+    if show:
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
