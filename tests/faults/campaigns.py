@@ -118,7 +118,7 @@ CAMPAIGNS = (
     Campaign("kill -9 of the editor", _killed, 60, 1, 5),
     Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 1, 5),
     Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 1, 10),
-    Campaign("download over a bad line, TCP and pty", download_over_bad_lines, 300, 1, 10),
+    Campaign("download over a bad line, TCP, TLS and pty", download_over_bad_lines, 300, 1, 10),
     Campaign(
         "NUM table over a bad line, power off in the load", own_protocols.table_under_faults, 2_000, 2, 100
     ),

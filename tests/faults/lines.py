@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "57c422b-label-press" / "LABEL_PRESS.amp"
+CERTIFICATES = Path(__file__).resolve().parents[1] / "transfer" / "links" / "certificates"
+PASSWORD = "correct horse"
 
 
 def _faults(chance: random.Random) -> dict[str, Any]:
@@ -49,8 +51,14 @@ def _one(chance: random.Random, work: Path) -> list[str]:
     shutil.copy(EXAMPLE, path)
     faults = _faults(chance)
     listen = chance.choice(["tcp://127.0.0.1:0", "pty:"])
+    secured: list[object] = []
+    if listen.startswith("tcp") and chance.random() < 0.5:
+        (work / "password").write_text(PASSWORD, encoding="utf-8")
+        listen = listen.replace("tcp", "tls")
+        secured = ["--certificate", CERTIFICATES / "control.pem", "--key", CERTIFICATES / "control.key",
+                   "--password-file", work / "password"]  # fmt: skip
     command = _program(
-        "emulate", "57c422b", "--listen", listen, "--state", state, "--faults", json.dumps(faults)
+        "emulate", "57c422b", "--listen", listen, "--state", state, "--faults", json.dumps(faults), *secured
     )
     kept = None
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as control:
@@ -62,6 +70,7 @@ def _one(chance: random.Random, work: Path) -> list[str]:
             ended = subprocess.run(
                 _program("download", path, "--to", address, "--accept-errors"),
                 capture_output=True, text=True, check=False, timeout=180,
+                env=os.environ | ({"AMP_STUDIO_PASSWORD": PASSWORD} if secured else {}),
             )  # fmt: skip
             held = (state / "active.img").read_bytes()
         finally:

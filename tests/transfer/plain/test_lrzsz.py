@@ -67,7 +67,7 @@ def to_lrzsz(protocol: str, sizes: Sequence[int], folder: Path, noise: int = 0) 
 
 
 @pytest.mark.parametrize("protocol", ["xmodem", "xmodem-1k", "xmodem-checksum"])
-@pytest.mark.parametrize("size", [0, 129, 1025])
+@pytest.mark.parametrize("size", [0, 1025])
 def test_xmodem_receives_what_sx_sends(protocol: str, size: int, tmp_path: Path) -> None:
     (file,) = from_lrzsz(protocol, [size], tmp_path)
     assert file.content == content(size)
@@ -80,9 +80,8 @@ def test_ymodem_receives_a_batch_of_sb_over_a_clean_and_a_noisy_line(tmp_path: P
     assert from_lrzsz("ymodem", sizes[4:8], tmp_path, noise=3_000) == expected[4:8]
 
 
-@pytest.mark.parametrize(("protocol", "size"), [("xmodem", 129), ("xmodem-1k", 20_000)])
-def test_rx_receives_what_xmodem_sends(protocol: str, size: int, tmp_path: Path) -> None:
-    assert to_lrzsz(protocol, [size], tmp_path) == [content(size)]
+def test_rx_receives_what_xmodem_sends(tmp_path: Path) -> None:
+    assert to_lrzsz("xmodem-1k", [20_000], tmp_path) == [content(20_000)]
 
 
 def test_rb_receives_a_batch_of_ymodem(tmp_path: Path) -> None:
