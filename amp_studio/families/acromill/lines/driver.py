@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 
+from amp_studio.families.acromill.formats.acr_command import CommandSetting
 from amp_studio.schema import load_schema
 from amp_studio.transfer.break_state import state_after_break
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
@@ -19,6 +20,7 @@ from amp_studio.transfer.errors import (
     CancelledError,
     ConnectionCutError,
     ControlFullError,
+    ControlSilentError,
     ImageDamagedError,
     ImageRejectedError,
     ProtocolMismatchError,
@@ -47,8 +49,9 @@ from .terminal import Terminal
 
 USUAL = SerialSettings(baud=9_600)
 """As delivered (Communications, page 66)."""
-ASKED = 6  # times a query is sent until two answers in a row are the same
+ASKED = 12  # times a query is sent until enough answers in a row are the same
 SET_TRIES = 3
+FETCH_WAIT = 600.0  # seconds the answers of a whole card may take; 20 at 9600 bit/s
 SAVES = 6  # times a setting is looked for and saved again where the line broke meanwhile
 SAVE_WAIT = 30.0  # seconds ESAVE may take
 CAN_BE_OFF = ("LOPASS", "NOTCH")
@@ -90,7 +93,7 @@ class TerminalDriver(AcrContent):
     def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
         """Return the name and the version that the card prints."""
         self._waiting.begin(progress, cancel)
-        rows = self._twice("VER")
+        rows = self._twice("VER", on_damage=2)  # only shown
         if self._terminal.program != "00":
             self._terminal.obey("PROG0")
         version = next((found[1] for row in rows if (found := re.match(r"Version\s+(\S+)", row))), "")
@@ -152,19 +155,35 @@ class TerminalDriver(AcrContent):
     # -- reading ----------------------------------------------------------------------------------
 
     def _fetched(self, stage: str) -> bytes:
+        """Return every setting; what was read before the line showed damage for the first time is read again."""
         found = CardContent(self._system)
-        total = len(settings()) + len(AXES)
-        for n, setting in enumerate(settings(), 1):
-            figures = self._figures(setting.name, len(setting.addresses))
-            if figures is not None:
-                found.figures[setting.name] = figures
-            self._waiting.notify(stage, n, total)
-        if not any(found.figures.values()):
-            raise ProtocolMismatchError("this terminal answers for no setting of an ACR card")
-        for n, axis in enumerate(AXES, len(settings()) + 1):
-            found.ballscrew.update(self._ballscrew(axis))
-            self._waiting.notify(stage, n, total)
+        asked = [*settings(), *AXES]
+        early, end = [], self._waiting.now() + FETCH_WAIT
+        for n, what in enumerate(asked, 1):
+            if self._waiting.now() > end:
+                raise ControlSilentError(
+                    f"the card has not answered for its settings within {FETCH_WAIT:g} s"
+                )
+            self._read_into(found, what)
+            if not self._terminal.faults:
+                early.append(what)
+            if what is settings()[-1] and not any(found.figures.values()):
+                raise ProtocolMismatchError("this terminal answers for no setting of an ACR card")
+            self._waiting.notify(stage, n, len(asked))
+        for what in early if self._terminal.faults else ():
+            self._read_into(found, what)
         return found.written()
+
+    def _read_into(self, found: CardContent, what: CommandSetting | str) -> None:
+        """Ask for a setting, or for the ballscrew table of an axis."""
+        if isinstance(what, str):
+            others = {name: figure for name, figure in found.ballscrew.items() if name[4] != what}
+            found.ballscrew = others | self._ballscrew(what)
+            return
+        figures = self._figures(what.name, len(what.addresses))
+        found.figures.pop(what.name, None)
+        if figures is not None:
+            found.figures[what.name] = figures
 
     def _figures(self, name: str, count: int) -> Figures | None:
         """Return the figures of a setting, none for one that is off; None where the card does not have it."""
@@ -184,14 +203,18 @@ class TerminalDriver(AcrContent):
         except ValueError:
             return {}  # words: this card does not show its tables
 
-    def _twice(self, query: str) -> list[str]:
-        """Return an answer that has come twice in a row: nothing else on this line shows a damaged digit."""
-        before = None
+    def _twice(self, query: str, on_damage: int = 3) -> list[str]:
+        """Return an answer that has come twice in a row: nothing else on this line shows a damaged digit.
+
+        On a line that has shown damage it has to come three times: of 10000 a zero is soon lost twice.
+        """
+        before, same = None, 0
         for _ in range(ASKED):
             rows = self._terminal.obey(query)
-            if rows == before:
-                return rows
+            same = same + 1 if rows == before else 1
             before = rows
+            if same >= (on_damage if self._terminal.faults else 2):
+                return rows
         raise ImageDamagedError(f"the card answers '{query}' otherwise each time")
 
     # -- writing ----------------------------------------------------------------------------------
@@ -200,8 +223,12 @@ class TerminalDriver(AcrContent):
         cuts = self._terminal.cuts
         for number, name in enumerate(sending.names, 1):
             self._waiting.look()
-            self._set(sending, name)
+            if name in sending.content.ballscrew:
+                self._command(sending, name)
+            else:
+                self._set(sending, name)
             self._waiting.notify("download", number, len(sending.names))
+        self._prove_tables(sending)
         for _ in range(SAVES):
             if self._terminal.cuts != cuts:
                 cuts = self._terminal.cuts
@@ -216,34 +243,52 @@ class TerminalDriver(AcrContent):
                 return
         raise ConnectionCutError("the line breaks each time the card is to save")
 
+    def _command(self, sending: _Sending, name: str) -> str:
+        """Send the command of one setting; returns what the card answers instead of obeying it, "" for nothing."""
+        rows = self._terminal.obey(sending.lines[name], sent=partial(sending.is_sent, name))
+        return f"the card answers '{rows[0][:SHOWN]}'" if rows else ""
+
     def _set(self, sending: _Sending, name: str) -> None:
         """Send the command of one setting until it is read back; raises ImageRejectedError with its line."""
-        line, wanted, fault = sending.lines[name], sending.wanted[name], ""
+        wanted, fault = sending.wanted[name], ""
         for _ in range(SET_TRIES):
             with self._terminal.seen_through():
-                rows = self._terminal.obey(line, sent=partial(sending.is_sent, name))
-                present = self._present(name, len(wanted))
-            if not rows and present is not None and same_figures(present, wanted):
+                fault = self._command(sending, name)
+                present = self._figures(name, len(wanted))
+            if not fault and present is not None and same_figures(present, wanted):
                 sending.is_proved(name)
                 return
-            shown = "nothing" if not present else ", ".join(present)
-            fault = (
-                f"the card answers '{rows[0][:SHOWN]}'" if rows else f"the card takes it and shows {shown}"
-            )
-        raise ImageRejectedError(f"line {sending.numbers[name]} of the script, '{line}': {fault}")
+            fault = fault or f"the card takes it and shows {', '.join(present or ()) or 'nothing'}"
+        raise sending.refused(name, fault)
+
+    def _prove_tables(self, sending: _Sending) -> None:
+        """Read each ballscrew table back as a whole, and send again what is another; raises ImageRejectedError."""
+        for axis in dict.fromkeys(name[4] for name in sending.names if name in sending.content.ballscrew):
+            names, fault = [name for name in sending.names if name.startswith(f"BSC {axis}")], ""
+            for _ in range(SET_TRIES):
+                present = self._ballscrew(axis)
+                wrong = [name for name in names if present.get(name) != sending.content.ballscrew[name]]
+                if not wrong:
+                    break
+                for name in wrong:
+                    fault = (
+                        self._command(sending, name)
+                        or f"the card takes it and shows {present.get(name, 'nothing')}"
+                    )
+            else:
+                raise sending.refused(wrong[-1], fault)
+            for name in names:
+                sending.is_proved(name)
 
     def _set_again(self, sending: _Sending) -> None:
         """Set once more what a card has forgotten that lost its power meanwhile: half of it is not saved."""
         for name in sending.names:
-            present = self._present(name, len(sending.wanted[name]))
+            if name in sending.content.ballscrew:
+                continue
+            present = self._figures(name, len(sending.wanted[name]))
             if present is None or not same_figures(present, sending.wanted[name]):
                 self._set(sending, name)
-
-    def _present(self, name: str, count: int) -> Figures | None:
-        if not name.startswith("BSC "):
-            return self._figures(name, count)
-        figure = self._ballscrew(name[4]).get(name)
-        return None if figure is None else (figure,)
+        self._prove_tables(sending)
 
     def _after_break(self, error: TransferError, sending: _Sending) -> TransferError:
         """Return the error with what the card contains now, read from it."""
@@ -274,6 +319,10 @@ class _Sending:
         self.touched: set[str] = set()
         self.is_saving = False
         self._proved: list[str] = []
+
+    def refused(self, name: str, fault: str) -> ImageRejectedError:
+        """Return the error of a setting that the card does not take, with its line."""
+        return ImageRejectedError(f"line {self.numbers[name]} of the script, '{self.lines[name]}': {fault}")
 
     def is_sent(self, name: str) -> None:
         """Take notice that a command is being sent."""

@@ -24,6 +24,9 @@ TRIES = 8  # of one line
 ECHO_WAIT = 1.5  # seconds until the echo of a line begins
 ECHO_GAP = 0.4  # seconds between two signs of an echo: one that was lost does not come any more
 PROMPT_WAIT = 1.5  # seconds until the prompt comes back
+ANSWER_WAIT = (
+    20.0  # seconds an answer may take that goes on; a table of 1,000 positions takes 13 at 9600 bit/s
+)
 QUIET = 0.06  # seconds without a sign after which a line that was cleared is quiet
 MOST_LATE = 100  # pieces that may come behind the prompt of a line that was cleared
 PATIENCE = 20.0  # seconds for which a line that is cut is made again
@@ -53,6 +56,8 @@ class Terminal:
         self._stopped_at: float | None = None
         self.cuts = 0
         """How often the line has broken and was made again: a card may have lost its power then."""
+        self.faults = 0
+        """How often something has come otherwise than a card sends it."""
         self.program = ""
         """Of the last prompt: ``00``."""
 
@@ -83,6 +88,7 @@ class Terminal:
                 continue
             except _DamagedError as error:
                 self._is_clear, fault = False, str(error)
+                self.faults += 1
                 continue
             self._waiting.heard()
             return rows
@@ -126,7 +132,9 @@ class Terminal:
         sent()
         self._is_clear = False
         link.write(b"\r")
-        answer = self._read_until(link, lambda got: _PROMPT.search(got) is not None, seconds)
+        answer = self._read_until(
+            link, lambda got: _PROMPT.search(got[-8:]) is not None, seconds, gap=seconds
+        )
         found = _PROMPT.search(answer)
         if found is None or not answer.startswith((b"\r", b"\n")):
             raise _DamagedError("there is no prompt behind its answer")
@@ -164,6 +172,7 @@ class Terminal:
         """
         got, count = b"", 0
         end = self._waiting.now() + seconds
+        latest = end + ANSWER_WAIT
         while not is_enough(got):
             left = end - self._waiting.now()
             if left <= 0:
@@ -172,7 +181,7 @@ class Terminal:
             data = link.read(min(left, QUIET))
             got, count = got + data, count + len(data)
             if data and gap is not None:
-                end = self._waiting.now() + gap
+                end = min(self._waiting.now() + gap, latest)
             if count > LARGEST:
                 raise ProtocolMismatchError("this is no ACR card: it sends without an end")
             if keep:

@@ -100,6 +100,25 @@ def test_ballscrew_words_are_sent_behind_their_command_and_listed(bench: CardBen
     assert send(bench, small_file(table="X0E.00325 X1E-.00250 X2E.00001"), []).verified
 
 
+def test_a_long_table_on_a_slow_line_is_read_back_once(bench: CardBench) -> None:
+    """60 positions are 720 bytes an answer, 0.75 s at 9600 bit/s."""
+    words = " ".join(f"X{n}E.{n:05d}" for n in range(60))
+    bench.wrap = lambda link: setattr(link, "bytes_per_second", 960) or link  # type: ignore[func-returns-value]
+    assert send(bench, small_file(table=words), []).verified
+    asked = bytes(bench.lines[0].sent).decode().split("\r")
+    after = asked[asked.index("BSC X59E.00059") :]
+    assert after[:4] == ["BSC X59E.00059", "BSC X", "BSC X", "ESAVE"]
+
+
+def test_a_position_that_the_card_takes_otherwise_is_named(bench: CardBench) -> None:
+    refuse(bench, "BSC X1E-.00250", [])
+    with pytest.raises(
+        ImageRejectedError,
+        match=r"line 132 of the script, 'BSC X1E-\.00250': the card takes it and shows nothing",
+    ):
+        send(bench, small_file(table="X0E.00325 X1E-.00250"), [])
+
+
 def test_a_filter_is_switched_on_and_not_off(bench: CardBench) -> None:
     kept: list[bytes] = []
     assert send(bench, small_file(notch="500", width="50", lopass="1000"), kept).verified
