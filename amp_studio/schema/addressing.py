@@ -16,7 +16,6 @@ from __future__ import annotations
 import contextlib
 import re
 from collections.abc import Iterator
-from difflib import SequenceMatcher, get_close_matches
 from functools import partial
 from typing import NamedTuple, Protocol
 
@@ -26,6 +25,7 @@ from .catalog import Schema
 from .conditions import StateInfo
 from .machine_schema import MachineSchema
 from .model import Parameter, Scope
+from .nearest import close_matches
 from .quoting import quoted, short
 from .values import label_of
 
@@ -246,12 +246,14 @@ def _nearest(schema: Schema, text: str) -> list[str]:
     known = {p.name.casefold(): p.id for p in schema.parameters.values()}
     known |= {p.id.partition(".")[2]: p.id for p in schema.parameters.values()}
     known |= {p: p for p in schema.parameters}
-    found = dict.fromkeys(known[word] for word in get_close_matches(name[:80], known, 2 * _NEAREST, 0.7))
+    found = dict.fromkeys(known[word] for word in close_matches(name[:80], known, 2 * _NEAREST, 0.7))
     return [f"{n}{sign}{short(instance)}" if n in schema.parameters else n for n in found][:_NEAREST]
 
 
 def _nearest_numbers(numbers: list[str], text: str) -> list[str]:
     """Return the numbers that look most like one, of those the ones next to it."""
+    from difflib import SequenceMatcher
+
     digits = _figures(text)
 
     def far(number: str) -> tuple[bool, float, list[int]]:

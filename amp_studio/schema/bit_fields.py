@@ -7,9 +7,9 @@ A bit is set by its label, a field of several bits by ``label: choice`` or ``lab
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 
 from .model import Bit, Parameter
+from .nearest import close_matches
 from .quoting import quoted
 from .value import LONGEST_NUMBER, InvalidValueError, plain
 
@@ -53,7 +53,7 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
 def no_label(parameter: Parameter, text: str) -> str:
     """Return the message for a text that is not a bit of a word, with the nearest labels."""
     labels = {plain(b.label): b.label for b in parameter.bits or ()}
-    near = [labels[n] for n in get_close_matches(plain(text[:80]), labels, 3, 0.5)]
+    near = [labels[n] for n in close_matches(plain(text[:80]), labels, 3, 0.5)]
     if near:
         return f"{quoted(text)} is no bit of {parameter.name}. Did you mean: {', '.join(near)}"
     names = list(labels.values())

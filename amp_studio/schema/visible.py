@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 
-_STEERING = re.compile(
+_STEERING = (
     "[\x00-\x1f\x7f-\x9f\xad\u0600-\u0605\u061c\u06dd\u070f\u0890\u0891\u08e2\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f"
     "\ud800-\udfff\ufeff\ufff9-\ufffb\U000110bd\U000110cd\U00013430-\U00013438\U0001bca0-\U0001bca3"
     "\U0001d173-\U0001d17a\U000e0001\U000e0020-\U000e007f]"
@@ -18,4 +18,4 @@ def visible(text: str, keep: str = "") -> str:
 
     A JSON document stays the same document.
     """
-    return _STEERING.sub(lambda found: found[0] if found[0] in keep else json.dumps(found[0])[1:-1], text)
+    return re.sub(_STEERING, lambda found: found[0] if found[0] in keep else json.dumps(found[0])[1:-1], text)
