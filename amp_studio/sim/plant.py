@@ -156,8 +156,11 @@ def advance(
 ) -> PlantState:
     """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the drive."""
     target, error_sum = wanted_torque(m, output, motor, error_sum, against, h)
-    mean = target + (torque - target) * m[LAG_MEAN]
-    torque = target + (torque - target) * m[LAG]
+    mean = target
+    if m[LAG_MEAN] > 0.0:  # a current loop that is not ideal
+        mean = target + (torque - target) * m[LAG_MEAN]
+        target += (torque - target) * m[LAG]
+    torque = target
     motor_position += 0.5 * h * motor
     if m[TWO_MASSES] == 0.0:
         push = mean - m[GRAVITY] - m[SPRING] * motor_position
