@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 import threading
 from dataclasses import replace
 
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
+from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.links.password import PasswordError
 from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import Waiting
 
@@ -46,12 +47,17 @@ def open_driver_at(
     """Return the driver for a control, whose protocol is found out where neither it nor a family is named.
 
     Only what does nothing to any machine is sent for that: the frames of the house protocol may contain what a Grbl takes for
-    a feed hold or a reset. Raises as ``open_driver``, and CancelledError; a control that cannot be reached is left to the driver.
+    a feed hold or a reset. Raises as ``open_driver``, CancelledError, and NoConnectionError where
+    its password is not known; any other control that cannot be reached is left to the driver.
     """
     place = parse_endpoint(address)
     if not family and not place.protocol:
-        with contextlib.suppress(LinkError):
+        try:
             place = replace(place, protocol=_recognise(place, progress, cancel))
+        except PasswordError as error:  # tried again it would be one more wrong guess
+            raise NoConnectionError(f"no connection to the control ({error})", "") from None
+        except LinkError:
+            pass
     return open_driver(place, family)
 
 
