@@ -32,13 +32,10 @@ _PARAMETER_FILE = ".amp"
 
 AT_A_CONTROL = ("control", "identify", "plain_files", "files")
 """Modules of verbs that may connect to a control."""
-_OBJECTS = 300_000
-"""New objects before Python looks for unreachable ones: facts and values are many and stay, a fifth of a check's time."""
 
 
 def start(arguments: Sequence[str] | None) -> NoReturn:
     """Be the program: run one verb on the standard streams and exit with its code."""
-    gc.set_threshold(_OBJECTS)
     _leave_out_plugins()
     try:
         answer_once()
