@@ -51,6 +51,8 @@ class TransferError(OSError):
         """Return what the control contains now, in words."""
         if self.at_control == "mixed" and self.new:
             return f"the control contains the new {', '.join(map(visible, self.new))} and the old values of the rest"
+        if self.at_control == "new" and self.new:
+            return "the control contains the new content, as it was read since"
         but = (
             f", but the new {', '.join(map(visible, self.new))}"
             if self.at_control == "defaults" and self.new

@@ -33,6 +33,7 @@ def after_break(
     """
     if found is not None:
         at, new = state_of(writing, found, has_lost_memory=has_lost_memory)
+        new = tuple(writing.taken) if at == "new" else new
     elif is_answered:
         at, new = answered_state(writing)
     else:
@@ -50,7 +51,9 @@ def answered_state(writing: Writing) -> tuple[AtControl, tuple[str, ...]]:
         return "unknown", new
     if not new:
         return "old", ()
-    return ("mixed" if len(new) < len(writing.settings) + len(writing.others) else "new"), new
+    if len(new) < len(writing.settings) + len(writing.others):
+        return "mixed", new
+    return "new", ()
 
 
 def state_of(

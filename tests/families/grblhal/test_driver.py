@@ -199,6 +199,22 @@ def _power_off_at_save(bench: Bench) -> Callable[[bytes], bytes]:
     return cut
 
 
+def test_a_break_after_the_last_answer_is_told_as_new_and_read(bench: Bench) -> None:
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, 110: "600.000"})
+
+    def restart(stage: str, done: int, total: int) -> None:
+        if (stage, done) == ("download", 1):
+            bench.firmware.answer()  # the memory is written
+            bench.firmware.power_cycle()
+
+    with pytest.raises(
+        ConnectionCutError, match="the control contains the new content, as it was read since"
+    ) as caught:
+        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=restart)
+    assert caught.value.at_control == "new"
+
+
 def test_a_cable_that_is_out_for_good_leaves_it_unknown(bench: Bench) -> None:
     def pull(stage: str, done: int, total: int) -> None:
         bench.is_cut = bench.is_cut or (stage, done) == ("download", 1)
