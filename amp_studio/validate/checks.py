@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
 from amp_studio.schema.cel_engine import Context
+from amp_studio.schema.conditions import ACTIVE
+from amp_studio.schema.expression import Key
 
 from .finding import Finding
 from .plan import Plan, RuleCheck
@@ -42,20 +44,22 @@ class Checks:
 
     def of_all(self, plan: Plan) -> Iterator[tuple[Place, Finding]]:
         """Yield all that is wrong, and where it is filed: what a full run finds."""
-        file, order = self._file, plan.order
-        state_of, keys = file.evaluation.state, file.evaluation.keys
-        addresses = sorted(filter(order.__contains__, file.values), key=order.__getitem__)
-        states = [state_of(address) for address in addresses]
-        self._rules.look_at(
-            (address, keys[address] if state.is_active else None)
-            for address, state in zip(addresses, states, strict=True)
-        )
-        for address, state in zip(addresses, states, strict=True):
-            if state.state in _NOT_LOOKED_AT and address not in file.forced:
+        file, order, evaluation = self._file, plan.order, self._file.evaluation
+        keys, known = evaluation.keys, evaluation.known_states()
+        seen: list[tuple[Address, Key]] = []
+        found: list[tuple[Address, Finding]] = []
+        for address, value in file.values.items():
+            if address not in order:
                 continue
-            finding = self._values.finding(address, file.values[address])
+            state = known.get(address) or evaluation.state(address)
+            seen.append((address, keys[address] if state is ACTIVE else None))
+            if state is not ACTIVE and state.state in _NOT_LOOKED_AT and address not in file.forced:
+                continue
+            finding = self._values.finding(address, value)
             if finding is not None:
-                yield address, finding
+                found.append((address, finding))
+        self._rules.look_at(plan.read, seen)
+        yield from sorted(found, key=lambda filed: order[filed[0]])
         for first, checks in plan.by_first_read.items():
             if first is None or self._rules.is_active(first):
                 for check, finding in self._rules.findings(checks):

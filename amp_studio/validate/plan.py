@@ -129,6 +129,11 @@ class Plan:
         return tuple(map(tuple, found.values()))
 
     @cached_property
+    def read(self) -> Mapping[Address, None]:
+        """What the rules read as single values."""
+        return dict.fromkeys(address for check in self.checks for address in check.reads)
+
+    @cached_property
     def by_first_read(self) -> Mapping[Address | None, tuple[RuleCheck, ...]]:
         """Address -> checks that come to nothing where its value is not active; None -> the others."""
         found: dict[Address | None, list[RuleCheck]] = {}

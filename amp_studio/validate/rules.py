@@ -95,8 +95,12 @@ class RuleChecks:
         self._seen.clear()
         self._lists.clear()
 
-    def look_at(self, seen: Iterable[tuple[Address, Key]]) -> None:
-        """Take the keys of values that are active, and None for the others: quicker than to look at one by one."""
+    def look_at(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, Key]]) -> None:
+        """Take the keys of values that are active, and None for the others: quicker than to look at one by one.
+
+        Of what is ``read``, that which is not among the values is not set.
+        """
+        self._seen.update(read)
         self._seen.update(seen)
 
     def is_active(self, address: Address) -> bool:
