@@ -31,8 +31,11 @@ class ContentKind(Protocol):
         """Return what a control that contains ``held`` contains after a download of ``file``.
 
         What the file does not set stays as ``held`` has it, where single values are sent. Raises ImageError, which names
-        what the control does not have.
+        what the control cannot take.
         """
+
+    def left_out(self, file: ParameterFile, held: bytes) -> str:
+        """Return what of a file a control that contains ``held`` does not have, and what is sent without it; "" for nothing."""
 
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what a control that contains ``held`` contains once ``content`` is put back; raises ImageError."""
@@ -45,6 +48,10 @@ class WholeContent:
     """What a kind is that a control takes as it is and gives back byte for byte."""
 
     has_header: ClassVar[bool] = False
+
+    def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+        """Return "": such a control takes all of a file or nothing."""
+        return ""
 
     def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002 -- other kinds need it
         """Return the content itself."""

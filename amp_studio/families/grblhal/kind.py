@@ -53,17 +53,19 @@ class GrblContentKind:
     def encode(self, file: ParameterFile, held: bytes) -> bytes:
         """Return what a control contains after a download: the file's settings by their numbers, else what is in ``held``.
 
-        Raises ImageError for a setting that the control does not have, and for a value that it would not store as it is.
+        A setting that the control does not have is left out (``left_out`` names it): the number of any other means the same in
+        each build. Raises ImageError for a value that it would not store as it is.
         """
-        if file.schema.family.family != FAMILY:
-            raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
         present = read_content(held)
-        try:
-            wanted = _wanted(file, _schema_of(present, held))
-        except (InvalidValueError, DescriptionError) as error:
-            raise ImageError(str(error)) from None
+        wanted, _ = _wanted(file, present, held)
         settings = _fitted(wanted, present, described(held))
         return write_content(replace(present, settings=settings))
+
+    def left_out(self, file: ParameterFile, held: bytes) -> str:
+        """Return the settings of a file that a control of another build does not have, by number; raises ImageError."""
+        present = read_content(held)
+        wanted, lacking = _wanted(file, present, held)
+        return _lacking_text(sorted({*lacking, *_lacking(wanted, present)}))
 
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what a control contains once a copy is put back: its settings, offsets and start-up lines; raises ImageError.
@@ -110,26 +112,47 @@ def _schema_of(read: GrblContent, content: bytes) -> Schema:
     return described_schema(FAMILY, description_of(content)) if read.describes_itself else load_schema(FAMILY)
 
 
-def _wanted(file: ParameterFile, schema: Schema) -> dict[int, str]:
-    """Return number -> text of what a file sets; raises ImageError where a control of another build cannot take it."""
-    if file.schema.signature != schema.signature:
-        fitted = fit_to(file, schema)
-        if fitted.misfits:
-            raise ImageError(_misfit_text(fitted.misfits))
-        file = fitted.file
-    others = {int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)}
-    return {**others, **settings_of_file(file)}
+def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> tuple[dict[int, str], list[int]]:
+    """Return number -> text of what a file sets, and the numbers that a control of another build does not have.
+
+    Raises ImageError for a file of another family, and where the control has a setting but cannot take the value.
+    """
+    if file.schema.family.family != FAMILY:
+        raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
+    lacking: list[int] = []
+    try:
+        schema = _schema_of(present, held)
+        if file.schema.signature != schema.signature:
+            fitted = fit_to(file, schema)
+            if others := [misfit for misfit in fitted.misfits if not misfit.is_lacking]:
+                raise ImageError(_misfit_text(others))
+            lacking = [int(f[1]) for m in fitted.misfits if (f := re.match(r"\$(\d+)", m.name))]
+            file = fitted.file
+        unnamed = {
+            int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)
+        }
+        return {**unnamed, **settings_of_file(file)}, lacking
+    except (InvalidValueError, DescriptionError) as error:
+        raise ImageError(str(error)) from None
+
+
+def _lacking(wanted: Mapping[int, str], present: GrblContent) -> list[int]:
+    """Return the numbers that a control does not have, and does not get by what is written."""
+    comes = _coming(wanted, present)
+    return [n for n in wanted if n not in present.settings and n not in comes and n not in PER_AXIS_RATES]
+
+
+def _coming(wanted: Mapping[int, str], present: GrblContent) -> set[int]:
+    """Return the rates of single axes that are there once the settings are written."""
+    homing = wanted.get(HOMING, present.settings.get(HOMING, "0"))
+    has_rates = homing.isdecimal() and bool(int(homing) & _PER_AXIS)
+    return {n for n in PER_AXIS_RATES if has_rates and n % 10 < len(present.axes)}
 
 
 def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int, Setting]) -> dict[int, str]:
     """Return the settings of a control after these are written; raises ImageError."""
     settings = dict(present.settings)
-    homing = wanted.get(HOMING, settings.get(HOMING, "0"))
-    has_rates = homing.isdecimal() and bool(int(homing) & _PER_AXIS)
-    comes = {n for n in PER_AXIS_RATES if has_rates and n % 10 < len(present.axes)}
-    lacking = [n for n in wanted if n not in settings and n not in comes and n not in PER_AXIS_RATES]
-    if lacking:
-        raise ImageError(_lacking_text(lacking))
+    comes = _coming(wanted, present)
     for number, text in wanted.items():
         if number not in settings and number not in comes:
             continue
@@ -143,27 +166,20 @@ def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int,
         except BoundsError as error:
             raise ImageError(str(error)) from None
         settings[number] = _as_shown(text, shown)
-    return _moved(settings, wanted, has_rates=has_rates)
+    return _moved(settings, wanted, has_rates=bool(comes))
 
 
 def _misfit_text(misfits: Sequence[Misfit]) -> str:
-    """Return all that a control of another build cannot take: what it does not have by number, the rest with the reason."""
-    lacking = [misfit for misfit in misfits if misfit.is_lacking]
-    others = [misfit for misfit in misfits if not misfit.is_lacking]
-    named = "; ".join(map(str, others[:_SHOWN]))
-    more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
-    parts = [f"the control cannot take {named}{more}"] if others else []
-    numbers = sorted(int(f[1]) for misfit in lacking if (f := re.match(r"\$(\d+)", misfit.name)))
-    return "; ".join([*parts, *([_lacking_text(numbers)] if lacking else [])])
+    """Return the values that a control of another build cannot take, with the reasons."""
+    named = "; ".join(map(str, misfits[:_SHOWN]))
+    more = f" and {len(misfits) - _SHOWN} more" if len(misfits) > _SHOWN else ""
+    return f"the control cannot take {named}{more}"
 
 
 def _lacking_text(numbers: Sequence[int]) -> str:
     named = ", ".join(f"${n}" for n in numbers[:_NAMED])
     more = f" and {len(numbers) - _NAMED} more" if len(numbers) > _NAMED else ""
-    hint = " ".join(f"'${n}=not-set'" for n in numbers[:2]) + (" …" if len(numbers) > 2 else "")
-    return (
-        f"the control does not have {named}{more} (amp-studio set FILE {hint} and a download sends the rest)"
-    )
+    return f"the control does not have {named}{more}" if numbers else ""
 
 
 def _is_as_fine(text: str, shown: str) -> bool:

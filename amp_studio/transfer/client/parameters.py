@@ -6,6 +6,7 @@ import hashlib
 import re
 import threading
 from contextlib import closing
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Self
@@ -49,10 +50,20 @@ def download_file(
     approved = read_digest(expected)
     with closing(open_driver(address, file.schema.family.family)) as driver, _Keeping(folder, stem) as copy:
         family = file.schema.family.family
-        recording = Recording("download", record, family, address, partial(driver.encode, file), notify)
-        return recording.run(lambda: download(
+        left_out: list[str] = []
+
+        def wanted(held: bytes) -> bytes:
+            content = driver.encode(file, held)
+            left_out[:] = [text for text in (driver.left_out(file, held),) if text]
+            return content
+
+        recording = Recording("download", record, family, address, wanted, notify)
+        outcome = recording.run(lambda: download(
             driver, recording.wanted, copy.keep, signature=file.schema.signature, expected=approved, known=known,
             meanwhile=copy.finish, progress=progress, cancel=cancel))  # fmt: skip
+        if left_out:
+            return replace(outcome, text=f"{outcome.text} Not sent: {left_out[0]}.")
+        return outcome
 
 
 def restore_copy(

@@ -81,8 +81,8 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         return _not_compared(f"a file for {present.schema.family.name}")
     absent, is_same, is_whole, wanted = "", False, True, file
     try:
-        content = kind.encode(file, fetched)
-        is_same, is_whole = not kind.difference(content, fetched), content == fetched
+        content, absent = kind.encode(file, fetched), kind.left_out(file, fetched)
+        is_same, is_whole = not absent and not kind.difference(content, fetched), content == fetched
         # In the control's own units, with what the file leaves as it is.
         wanted = present if is_whole else kind.decode(content)
     except ImageError as error:
