@@ -44,14 +44,18 @@ class ContentKind(Protocol):
         """Return where a control that contains ``found`` is not proved to contain ``content``: "from byte 7 on"; "" if it is."""
 
 
-class WholeContent:
+class TakesAllOrRefuses:
+    """What a kind is whose control takes all of a file, or is sent nothing."""
+
+    def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+        """Return ""."""
+        return ""
+
+
+class WholeContent(TakesAllOrRefuses):
     """What a kind is that a control takes as it is and gives back byte for byte."""
 
     has_header: ClassVar[bool] = False
-
-    def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
-        """Return "": such a control takes all of a file or nothing."""
-        return ""
 
     def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002 -- other kinds need it
         """Return the content itself."""

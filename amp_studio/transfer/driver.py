@@ -128,6 +128,20 @@ class ReadsBackPartly(Protocol):
         """How the last fetch was proven, in words; "" where every byte was read."""
 
 
+class NeverRestarts:
+    """What a driver is whose control does not restart after a download, or only by a person's hand."""
+
+    def wait_restarted(
+        self,
+        receipt: Receipt,  # noqa: ARG002
+        seconds: float,  # noqa: ARG002
+        progress: Progress = quiet,  # noqa: ARG002
+        cancel: threading.Event | None = None,  # noqa: ARG002
+    ) -> bool:
+        """Wait for nothing; the control is there."""
+        return True
+
+
 @dataclass(frozen=True)
 class Recognised:
     """How a control is known by its answer, where nobody has named its family.

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 
 from amp_studio.schema.visible import visible
-from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
     ConnectionCutError,
@@ -43,8 +43,11 @@ RESTING = ("Idle", "Alarm", "Check")
 """States in which settings are taken (system.c ``system_execute_line``)."""
 
 
-class GrblDriver(GrblContentKind):
-    """Speaks to a control over its text line (docs/protocols/grblhal.md)."""
+class GrblDriver(GrblContentKind, NeverRestarts):
+    """Speaks to a control over its text line (docs/protocols/grblhal.md).
+
+    It never makes a control restart: some builds do not take a setting afterwards.
+    """
 
     abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True)
 
@@ -139,16 +142,6 @@ class GrblDriver(GrblContentKind):
             broken = TransferError(f"the download broke off ({unforeseen(error)})")
             raise self._told(broken, writing, progress, cancel) from error
         return writing.receipt()
-
-    def wait_restarted(
-        self,
-        receipt: Receipt,  # noqa: ARG002
-        seconds: float,  # noqa: ARG002
-        progress: Progress = quiet,  # noqa: ARG002
-        cancel: threading.Event | None = None,  # noqa: ARG002
-    ) -> bool:
-        """A Grbl control never restarts by itself, and is never made to: some builds do not take a setting afterwards."""
-        return True
 
     def close(self) -> None:
         """Hang up."""

@@ -18,6 +18,7 @@ from amp_studio.formats.bare_figures import default_system, system_of, write_fig
 from amp_studio.formats.import_export import file_of
 from amp_studio.formats.text_format import FormatError, TextRead
 from amp_studio.schema import InvalidValueError, load_schema
+from amp_studio.transfer.content import TakesAllOrRefuses
 from amp_studio.transfer.image import ImageError
 
 KIND = "ACR script 1"
@@ -94,7 +95,7 @@ class CardContent:
         return "\n".join([KIND, f"REM units {self.system}", *lines, f"end {len(lines)}", ""]).encode("ascii")
 
 
-class AcrContent:
+class AcrContent(TakesAllOrRefuses):
     """Between a parameter file and the settings of one card."""
 
     has_header = False

@@ -14,7 +14,7 @@ from functools import partial
 from amp_studio.families.acromill.formats.acr_command import CommandSetting
 from amp_studio.schema import load_schema
 from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
 from amp_studio.transfer.errors import (
     AtControl,
     CancelledError,
@@ -64,7 +64,7 @@ _FIGURES = re.compile(rf"\(?\s*({_FIGURE})(?:\s*,\s*({_FIGURE}))?\s*\)?", re.IGN
 Figures = tuple[str, ...]
 
 
-class TerminalDriver(AcrContent):
+class TerminalDriver(AcrContent, NeverRestarts):
     """Speaks to a card; ``system`` is the unit system of its figures, which it does not know itself."""
 
     abilities = Abilities(can_send=True, all_or_nothing=False)
@@ -137,16 +137,6 @@ class TerminalDriver(AcrContent):
         except TransferError as error:
             raise self._after_break(error, sending) from None
         return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
-
-    def wait_restarted(
-        self,
-        receipt: Receipt,  # noqa: ARG002
-        seconds: float,  # noqa: ARG002
-        progress: Progress = quiet,  # noqa: ARG002
-        cancel: threading.Event | None = None,  # noqa: ARG002
-    ) -> bool:
-        """A setting is active at once."""
-        return True
 
     def close(self) -> None:
         """Hang up."""

@@ -11,6 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats.import_export import file_of
 from amp_studio.formats.text_format import FormatError
 from amp_studio.schema import load_schema
+from amp_studio.transfer.content import TakesAllOrRefuses
 from amp_studio.transfer.image import ImageError
 
 KIND = "NUM table 1"
@@ -23,7 +24,7 @@ _NAMED = 5
 """Words that a message names."""
 
 
-class NumTableContent:
+class NumTableContent(TakesAllOrRefuses):
     """Between a parameter file and the table of one control."""
 
     has_header = False

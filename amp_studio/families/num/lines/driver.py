@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from amp_studio.schema import load_schema
 from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
     ConnectionCutError,
@@ -69,7 +69,7 @@ HELD_TEXT = (
 )
 
 
-class PeripheralDriver(NumTableContent):
+class PeripheralDriver(NumTableContent, NeverRestarts):
     """Speaks to a control in utility 5. Every operation is begun by a person; what to press comes through ``progress``."""
 
     abilities = Abilities(can_send=True, all_or_nothing=False)
@@ -168,16 +168,6 @@ class PeripheralDriver(NumTableContent):
         return Receipt(
             is_answered=False, notes=("Leave utility 5, confirm the changes and reset the CNC (page 13-8).",)
         )
-
-    def wait_restarted(
-        self,
-        receipt: Receipt,  # noqa: ARG002
-        seconds: float,  # noqa: ARG002
-        progress: Progress = quiet,  # noqa: ARG002
-        cancel: threading.Event | None = None,  # noqa: ARG002
-    ) -> bool:
-        """Nothing restarts by itself."""
-        return True
 
     def close(self) -> None:
         """Hang up."""

@@ -20,6 +20,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats.import_export import file_of
 from amp_studio.formats.text_format import FormatError, TextRead
 from amp_studio.schema import load_schema
+from amp_studio.transfer.content import TakesAllOrRefuses
 from amp_studio.transfer.image import ImageError
 
 KIND = "57C422B registers 1"
@@ -75,7 +76,7 @@ def words_of_content(content: bytes) -> dict[int, int]:
     return words
 
 
-class RegisterContent:
+class RegisterContent(TakesAllOrRefuses):
     """Between a parameter file and the registers of one module."""
 
     has_header = False

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 
 from amp_studio.schema import load_schema
 from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
     ControlSilentError,
@@ -42,7 +42,7 @@ WRITE_TRIES = 3
 AXES = {0: "X", AXIS_Y: "Y"}
 
 
-class RegisterDriver(RegisterContent):
+class RegisterDriver(RegisterContent, NeverRestarts):
     """Speaks to the live registers of one module."""
 
     abilities = Abilities(can_send=True, all_or_nothing=False)
@@ -113,16 +113,6 @@ class RegisterDriver(RegisterContent):
             "The registers lose it with the power of the rack: load the AutoMax tables there too (page 3-10)."
         )
         return Receipt(restart_needed=False, notes=(*notes, lost))
-
-    def wait_restarted(
-        self,
-        receipt: Receipt,  # noqa: ARG002
-        seconds: float,  # noqa: ARG002
-        progress: Progress = quiet,  # noqa: ARG002
-        cancel: threading.Event | None = None,  # noqa: ARG002
-    ) -> bool:
-        """Nothing restarts."""
-        return True
 
     def close(self) -> None:
         """Hang up."""
