@@ -83,7 +83,7 @@ def _in_terminal() -> int:
         _print_step(4, f"emulated control at {address}, in E-stop")
         outcome = download_file(file, address, folder, path.stem, _percent)
         _print_step(5, outcome.text)
-        fetched = fetch_file(address, _percent)
+        fetched = fetch_file(address, _percent, family=file.schema.family.family)
         upload = folder / "from-control.amp"
         fetched.header.name = upload.stem
         Document.create(fetched, upload).close()

@@ -34,7 +34,7 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
         with _control(listen, kept / "control") as address:
             down = timed(lambda a=address, k=kept: download_file(file, a, k, "bench"), times, change, warm=0)
             yield Measure(f"download, {name} (restart of the control included)", down)
-            yield Measure(f"upload, {name}", timed(lambda a=address: fetch_file(a), times))
+            yield Measure(f"upload, {name}", timed(lambda a=address: fetch_file(a, family="9pc"), times))
 
 
 def _of_full_file(folder: Path, full: Path, times: int) -> Iterator[Measure]:
@@ -50,7 +50,7 @@ def _of_full_file(folder: Path, full: Path, times: int) -> Iterator[Measure]:
         yield Measure(
             "download of a full file, TCP (0.5 s of it is the control's restart)", down, target=0.65
         )
-        verify = timed(lambda: verify_content(file, fetch_image(address)), times)
+        verify = timed(lambda: verify_content(file, fetch_image(address, family="9pc")), times)
         yield Measure("verify of a full file, TCP", verify, target=0.15)
 
 

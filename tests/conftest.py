@@ -15,6 +15,8 @@ import pytest
 from hypothesis import settings
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from amp_studio.schema import Schema
 
 # Set here, before anything imports Qt or asks where the user's folders are.
@@ -54,6 +56,15 @@ gc.set_threshold(100_000)
 def pytest_collection_finish() -> None:
     """Leave what was collected out of the search for unreachable objects."""
     gc.freeze()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _controls_answer_at_once() -> Iterator[None]:
+    """Wait a tenth of a second, not half of one or two, for a Grbl to make itself known: what is not one never answers."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("RECOGNISED", "RECOGNISED_SERIAL"):
+            patch.setattr(f"amp_studio.transfer.client.drivers.{name}", 0.1)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -16,9 +16,9 @@ from amp_studio.transfer.links.password import PasswordError
 from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import Waiting
 
-RECOGNISED, RECOGNISED_SERIAL = 0.6, 2.5
+RECOGNISED, RECOGNISED_SERIAL = 0.3, 2.5
 """Seconds in which a control may answer by which it is known; one on a serial line may restart when it is opened."""
-ASK_AGAIN = 0.25  # seconds
+ASK_AGAIN = 0.15  # seconds
 LONGEST_GREETING = 4_096  # bytes
 
 GENERAL = {"house": "amp_studio.transfer.house.driver:HouseDriver.at"}

@@ -138,7 +138,7 @@ def fetch_image(
 
 
 def fetch_file(
-    address: str, progress: Progress = quiet, cancel: threading.Event | None = None
+    address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
 ) -> ParameterFile:
     """Return what the control at ``address`` contains as a parameter file; raises TransferError, ImageError."""
-    return decode_content(fetch_image(address, progress, cancel))
+    return decode_content(fetch_image(address, progress, cancel, family=family))

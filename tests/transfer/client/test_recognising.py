@@ -9,6 +9,7 @@ from contextlib import closing
 
 import pytest
 
+from amp_studio.transfer.client import drivers
 from amp_studio.transfer.client.drivers import open_driver_at
 from amp_studio.transfer.errors import CancelledError
 from amp_studio.transfer.progress import Stop, quiet
@@ -64,8 +65,9 @@ def machine() -> Iterator[Callable[[bytes], Machine]]:
     ],
 )
 def test_a_grbl_is_known_by_its_status_report_or_its_greeting(
-    machine: Callable[[bytes], Machine], answer: bytes
+    machine: Callable[[bytes], Machine], answer: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(drivers, "RECOGNISED", 10.0)
     grbl = machine(answer)
     with closing(open_driver_at(grbl.address)) as driver:
         assert type(driver).__name__ == "GrblDriver"
