@@ -3,7 +3,8 @@
 # TESTS=tests/files the tests to run.
 
 MAKEFLAGS += --no-print-directory
-WORKERS ?= 2
+# One more than the processors of the smallest machine: a test in three waits for another process.
+WORKERS ?= 3
 TESTS ?=
 BIN := .venv/bin
 LOCK_TOOL := uv==0.13.9
