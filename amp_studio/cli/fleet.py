@@ -7,17 +7,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
+from amp_studio.report.results import check_ending, write_results
 from amp_studio.report.wording import counted
 from amp_studio.transfer.client.fleet import (
+    HEADS,
     FleetResult,
     FleetRow,
     check_addresses,
-    check_table,
     download_each,
     failed_row,
     verify_each,
     with_each,
-    write_rows,
 )
 from amp_studio.transfer.client.parameters import fetch_image, sha256
 from amp_studio.transfer.client.record import add_look
@@ -34,7 +34,7 @@ def check_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> None:
     """Refuse what cannot be used before anything is begun. Raises UsageError, ValueError."""
     check_addresses(addresses)
     if options.report is not None:
-        check_table(options.report)
+        check_ending(options.report)
         check_new(options.report, "a table of results")
 
 
@@ -120,7 +120,7 @@ def _end(options: argparse.Namespace, rows: list[FleetRow]) -> int:
         for row in rows:
             print(f"{row.address:{wide}}  {row.word:14}  {row.sha256[:12]:12}  {row.text}".rstrip())
     if options.report is not None:
-        write_rows(options.report, rows)
+        write_results(options.report, "Controls", HEADS, [row.cells for row in rows])
     wrong = [row for row, code in zip(rows, codes, strict=True) if code > 1]
     if not wrong:
         return max(codes)

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import asdict
 from pathlib import Path
 
-from amp_studio.files import open_file, real_path
+from amp_studio.files import open_file, real_path, text_of_name
 from amp_studio.files.local_time import local_time
 from amp_studio.transfer.client.record import RECORD, Exchange, read_exchanges
 
@@ -22,7 +22,7 @@ def history_verb(options: argparse.Namespace) -> int:
     else:
         open_file(path)  # what cannot be read has no history to be shown
         real = real_path(path)
-        found = read_exchanges(real.parent, real.name)
+        found = read_exchanges(real.parent, text_of_name(real.name))
     numbered = list(enumerate(found, 1))
     if options.show is not None:
         if not 1 <= options.show <= len(found):

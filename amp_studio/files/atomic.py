@@ -49,7 +49,7 @@ def _content_of(path: Path) -> bytes | None:
         return None
 
 
-_OF_A_FOLDER = {"project.yaml", "rules.yaml"}
+_OF_A_FOLDER = {"project.yaml", "rules.yaml", "exchanges.jsonl"}
 
 
 def check_output(path: Path, *inputs: Path) -> None:

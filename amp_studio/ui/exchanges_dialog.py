@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.files import real_path
+from amp_studio.files import real_path, text_of_name
 from amp_studio.files.local_time import local_time
 from amp_studio.report.wording import counted
 
@@ -25,7 +25,7 @@ class ExchangesDialog(QDialog):
         self.setWindowTitle(f"Exchanges — {workspace.path.name}")
         self.resize(980, 480)
         path = real_path(workspace.path)
-        found = read_exchanges(path.parent, path.name)
+        found = read_exchanges(path.parent, text_of_name(path.name))
         self.tree = QTreeWidget()
         self.tree.setHeaderLabels(_HEADS)
         self.tree.setUniformRowHeights(True)

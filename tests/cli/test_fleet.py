@@ -200,6 +200,24 @@ def test_an_exchange_that_cannot_be_recorded_has_happened_anyway(
     assert "could not be recorded" in sent.err
 
 
+def test_an_exchange_by_a_link_is_one_of_the_file(
+    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str], tmp_path: Path
+) -> None:
+    link = tmp_path / "here" / "link.amp"
+    link.parent.mkdir()
+    link.symlink_to(mill)
+    amp("verify", link, "--with", start_control())
+    for path in (mill, link):
+        assert [e["file"] for e in amp("history", path, "--json").json["exchanges"]] == ["mill.amp"]
+
+
+def test_the_record_is_no_output(amp: Callable[..., Said], mill: Path) -> None:
+    refused = amp("merge", mill, mill, mill, "-o", mill.with_name("exchanges.jsonl"))
+    assert refused.code == 2
+    assert "choose another name" in refused.err
+    assert not (mill.parent / "exchanges.jsonl").exists()
+
+
 def test_an_exchange_that_reached_nothing_is_not_recorded(amp: Callable[..., Said], mill: Path) -> None:
     assert amp("download", mill, "--to", DEAD).code == 2
     assert read_exchanges(mill.parent) == []

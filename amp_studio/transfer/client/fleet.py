@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import html
-import io
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -12,8 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, Literal, TypeVar
 
-from amp_studio.files import Notify, ParameterFile, write_atomic
-from amp_studio.files.spreadsheet import text_cell
+from amp_studio.files import Notify, ParameterFile
 from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.errors import AtControl, TransferError, unforeseen
 from amp_studio.transfer.links.endpoint import parse_endpoint
@@ -24,8 +20,6 @@ from .parameters import download_file, fetch_image, sha256
 from .record import add_look
 from .verification import ImageComparison, verify_content
 
-TABLES = (".csv", ".html")
-"""Endings of a table of results."""
 MOST = 16
 """Controls with which is exchanged at once; the others wait."""
 
@@ -124,6 +118,14 @@ class FleetRow:
     kept: str = ""
     text: str = ""
 
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """The row of a printed table, under ``HEADS``."""
+        return self.address, self.word, self.sha256, self.kept, self.text
+
+
+HEADS = ("Address", "Result", "SHA-256", "Kept copy", "How it ended")
+
 
 def download_each(
     file: ParameterFile, path: Path, keep: Path, addresses: Sequence[str], progress: Callable[[str], Progress], *,
@@ -193,34 +195,3 @@ def failed_row(found: FleetResult[Any]) -> FleetRow:
         return FleetRow(found.address, "not tried", "not tried", text=text)
     word = _WORDS.get(found.state, found.state)
     return FleetRow(found.address, word, "failed", found.state, kept=found.kept, text=found.error)
-
-
-def write_rows(path: Path, rows: Sequence[FleetRow]) -> None:
-    """Write a table of results as .csv or .html under a new name; raises ValueError for another ending, SaveError."""
-    check_table(path)
-    heads = ("Address", "Result", "SHA-256", "Kept copy", "How it ended")
-    cells = [(r.address, r.word, r.sha256, r.kept, r.text) for r in rows]
-    content = _csv(heads, cells) if path.suffix.lower() == ".csv" else _page(heads, cells)
-    write_atomic(path, content.encode(), expected=None)
-
-
-def check_table(path: Path) -> None:
-    """Refuse a name whose ending is that of no table of results; raises ValueError."""
-    if path.suffix.lower() not in TABLES:
-        raise ValueError(f"{path}: the table is written as {' or '.join(TABLES)}")
-
-
-def _csv(heads: Sequence[str], cells: Sequence[Sequence[str]]) -> str:
-    text = io.StringIO()
-    csv.writer(text).writerows([text_cell(cell) for cell in row] for row in (heads, *cells))
-    return text.getvalue()
-
-
-def _page(heads: Sequence[str], cells: Sequence[Sequence[str]]) -> str:
-    def line(tag: str, row: Sequence[str]) -> str:
-        return f"<tr>{''.join(f'<{tag}>{html.escape(cell)}</{tag}>' for cell in row)}</tr>"
-
-    body = "\n".join([line("th", heads), *(line("td", row) for row in cells)])
-    style = "table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:4px 8px;text-align:left}"
-    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>Controls</title><style>{style}</style>\n'
-            f"<table>\n{body}\n</table></html>\n")  # fmt: skip

@@ -44,7 +44,7 @@ def download_file(
     ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was fetched from this
     control just before; ``record`` is the path of the file, in whose folder the exchange is recorded, and ``notify`` is called if
     it could not be. Raises TransferError, whose
-    text names what the control contains, ImageError for a file no image can carry or that sets what the control does not have, and ValueError for an address or
+    text names what the control contains, ImageError for a file no image can carry or that sets what the control cannot take, and ValueError for an address or
     a digest that is none.
     """
     approved = read_digest(expected)
@@ -58,12 +58,14 @@ def download_file(
             return content
 
         recording = Recording("download", record, family, address, wanted, notify)
-        outcome = recording.run(lambda: download(
-            driver, recording.wanted, copy.keep, signature=file.schema.signature, expected=approved, known=known,
-            meanwhile=copy.finish, progress=progress, cancel=cancel))  # fmt: skip
-        if left_out:
-            return replace(outcome, text=f"{outcome.text} Not sent: {left_out[0]}.")
-        return outcome
+
+        def run() -> Outcome:
+            outcome = download(
+                driver, recording.wanted, copy.keep, signature=file.schema.signature, expected=approved, known=known,
+                meanwhile=copy.finish, progress=progress, cancel=cancel)  # fmt: skip
+            return replace(outcome, text=f"{outcome.text} Not sent: {left_out[0]}.") if left_out else outcome
+
+        return recording.run(run)
 
 
 def restore_copy(

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from amp_studio.files import ENDING, ParameterFile, compare, real_path
+from amp_studio.files import ENDING, ParameterFile, compare, real_path, text_of_name
 from amp_studio.files.atomic import append_line
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import now, user
@@ -31,7 +32,7 @@ RECORD = "exchanges.jsonl"
 class Exchange:
     """One exchange with a control.
 
-    ``when``      UTC; ``who``: user and computer
+    ``when``      UTC; ``who``: name of the user
     ``verb``      download, restore, upload or verify; ``file``: the name of the parameter file or copy
     ``control``   its address
     ``before``, ``after``  SHA-256 of what it contained, in hexadecimal; "" if not known
@@ -89,7 +90,8 @@ def add_look(verb: str, beside: Path, family: str, control: str, content: bytes,
 
 def exchange_now(verb: str, file: Path, family: str, control: str, **facts: object) -> Exchange:
     """Return an exchange of this moment by this user; ``facts`` are the other fields."""
-    return Exchange(now(), user(), verb, file.name, family, control, **facts)  # type: ignore[arg-type]  # as asked for
+    name = Path(os.path.realpath(file)).name  # by whatever link the file was reached
+    return Exchange(now(), user(), verb, text_of_name(name), family, control, **facts)  # type: ignore[arg-type]  # as asked for
 
 
 def read_exchanges(folder: Path, file: str = "") -> list[Exchange]:
