@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QMessageBox, QStyle
+from PySide6.QtWidgets import QMessageBox
 
 from amp_studio.files import Document, ParameterFile
 from amp_studio.files.by_schema import by_schema
@@ -39,11 +39,11 @@ class ControlActions:
         self.emulated.ready.connect(self._ready)
         self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
-        act, icons = window.action, QStyle.StandardPixmap
+        act = window.action
         menu = window.menuBar().addMenu("&Control")
-        download = act("&Download to Control…", self.download, "F5", "file", icons.SP_ArrowDown, "Download")
-        verify = act("&Verify With Control…", self.verify, "F6", "file", icons.SP_DialogApplyButton, "Verify")
-        upload = act("&Upload From Control…", self.upload, "F7", "", icons.SP_ArrowUp, "Upload")
+        download = act("&Download to Control…", self.download, "F5", "file", "arrow-line-down", "Download")
+        verify = act("&Verify With Control…", self.verify, "F6", "file", "check-circle", "Verify")
+        upload = act("&Upload From Control…", self.upload, "F7", "", "arrow-line-up", "Upload")
         put_back = act("&Restore Control From Backup…", partial(restore, self.exchanges), None, "")
         by_hand = act("Enter Values by &Hand…", partial(enter_by_hand, self.exchanges), None, "file")
         several = act("Several &Controls…", self.several, None, "file")

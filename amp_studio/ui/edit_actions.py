@@ -6,7 +6,7 @@ from functools import partial
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
-from PySide6.QtWidgets import QMessageBox, QStyle
+from PySide6.QtWidgets import QMessageBox
 
 from amp_studio.files import RangeError, alike_axes, describe, fitted_axes, real_path
 from amp_studio.files.lock import now, user
@@ -24,9 +24,9 @@ class EditActions:
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
-        act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
-        self.undo = act("&Undo", self._undo, keys.Undo, "edit", icons.SP_ArrowBack, "Undo")
-        self.redo = act("&Redo", self._redo, keys.Redo, "edit", icons.SP_ArrowForward, "Redo")
+        act, keys = window.action, QKeySequence.StandardKey
+        self.undo = act("&Undo", self._undo, keys.Undo, "edit", "arrow-u-up-left", "Undo")
+        self.redo = act("&Redo", self._redo, keys.Redo, "edit", "arrow-u-up-right", "Redo")
         edit = act("&Edit Value", self._edit, "F2", "edit")
         copy = act("&Copy Value", self._copy, keys.Copy, "file")
         paste = act("&Paste Value", self._paste, keys.Paste, "edit")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QFileDialog, QMenu, QStyle
+from PySide6.QtWidgets import QFileDialog, QMenu
 
 from amp_studio.files import (
     Document,
@@ -54,13 +54,13 @@ class FileActions:
 
     def __init__(self, window: StudioWindow, show: Show) -> None:
         self.window, self._show_in_tab = window, show
-        act, keys, icons = window.action, QKeySequence.StandardKey, QStyle.StandardPixmap
-        new = act("&New…", self.new, keys.New, "", icons.SP_FileIcon, "New")
-        opened = act("&Open…", self.open, keys.Open, "", icons.SP_DialogOpenButton, "Open")
-        save = act("&Save", window.save, keys.Save, "edit", icons.SP_DialogSaveButton)
+        act, keys = window.action, QKeySequence.StandardKey
+        new = act("&New…", self.new, keys.New, "", "file-plus", "New")
+        opened = act("&Open…", self.open, keys.Open, "", "folder-open", "Open")
+        save = act("&Save", window.save, keys.Save, "edit", "floppy-disk")
         save_as = act("Save &As…", self.save_as, "Ctrl+Shift+S")
         close = act("&Close", self.close, keys.Close)
-        report = act("&Report…", self.report, keys.Print, "file", icons.SP_FileDialogDetailedView, "Report")
+        report = act("&Report…", self.report, keys.Print, "file", "printer", "Report")
         menu = window.menuBar().addMenu("&File")
         menu.addActions([new, opened])
         self._recent_menu = QMenu("Open R&ecent", window)

@@ -144,6 +144,7 @@ class FindingsPanel(QWidget):
         self.view.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.view.setTabKeyNavigation(False)
         self.view.verticalHeader().hide()
+        self.view.verticalHeader().setMinimumSectionSize(1)
         header = self.view.horizontalHeader()
         for column, width in enumerate(_WIDTHS):
             self.view.setColumnWidth(column, width)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QLabel, QMainWindow, QMessageBox, QStackedWidget
 
@@ -20,11 +20,13 @@ from .edit_actions import EditActions
 from .file_actions import FileActions
 from .file_page import FilePage
 from .garbage import collect_by_timer
+from .program_icon import program_icon
 from .project_actions import ProjectActions
 from .questions import show_message
 from .studio_window import StudioWindow
 from .task import Task
-from .theme import program_icon
+from .theme import ICON, wear
+from .theme_actions import ThemeActions
 from .view_actions import ViewActions
 from .welcome import WelcomePage
 from .workspace import Workspace
@@ -36,6 +38,7 @@ class MainWindow(StudioWindow):
     def __init__(self) -> None:
         collect_by_timer()
         super().__init__()
+        wear(self.settings.theme())
         self.setWindowIcon(program_icon())
         self.setAcceptDrops(True)
         room = self.screen().availableSize()
@@ -48,6 +51,7 @@ class MainWindow(StudioWindow):
         self.edits = EditActions(self)
         self.axes = AxisActions(self)
         self.view = ViewActions(self)
+        self.themes = ThemeActions(self, self.view.menu)
         self.control = ControlActions(self, self.files)
         self.projects = ProjectActions(self, self.files.open_path)
         self._help_menu()
@@ -75,6 +79,7 @@ class MainWindow(StudioWindow):
         bar = self.addToolBar("Main")
         bar.setObjectName("main-toolbar")
         bar.setMovable(False)
+        bar.setIconSize(QSize(ICON, ICON))
         bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
         for action in (*self.files.toolbar, None, self.edits.undo, self.edits.redo, None, *self.view.toolbar, None,

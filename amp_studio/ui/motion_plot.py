@@ -16,16 +16,13 @@ from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.svg import ring_levels
 
-from .theme import is_dark
+from .theme import Token, colour, scheme
 
-LIGHT = {
-    "base": "#ffffff", "text": "#1a1e23", "dim": "#58606b", "grid": "#e8eaee", "error": "#b3261e",
-    "command": "#58606b", "actual": "#1d5bcb", "other": "#0a6a72", "output": "#b25a00", "before": "#a3a9b3",
+_INKS: dict[str, Token] = {
+    "base": "base", "text": "text", "dim": "dim", "grid": "grid", "error": "error",
+    "command": "dim", "actual": "sel", "other": "rec", "output": "warn", "before": "edge",
 }  # fmt: skip
-DARK = {
-    "base": "#17191c", "text": "#e3e6ea", "dim": "#a4acb7", "grid": "#26292e", "error": "#ff8f85",
-    "command": "#a4acb7", "actual": "#7fadff", "other": "#5fc9d0", "output": "#f0bc5a", "before": "#767e8a",
-}  # fmt: skip
+"""What is drawn -> its colour."""
 
 
 class MotionPlot(pg.GraphicsLayoutWidget):
@@ -37,14 +34,22 @@ class MotionPlot(pg.GraphicsLayoutWidget):
     def __init__(self) -> None:
         pg.setConfigOptions(antialias=True)
         super().__init__()
-        self._ink = DARK if is_dark() else LIGHT
-        self.setBackground(self._ink["base"])
+        self._ink: dict[str, str] = {}
         self.picture: Picture | None = None
         self.panels: list[pg.PlotItem] = []
         self.cursors: list[list[pg.InfiniteLine]] = []
         self._places: tuple[float, float] | None = None
+        self._take_colours()
+        scheme().changed.connect(self._take_colours)
 
     # -- drawing -----------------------------------------------------------------
+
+    def _take_colours(self) -> None:
+        """Draw in the colours that hold now."""
+        self._ink = {name: colour(token).name() for name, token in _INKS.items()}
+        self.setBackground(self._ink["base"])
+        if self.picture is not None:
+            self.draw(self.picture)
 
     def clear_picture(self) -> None:
         """Show nothing."""

@@ -12,6 +12,8 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 from amp_studio.schema.regular_file import read_file
 
+from .theme import ThemeChoice, as_choice
+
 _NEVER_STORED = re.compile(rb"@\s*(?:Variant|DateTime)")
 _LEAST = 320, 200
 """Least useful width and height of the window in pixels."""
@@ -56,6 +58,14 @@ class UserSettings:
     def keep_control(self, place: str) -> None:
         """Store the address of the control."""
         self._stored.setValue("control", place)
+
+    def theme(self) -> ThemeChoice:
+        """Return whether the window is light, dark, or as the system is."""
+        return as_choice(self._value("theme"))
+
+    def keep_theme(self, choice: ThemeChoice) -> None:
+        """Store the theme."""
+        self._stored.setValue("theme", choice)
 
     # -- windows -------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt
-from PySide6.QtGui import QBrush, QColor, QFont
+from PySide6.QtGui import QBrush, QFont
 from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
@@ -27,6 +27,7 @@ from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, Ticks, judg
 
 from .questions import show_message
 from .task import in_background
+from .theme import Token, colour, severity_icon
 from .workspace import Workspace
 
 _STEP, _NUMBER, _KEY_IN, _UNIT, _NOW, _NAME, _READ, _RESULT = range(8)
@@ -34,7 +35,7 @@ _HEADS = ["Step", "Number", "Key In", "Unit", "Now", "Parameter", "Screen Shows"
 _WIDTHS = (120, 90, 110, 60, 100, 270, 110, 130)
 _ENTRY = Qt.ItemDataRole.UserRole
 _FILTERS = "PDF (*.pdf);;Web page (*.html);;Text (*.txt);;Table with a column to fill in (*.csv)"
-_BRUSHES = {"same": "#2e7d32", "old": "#b3261e", "other": "#b3261e"}
+_INKS: dict[str, Token] = {"same": "text", "old": "error", "other": "error"}
 
 
 class _ReadBackOnly(QStyledItemDelegate):
@@ -155,15 +156,15 @@ class SheetDialog(QDialog):
         for column in (_KEY_IN, _NOW):
             item.setTextAlignment(column, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         if entry.order or entry.until:
-            item.setIcon(_NAME, self.style().standardIcon(self.style().StandardPixmap.SP_MessageBoxWarning))
+            item.setIcon(_NAME, severity_icon("warning"))
         self._judge(item)
         return item
 
     def _judge(self, item: QTreeWidgetItem) -> None:
         found = judged(item.data(_STEP, _ENTRY), item.text(_READ))
         item.setText(_RESULT, "" if found.state == "not read" else STATES[found.state])
-        if found.state in _BRUSHES:
-            item.setForeground(_RESULT, QBrush(QColor(_BRUSHES[found.state])))
+        if found.state in _INKS:
+            item.setForeground(_RESULT, QBrush(colour(_INKS[found.state])))
 
     def _count(self) -> None:
         total, items = len(self.sheet.entries), self.items()

@@ -12,7 +12,7 @@ from typing import Literal
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QStyle
+from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 from amp_studio.files import ChangedOnDiskError, Project, same_file
 from amp_studio.schema import Address
@@ -27,7 +27,7 @@ from .parameter_table import ParameterTable
 from .questions import ask, show_message
 from .settings import UserSettings
 from .task import in_background
-from .theme import standard_icon
+from .theme import icon
 from .value_table import ValueTable
 from .workspace import Workspace
 
@@ -123,15 +123,15 @@ class StudioWindow(QMainWindow):
         act: Callable[[], object],
         shortcut: QKeySequence | QKeySequence.StandardKey | str | None = None,
         needs: Needs = "file",
-        icon: QStyle.StandardPixmap | None = None,
+        icon_name: str = "",
         short: str = "",
     ) -> QAction:
         """Return a menu action that shows an error of ``act`` as a message."""
         action = QAction(text, self)
         if shortcut is not None:
             action.setShortcut(QKeySequence(shortcut))
-        if icon is not None:
-            action.setIcon(standard_icon(icon))
+        if icon_name:
+            action.setIcon(icon(icon_name))
         if short:
             action.setIconText(short)
         name = text.replace("&", "").rstrip("…")

@@ -1,91 +1,309 @@
-"""Colours, icons and number widths for light and dark desktops."""
+"""How everything looks: the table of colours, light and dark, sizes, fonts, and icons of one hand.
+
+Nothing else in the window names a colour. ``wear`` puts it all on the application; it follows the desktop, or keeps to
+what the person chose, and views that have written a colour into a text listen to ``scheme().changed``.
+"""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPainter, QPalette, QPen, QPixmap, QPolygonF
-from PySide6.QtWidgets import QApplication, QStyle
+import functools
+import json
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Literal, get_args
+
+from PySide6.QtCore import QObject, QPoint, QRect, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontDatabase,
+    QGuiApplication,
+    QIcon,
+    QIconEngine,
+    QPainter,
+    QPalette,
+    QPixmap,
+)
+from PySide6.QtWidgets import QApplication, QStyleFactory
+
+from .style_sheet import style_sheet
+
+ThemeChoice = Literal["system", "light", "dark"]
+Token = Literal[
+    "window", "panel", "base", "raised", "hover", "line", "line2", "grid", "edge", "text", "dim", "off", "sel", "onsel",
+    "selbg", "selidle", "error", "errorbg", "warn", "warnbg", "rec", "recbg", "chg",
+]  # fmt: skip
+
+COLOURS: dict[Token, tuple[str, str]] = {
+    # Grounds: the brighter, the nearer to the value.
+    "window": ("#F2F3F5", "#1C1E22"),
+    "panel": ("#F8F9FA", "#212429"),
+    "base": ("#FFFFFF", "#17191C"),
+    "raised": ("#FFFFFF", "#282B31"),
+    "hover": ("#E9EBEF", "#2D3138"),
+    # Lines: edges of panels, of buttons, the grid of cells and plots, the border of an input.
+    "line": ("#DDE0E5", "#31353C"),
+    "line2": ("#C5CAD2", "#4A505A"),
+    "grid": ("#E8EAEE", "#26292E"),
+    "edge": ("#7F8792", "#767E8A"),
+    # Inks: the first, the second, and that of disabled controls alone.
+    "text": ("#1A1E23", "#E3E6EA"),
+    "dim": ("#58606B", "#A4ACB7"),
+    "off": ("#757D88", "#868E9A"),
+    # Focus, links and the one primary button; selected, and selected without the focus.
+    "sel": ("#1D5BCB", "#7FADFF"),
+    "onsel": ("#FFFFFF", "#0E1726"),
+    "selbg": ("#DBE7FC", "#203A63"),
+    "selidle": ("#E3E6EA", "#31353C"),
+    # Meaning: ink and ground of each severity, and the bar of a change that is not saved.
+    "error": ("#B3261E", "#FF8F85"),
+    "errorbg": ("#FCE9E7", "#46231F"),
+    "warn": ("#855000", "#F0BC5A"),
+    "warnbg": ("#FFF1D0", "#3E3117"),
+    "rec": ("#0A6A72", "#5FC9D0"),
+    "recbg": ("#DDF2F3", "#15393C"),
+    "chg": ("#7B3FC6", "#C4A3FF"),
+}
+"""Every colour of the window: its name -> what it is in light and in dark."""
+
+GAP, GAP2, GAP3, GAP4, GAP6 = 4, 8, 12, 16, 24
+"""Gaps in logical pixels; a grid of four."""
+ROW, FINDING_ROW, TWO_LINE_ROW = 24, 30, 44
+"""Heights of a row in a table or tree, of a finding, of a list with two lines."""
+TOOLS, TABS, HEAD, COLUMN_HEAD, MESSAGE, STATUS = 38, 32, 32, 28, 34, 24
+"""Heights of the tool bar, the tabs, the head of a panel, the head of a table, a message, the status bar."""
+CONTROL, SMALL_CONTROL, RADIUS = 26, 22, 4
+"""Height of a button or a field, of one in a row, and the radius of their corners."""
+ICON, SMALL_ICON = 16, 14
+"""Sizes of an icon in a bar and in a row."""
 
 FIGURE_SPACE = "\u2007"
 """A space as wide as a digit, to align numbers of different length."""
 
+_SEVERITY: dict[str, tuple[Token, Token, str]] = {
+    "error": ("error", "errorbg", "x-circle-fill"),
+    "warning": ("warn", "warnbg", "warning-fill"),
+    "advice": ("rec", "recbg", "lightbulb-fill"),
+    "information": ("dim", "panel", "info"),
+}
+"""Severity -> its ink, its ground and the shape that means the same without a colour."""
+_PIXELS = {
+    "figure": (20, 600),
+    "title": (15, 600),
+    "text": (13, 400),
+    "small": (12, 400),
+    "caption": (11, 400),
+}
+"""Size where the text of the system has 13 pixels, and weight."""
+
+
+# -- light and dark ----------------------------------------------------------------------------------
+
+
+class Scheme(QObject):
+    """Which of the two colours of each token is used now."""
+
+    changed = Signal()
+    """The other colours are used: a text with a colour in it is to be written again."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.choice: ThemeChoice = "system"
+        hints = QGuiApplication.styleHints()
+        self._system_is_dark = QGuiApplication.palette().color(QPalette.ColorRole.Window).lightness() < 128
+        self.is_dark = self._wanted()
+        hints.colorSchemeChanged.connect(lambda _: self.choose(self.choice))
+
+    def _wanted(self) -> bool:
+        if self.choice != "system":
+            return self.choice == "dark"
+        found = QGuiApplication.styleHints().colorScheme()
+        return self._system_is_dark if found == Qt.ColorScheme.Unknown else found == Qt.ColorScheme.Dark
+
+    def choose(self, choice: ThemeChoice) -> None:
+        """Follow the system, or be light or dark whatever it is; every window changes at once."""
+        if choice != self.choice:
+            self.choice = choice
+            wanted = {"light": Qt.ColorScheme.Light, "dark": Qt.ColorScheme.Dark}
+            # The frames that the system draws follow too.
+            QGuiApplication.styleHints().setColorScheme(wanted.get(choice, Qt.ColorScheme.Unknown))
+        if self._wanted() != self.is_dark:
+            self.is_dark = not self.is_dark
+            _dress()
+            self.changed.emit()
+
+
+@functools.cache
+def scheme() -> Scheme:
+    """Return the scheme of the application, which must exist."""
+    return Scheme()
+
 
 def is_dark() -> bool:
-    """Return whether the desktop uses a dark palette."""
-    return QGuiApplication.palette().color(QPalette.ColorRole.Window).lightness() < 128
+    """Return whether the dark colours are used."""
+    return scheme().is_dark
 
 
-def severity_colour(severity: str | None) -> QColor:
-    """Return the background that marks a cell with a finding."""
-    light = {"error": "#ffd6d2", "warning": "#ffeec2", "advice": "#dcebff"}
-    dark = {"error": "#6b2b28", "warning": "#5c4a17", "advice": "#1f3d5e"}
-    return QColor((dark if is_dark() else light).get(severity or "", "#00000000"))
+def as_choice(kept: object) -> ThemeChoice:
+    """Return a stored choice of theme; anything else follows the system."""
+    return next((choice for choice in get_args(ThemeChoice) if choice == kept), "system")
+
+
+# -- colours -----------------------------------------------------------------------------------------
+
+
+def colour(token: Token) -> QColor:
+    """Return a colour of the table as it is now."""
+    return QColor(COLOURS[token][is_dark()])
 
 
 def severity_ink(severity: str) -> QColor:
     """Return the text colour of a severity."""
-    light = {"error": "#b3261e", "warning": "#8a5a00", "advice": "#1a5fb4"}
-    dark = {"error": "#ff8a80", "warning": "#ffd166", "advice": "#8ab4f8"}
-    return QColor((dark if is_dark() else light)[severity])
+    return colour(_SEVERITY[severity][0])
+
+
+def severity_colour(severity: str | None) -> QColor:
+    """Return the background that marks the cell that caused a finding; without one no colour."""
+    return colour(_SEVERITY[severity][1]) if severity in _SEVERITY else QColor(Qt.GlobalColor.transparent)
 
 
 def severity_icon(severity: str) -> QIcon:
-    """Return the icon of a severity."""
-    icons = QStyle.StandardPixmap
-    found = {"error": icons.SP_MessageBoxCritical, "warning": icons.SP_MessageBoxWarning}
-    return standard_icon(found.get(severity, icons.SP_MessageBoxInformation))
+    """Return the icon of a severity, in its colour."""
+    ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    return icon(name, ink)
 
 
 def state_colour() -> QColor:
     """Return the text colour of an inactive parameter."""
-    return QColor("#a0a0a0" if is_dark() else "#6e6e6e")
+    return colour("dim")
 
 
-def standard_icon(icon: QStyle.StandardPixmap) -> QIcon:
-    """Return a standard icon of the style; a black one is drawn in the text colour on a dark desktop."""
-    found = QApplication.style().standardIcon(icon)
-    return _in_ink(found) if is_dark() else found
+def palette() -> QPalette:
+    """Return the colours for what Qt draws by itself."""
+    role, group = QPalette.ColorRole, QPalette.ColorGroup
+    made = QPalette()
+    tokens: dict[QPalette.ColorRole, Token] = {
+        role.Window: "window", role.Base: "base", role.AlternateBase: "panel", role.Button: "raised",
+        role.Text: "text", role.WindowText: "text", role.ButtonText: "text", role.HighlightedText: "text",
+        role.ToolTipBase: "raised", role.ToolTipText: "text", role.PlaceholderText: "dim", role.BrightText: "error",
+        role.Highlight: "selbg", role.Accent: "sel", role.Link: "sel", role.LinkVisited: "sel", role.Light: "raised",
+        role.Midlight: "line", role.Mid: "line2", role.Dark: "edge", role.Shadow: "line2",
+    }  # fmt: skip
+    for each, token in tokens.items():
+        made.setColor(each, colour(token))
+    made.setColor(group.Inactive, role.Highlight, colour("selidle"))
+    made.setColor(group.Disabled, role.Highlight, colour("selidle"))
+    for each in (role.Text, role.WindowText, role.ButtonText, role.HighlightedText, role.PlaceholderText):
+        made.setColor(group.Disabled, each, colour("off"))
+    return made
 
 
-def _in_ink(icon: QIcon) -> QIcon:
-    picture = icon.pixmap(32, 32)
-    image = picture.toImage()
-    spots = [image.pixelColor(x, y) for x in range(0, image.width(), 2) for y in range(0, image.height(), 2)]
-    solid = [spot for spot in spots if spot.alpha() > 128]
-    if not solid or sum(spot.lightness() for spot in solid) / len(solid) > 70:
-        return icon
-    painter = QPainter(picture)
-    painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_SourceIn)
-    painter.fillRect(picture.rect(), QGuiApplication.palette().color(QPalette.ColorRole.WindowText))
-    painter.end()
-    return QIcon(picture)
+def wear(choice: ThemeChoice = "system") -> None:
+    """Put style, colours and font on the application, once; after that only the choice is followed."""
+    application = QApplication.instance()
+    if application.property("worn"):
+        scheme().choose(choice)
+        return
+    application.setProperty("worn", True)
+    scheme().choose(choice)
+    QApplication.setStyle(QStyleFactory.create("Fusion"))
+    QApplication.setFont(font("text"))
+    _dress()
 
 
-def program_icon() -> QIcon:
-    """Return the program's icon: a step and the axis that follows it."""
-    icon = QIcon()
-    for size in (16, 32, 64, 128):
-        icon.addPixmap(_drawn(size))
-    return icon
+def _dress() -> None:
+    QApplication.setPalette(palette())
+    sheet = style_sheet({token: colour(token).name() for token in COLOURS})
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    application.setStyleSheet(sheet)
 
 
-def _drawn(size: int) -> QPixmap:
-    picture = QPixmap(size, size)
-    picture.fill(Qt.GlobalColor.transparent)
-    painter = QPainter(picture)
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.scale(size / 64, size / 64)
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(QColor("#1a4f8a"))
-    painter.drawRoundedRect(QRectF(2, 2, 60, 60), 12, 12)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    step = [QPointF(9, 48), QPointF(24, 48), QPointF(24, 17), QPointF(55, 17)]
-    follow = [QPointF(24, 48), QPointF(29, 36), QPointF(35, 24), QPointF(43, 18), QPointF(55, 17)]
-    for points, colour, width in ((step, "#8fb8e8", 4.0), (follow, "#ffb454", 6.0)):
-        pen = QPen(QColor(colour), width)
-        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
-        pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
-        painter.setPen(pen)
-        painter.drawPolyline(QPolygonF(points))
-    painter.end()
-    return picture
+# -- type --------------------------------------------------------------------------------------------
+
+
+def font(
+    role: Literal["figure", "title", "text", "small", "caption"] = "text", *, own: bool = False
+) -> QFont:
+    """Return a font of the system in the size of a role, with figures of one width; ``own`` is the weight of an own value."""
+    pixels, weight = _PIXELS[role]
+    made = QFont(_system_font())
+    if made.pointSizeF() > 0:
+        made.setPointSizeF(made.pointSizeF() * pixels / 13)
+    else:
+        made.setPixelSize(max(1, round(made.pixelSize() * pixels / 13)))
+    made.setWeight(QFont.Weight(500 if own else weight))
+    made.setFeature(QFont.Tag("tnum"), 1)
+    return made
+
+
+@functools.cache
+def _system_font() -> QFont:
+    return QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
+
+
+# -- icons -------------------------------------------------------------------------------------------
+
+
+def icon(name: str, ink: Token = "text") -> QIcon:
+    """Return an icon of the Phosphor set by its name, such as ``floppy-disk``; it follows light and dark by itself."""
+    return QIcon(_Glyph(name, ink))
+
+
+def paint_icon(painter: QPainter, place: QRect | QRectF, name: str, ink: QColor) -> None:
+    """Paint an icon in the middle of a rectangle, as large as its shorter side. For delegates."""
+    side = min(place.width(), place.height())
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.TextAntialiasing)
+    letter = QFont(_icon_font())
+    letter.setPixelSize(max(1, int(side)))
+    painter.setFont(letter)
+    painter.setPen(ink)
+    painter.drawText(QRectF(place), Qt.AlignmentFlag.AlignCenter, _glyphs().get(name, ""))
+    painter.restore()
+
+
+class _Glyph(QIconEngine):
+    """A letter of the icon font, painted in the colours of the moment and sharp at every scale."""
+
+    def __init__(self, name: str, ink: Token) -> None:
+        super().__init__()
+        self._name, self._ink = name, ink
+
+    def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
+        paint_icon(painter, rect, self._name, colour("off" if mode == QIcon.Mode.Disabled else self._ink))
+
+    def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
+        found = QPixmap(size)
+        found.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(found)
+        self.paint(painter, QRect(QPoint(0, 0), size), mode, state)
+        painter.end()
+        return found
+
+    def clone(self) -> QIconEngine:
+        return _Glyph(self._name, self._ink)
+
+
+def _icon_files(pattern: str) -> Path | None:
+    """Return a file of the icon package; it is not imported, for that would load all of its eleven fonts."""
+    found = find_spec("qtawesome")
+    places = found.submodule_search_locations if found else None
+    return next((file for place in places or () for file in (Path(place) / "fonts").glob(pattern)), None)
+
+
+@functools.cache
+def _glyphs() -> dict[str, str]:
+    """Return the letter of every icon; none without the package, the program starts anyway."""
+    file = _icon_files("phosphor-charmap-*.json")
+    codes = json.loads(file.read_text(encoding="utf-8")) if file else {}
+    return {name: chr(int(code, 16)) for name, code in codes.items()}
+
+
+@functools.cache
+def _icon_font() -> str:
+    file = _icon_files("phosphor-[0-9]*.ttf")
+    families = (
+        QFontDatabase.applicationFontFamilies(QFontDatabase.addApplicationFont(str(file))) if file else []
+    )
+    return families[0] if families else ""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from PySide6.QtGui import QAction, QActionGroup
-from PySide6.QtWidgets import QMenu, QStyle
+from PySide6.QtWidgets import QMenu
 
 from amp_studio.schema import Value
 
@@ -20,19 +20,17 @@ class ViewActions:
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
-        act, icons = window.action, QStyle.StandardPixmap
-        menu = window.menuBar().addMenu("&Options")
+        act = window.action
+        self.menu = menu = window.menuBar().addMenu("&Options")
         self.units_menu, self.machine_menu = QMenu("&Units", window), QMenu("Control &Type", window)
         self._groups: list[QActionGroup] = []
-        self.switch = act(
-            "S&witch mm / inch", self._switch, "Ctrl+M", "units", icons.SP_BrowserReload, "mm / inch"
-        )
+        self.switch = act("S&witch mm / inch", self._switch, "Ctrl+M", "units", "ruler", "mm / inch")
         self.as_entered = self._option("Show Values &As Entered", self._show_as_entered, "Ctrl+E")
         self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")
         self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
         self.secrets = self._option("Show Se&crets", self._show_secrets)
         self.secrets.setToolTip("Show passwords in clear text, also in exports")
-        self.motion_action = act("&Motion…", self._motion, "F9", "file", icons.SP_MediaPlay, "Motion")
+        self.motion_action = act("&Motion…", self._motion, "F9", "file", "activity", "Motion")
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
         menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too, self.secrets])

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from .theme import program_icon
+from .program_icon import program_icon
 
 
 class WelcomePage(QWidget):

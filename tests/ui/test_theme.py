@@ -1,0 +1,149 @@
+"""The colours can be read, icons are there, and light and dark follow the choice at once."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPalette
+from pytestqt.qtbot import QtBot
+
+from amp_studio.ui import theme
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.settings import UserSettings
+from amp_studio.ui.theme import COLOURS, Token
+
+GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
+READ: list[tuple[Token, Token]] = [
+    *[(ink, ground) for ink in ("text", "dim") for ground in (*GROUNDS, "errorbg", "warnbg", "recbg")],
+    *[(ink, ground) for ink in ("sel", "error", "warn", "rec", "chg") for ground in ("window", "panel", "base", "raised")],
+    ("error", "errorbg"), ("warn", "warnbg"), ("rec", "recbg"), ("onsel", "sel"),
+    *[(ink, "selbg") for ink in ("error", "warn", "rec", "sel")],
+]  # fmt: skip
+"""Every ink on every ground on which it is read."""
+SEEN: list[tuple[Token, Token]] = [
+    ("edge", "base"),
+    ("edge", "panel"),
+    ("sel", "base"),
+    ("chg", "base"),
+    ("off", "raised"),
+]
+"""Borders and marks that must be seen, and the text of a disabled control."""
+
+
+def contrast(one: str, other: str) -> float:
+    """Return the contrast of two colours by WCAG: 1 for the same, 21 for black on white."""
+
+    def light(name: str) -> float:
+        parts = [int(name[n : n + 2], 16) / 255 for n in (1, 3, 5)]
+        linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+        return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+    low, high = sorted((light(one), light(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.fixture
+def light_again(qtbot: QtBot) -> Iterator[None]:
+    """Leave the other tests the scheme they started with."""
+    before = theme.scheme().choice
+    yield
+    theme.wear(before)
+
+
+def test_contrast_is_one_of_the_same_and_21_of_black_on_white() -> None:
+    assert contrast("#808080", "#808080") == 1
+    assert contrast("#000000", "#FFFFFF") == pytest.approx(21)
+
+
+@pytest.mark.parametrize("dark", [0, 1], ids=["light", "dark"])
+def test_every_ink_is_read_on_every_ground_it_stands_on(dark: int) -> None:
+    poor = {pair: round(found, 2) for pair in READ if (found := contrast(COLOURS[pair[0]][dark], COLOURS[pair[1]][dark])) < 4.5}  # fmt: skip
+    assert poor == {}
+
+
+@pytest.mark.parametrize("dark", [0, 1], ids=["light", "dark"])
+def test_every_border_and_mark_is_seen(dark: int) -> None:
+    poor = {pair: round(found, 2) for pair in SEEN if (found := contrast(COLOURS[pair[0]][dark], COLOURS[pair[1]][dark])) < 3}  # fmt: skip
+    assert poor == {}
+
+
+def test_dark_holds_at_once_and_is_kept_for_the_next_start(qtbot: QtBot, light_again: None) -> None:
+    window = MainWindow()
+    qtbot.addWidget(window)
+    told: list[str] = []
+    theme.scheme().changed.connect(lambda: told.append(theme.colour("base").name()))
+    {action.text(): action for action in window.themes.group.actions()}["&Dark"].trigger()
+    assert told == ["#17191c"]
+    assert QGuiApplication.palette().color(QPalette.ColorRole.Base) == QColor("#17191C")
+    assert window.palette().color(QPalette.ColorRole.Window) == QColor("#1C1E22")
+    assert UserSettings().theme() == "dark"
+    theme.wear("light")
+    assert window.palette().color(QPalette.ColorRole.Window) == QColor("#F2F3F5")
+
+
+@pytest.mark.parametrize("kept", ["purple", 7, None, ["dark"]])
+def test_a_damaged_choice_of_theme_follows_the_system(kept: object) -> None:
+    assert theme.as_choice(kept) == "system"
+
+
+def test_an_icon_is_drawn_in_the_ink_of_the_moment(qtbot: QtBot, light_again: None) -> None:
+    found = theme.icon("floppy-disk")
+    for choice, ink in (("light", "#1a1e23"), ("dark", "#e3e6ea")):
+        theme.wear(choice)
+        for side in (16, 32):
+            image = found.pixmap(QSize(side, side)).toImage()
+            inks = {
+                image.pixelColor(x, y).name()
+                for x in range(image.width()) for y in range(image.height()) if image.pixelColor(x, y).alpha() == 255
+            }  # fmt: skip
+            assert inks == {ink}
+
+
+def test_a_disabled_icon_is_drawn_in_the_disabled_ink(qtbot: QtBot, light_again: None) -> None:
+    theme.wear("light")
+    image = theme.icon("x").pixmap(QSize(32, 32), QIcon.Mode.Disabled).toImage()
+    assert {image.pixelColor(n, 16).name() for n in range(32) if image.pixelColor(n, 16).alpha() == 255} == {
+        "#757d88"
+    }
+
+
+def test_every_icon_the_window_names_is_in_the_set(checkout: Path) -> None:
+    known = set(theme._glyphs())
+    named = {
+        node.value
+        for file in (checkout / "amp_studio" / "ui").rglob("*.py")
+        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and getattr(call.func, "id", getattr(call.func, "attr", "")) in {"icon", "act", "action", "paint_icon"}
+        for node in call.args
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.islower() and "-" in node.value
+    }  # fmt: skip
+    assert {"floppy-disk", "folder-open"} <= named <= known
+
+
+def test_the_program_starts_without_the_icon_package(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(theme, "_icon_files", lambda pattern: None)
+    for cached in (theme._glyphs, theme._icon_font):
+        cached.cache_clear()
+    try:
+        assert not theme.icon("floppy-disk").pixmap(16, 16).isNull()
+    finally:
+        for cached in (theme._glyphs, theme._icon_font):
+            cached.cache_clear()
+
+
+def test_only_the_theme_names_a_colour(checkout: Path) -> None:
+    """One table: a colour written elsewhere would be wrong in one of the two schemes."""
+    own = {"theme.py", "program_icon.py"}
+    found = [
+        f"{file.name}:{node.lineno}"
+        for file in (checkout / "amp_studio" / "ui").rglob("*.py")
+        if file.name not in own
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        and len(node.value) in (4, 7) and node.value.startswith("#") and all(c in "0123456789abcdefABCDEF" for c in node.value[1:])
+    ]  # fmt: skip
+    assert found == []
