@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from .diff import Comparison, Conflict, Difference, compare, merge
     from .document import Document, HistoryEntry, Unsaved, recover_backup
     from .lock import InUseError
+    from .merging import Merge, Row, RowGroup, Typed
     from .project import InvalidNameError, Project, ProjectInfo
 
 _PLACES = {
@@ -53,8 +54,12 @@ _PLACES = {
     "HistoryEntry": "document",
     "InUseError": "lock",
     "InvalidNameError": "project",
+    "Merge": "merging",
     "Project": "project",
     "ProjectInfo": "project",
+    "Row": "merging",
+    "RowGroup": "merging",
+    "Typed": "merging",
     "Unsaved": "document",
     "alike_axes": "axes",
     "axis_instances": "axes",
@@ -94,6 +99,7 @@ __all__ = [
     "HistoryEntry",
     "InUseError",
     "InvalidNameError",
+    "Merge",
     "Notify",
     "Opened",
     "ParameterFile",
@@ -101,7 +107,10 @@ __all__ = [
     "Project",
     "ProjectInfo",
     "RangeError",
+    "Row",
+    "RowGroup",
     "SaveError",
+    "Typed",
     "Unsaved",
     "alike_axes",
     "axis_instances",

@@ -17,7 +17,7 @@ from amp_studio.schema.regular_file import read_file
 
 from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
-from .parameter_file import Change, ParameterFile
+from .parameter_file import Change, Header, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
 from .reading import Opened, open_file, read_content, read_stored
 from .storage import save_file
@@ -58,7 +58,9 @@ class Document:
         self.file, self.path, self.digest = file, path, digest
         self.saved = dict(file.values)
         """The values as they are on disk."""
-        self._saved_rest = (replace(file.header), dict(file.forced))
+        self._saved_rest = _rest_of(file)
+        self.opened = file.copy()
+        """The file as it was when it was opened, or made."""
         self._only_viewed = False
         self._lock = EditLock(path)
         self._journal_is_ours = False
@@ -135,8 +137,18 @@ class Document:
     @property
     def is_dirty(self) -> bool:
         """Whether values, marks or header differ from the file on disk."""
-        rest = (self.file.header, self.file.forced)
-        return self.digest is None or self.saved != self.file.values or self._saved_rest != rest
+        file = self.file
+        rest = (file.header, file.forced, file.unknown)
+        return self.digest is None or self.saved != file.values or self._saved_rest != rest
+
+    def as_saved(self) -> ParameterFile:
+        """Return the file as it is on disk, as far as this document knows: as it was opened, saved or acknowledged last."""
+        header, forced, unknown = self._saved_rest
+        file = ParameterFile(self.file.schema, replace(header, extra=dict(header.extra)))
+        file.take(self.saved)
+        file.forced.update(forced)
+        file.unknown.update(unknown)
+        return file
 
     def unsaved_changes(self) -> list[Change]:
         """Return what a save would change, in the manual's order."""
@@ -156,7 +168,7 @@ class Document:
         self.notes = [self._lock.note] if self._lock.note else []
         self.digest = save_file(self.file, self.path, self.digest, self.notes.append)
         self.saved = dict(self.file.values)
-        self._saved_rest = (replace(self.file.header), dict(self.file.forced))
+        self._saved_rest = _rest_of(self.file)
         self._remember(changes, how)
         self._drop_journal()
 
@@ -170,7 +182,7 @@ class Document:
         """Take the version on disk, which another program has written, for known: the next save replaces it, and it becomes the backup."""
         self.digest = on_disk.digest
         self.saved = dict(on_disk.file.values)
-        self._saved_rest = (replace(on_disk.file.header), dict(on_disk.file.forced))
+        self._saved_rest = _rest_of(on_disk.file)
 
     # -- history ---------------------------------------------------------------
 
@@ -297,6 +309,11 @@ class Document:
     def discard_unsaved(self) -> None:
         """Throw away the work a killed program left."""
         self.journal_path.unlink(missing_ok=True)
+
+
+def _rest_of(file: ParameterFile) -> tuple[Header, dict[Address, str], dict[str, str]]:
+    """Return what a file contains besides its values, apart from the file."""
+    return replace(file.header), dict(file.forced), dict(file.unknown)
 
 
 def recover_backup(path: Path, expected: str | None = "") -> str:

@@ -60,26 +60,30 @@ class Header:
     """Keys this program does not know, kept as they are."""
 
 
-_KEPT_APART = ("units", "signature", "extra")
+_KEPT_APART = ("units", "signature")
 """Header entries that no step changes: display settings, and what the program writes itself."""
 
 
 @dataclass(frozen=True)
 class Marks:
-    """The forced marks and the header of a file at one moment."""
+    """The forced marks, the header and the entries that the schema does not know, of a file at one moment."""
 
     forced: dict[Address, str]
     header: dict[str, object]
+    unknown: dict[str, str]
 
     @classmethod
     def of(cls, file: ParameterFile) -> Marks:
-        return cls(dict(file.forced), {k: v for k, v in vars(file.header).items() if k not in _KEPT_APART})
+        header = {k: v for k, v in vars(file.header).items() if k not in _KEPT_APART}
+        return cls(dict(file.forced), header, dict(file.unknown))
 
     def put_back(self, file: ParameterFile) -> None:
         """Give a file these marks and this header."""
         decided_by = file.machine, file.header.application
         file.forced.clear()
         file.forced.update(self.forced)
+        file.unknown.clear()
+        file.unknown.update(self.unknown)
         for key, value in self.header.items():
             setattr(file.header, key, value)
         if (file.machine, file.header.application) != decided_by:
@@ -198,8 +202,7 @@ class ParameterFile:
         with self.step() as changes:
             for address, value in wanted.items():
                 self.set(address, value)
-            for axis in self._turned(changes):
-                self.refit_units(axis)
+            self.refit_turned(changes)
             faults = {
                 a: message
                 for a, v in wanted.items()
@@ -215,6 +218,10 @@ class ParameterFile:
             if address not in changed and self.forced.get(address) != marks.get(address):
                 self._notify(Change(address, value, value))  # the value is unchanged, its mark is not
         return changes
+
+    def refit_turned(self, changes: Iterable[Change]) -> list[Change]:
+        """Refit the units of each axis that these changes made turn, or move straight; returns the changes."""
+        return [change for axis in self._turned(changes) for change in self.refit_units(axis)]
 
     def _turned(self, changes: Iterable[Change]) -> Iterable[str]:
         """Return the axes that changes may have made turn, or move straight."""

@@ -1,0 +1,293 @@
+"""Two or three sources side by side, and the result that is made of them row by row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from amp_studio.schema import Address, Schema, Value, read_address, same_value
+
+from .by_schema import by_schema
+from .parameter_file import Change, ParameterFile
+
+Side = Literal["base", "a", "b"]
+Part = Literal["value", "header", "entry"]
+"""What a row is about: a parameter, an entry of the header, or an entry that the schema does not know."""
+Kind = Literal["same", "a", "b", "both", "different", "conflict"]
+"""``a``, ``b``: only that side changed it (without a base: only that side has it); ``both``: to the same; ``different``: two
+values, and no base that would show who changed it; ``conflict``: both changed it, and not to the same."""
+
+HEADER_TEXTS = ("application", "revision", "notes")
+"""Header entries that are compared as texts. The name stays with its file; units are how a file is shown."""
+MACHINE = "machine"
+
+
+class RowId(NamedTuple):
+    """What a row is about."""
+
+    part: Part
+    address: Address
+    key: str = ""
+    """The name of an entry as it is written in the file; empty for a parameter."""
+
+
+class Typed(NamedTuple):
+    """A value that a person typed for the result instead of taking one; None: not set."""
+
+    value: Value | None
+
+
+Choice = Side | Typed
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One address with what each source has there; None: not set. ``base`` is None without a base too."""
+
+    id: RowId
+    base: Value | None
+    a: Value | None
+    b: Value | None
+    kind: Kind
+
+    @property
+    def address(self) -> Address:
+        """Parameter and instance; for an entry of the header its name."""
+        return self.id.address
+
+    def of(self, side: Side) -> Value | None:
+        """Return what a side has."""
+        return self.base if side == "base" else self.a if side == "a" else self.b
+
+
+@dataclass(frozen=True)
+class RowGroup:
+    """The rows of one group of the manual."""
+
+    title: str
+    rows: tuple[Row, ...]
+
+    @property
+    def conflicts(self) -> int:
+        """Rows that both sides changed, settled or not."""
+        return sum(row.kind == "conflict" for row in self.rows)
+
+
+class Merge:
+    """Sources A and B, and what both come from, if that is known; by default the result takes what one side changed.
+
+    Without a base the result is A until something is taken from B. The sources are not touched. Raises ValueError when
+    they are not of one family.
+    """
+
+    def __init__(self, a: ParameterFile, b: ParameterFile, base: ParameterFile | None = None) -> None:
+        _demand_one_family(a, b, base)
+        self.a, self.b = a, by_schema(b, a.schema)
+        self.base = None if base is None else by_schema(base, a.schema)
+        self.rows: tuple[Row, ...] = tuple(self._rows())
+        """Every row, those that are the same too, in the manual's order."""
+        self._choices: dict[RowId, Choice] = {}
+
+    def _sources(self) -> dict[Side, ParameterFile]:
+        sources: dict[Side, ParameterFile] = {"a": self.a, "b": self.b}
+        return sources if self.base is None else sources | {"base": self.base}
+
+    # -- the rows --------------------------------------------------------------
+
+    def _rows(self) -> Iterator[Row]:
+        texts = [_header_texts(file) for file in (self.base, self.a, self.b)]
+        for key in dict.fromkeys(key for text in texts for key in text):
+            yield self._row(RowId("header", (key, ""), key), *(text.get(key) for text in texts))
+        empty: Mapping[Address, Value] = {}
+        base, a, b = (empty if self.base is None else self.base.values), self.a.values, self.b.values
+        for address in in_order(self.a.schema, {*a, *b, *base}):
+            yield self._row(RowId("value", address), base.get(address), a.get(address), b.get(address))
+        entries: list[dict[str, str]] = [
+            {} if file is None else file.unknown for file in (self.base, self.a, self.b)
+        ]
+        for key in dict.fromkeys(key for known in entries for key in known):
+            row_id = RowId("entry", read_address(key), key)
+            yield self._row(row_id, *(None if (t := e.get(key)) is None else Value(t) for e in entries))
+
+    def _row(self, row_id: RowId, base: Value | None, a: Value | None, b: Value | None) -> Row:
+        return Row(row_id, base, a, b, self._kind(base, a, b))
+
+    def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> Kind:
+        agree = same_value(a, b)
+        if self.base is None:
+            return "same" if agree else "a" if b is None else "b" if a is None else "different"
+        if same_value(a, base):
+            return "same" if agree else "b"
+        if agree:
+            return "both"
+        return "a" if same_value(b, base) else "conflict"
+
+    @cached_property
+    def differing(self) -> tuple[Row, ...]:
+        """The rows in which the sources are not all the same."""
+        return tuple(row for row in self.rows if row.kind != "same")
+
+    @property
+    def same(self) -> int:
+        """How many rows are the same in all sources."""
+        return len(self.rows) - len(self.differing)
+
+    @cached_property
+    def conflicts(self) -> tuple[Row, ...]:
+        """The rows that both sides changed, and not to the same; settled or not."""
+        return tuple(row for row in self.differing if row.kind == "conflict")
+
+    def grouped(self, rows: Iterable[Row]) -> list[RowGroup]:
+        """Return rows by the groups of the manual: the header first, what the schema does not know last."""
+        groups: dict[str, list[Row]] = {}
+        for row in rows:
+            groups.setdefault(self.group_title(row), []).append(row)
+        return [RowGroup(title, tuple(members)) for title, members in groups.items()]
+
+    def group_title(self, row: Row) -> str:
+        """Return the group of a row: ``Servo Parameters: Position Loop``."""
+        if row.id.part == "header":
+            return "Machine facts"
+        group = self.a.schema.group_of.get(row.address[0]) if row.id.part == "value" else None
+        if group is None:
+            return "Entries that this family does not know"
+        return f"{group.name}: {group.section}" if group.section else group.name
+
+    # -- the result ------------------------------------------------------------
+
+    @property
+    def choices(self) -> Mapping[RowId, Choice]:
+        """What was chosen, by row; any other row has its default."""
+        return self._choices
+
+    def choose(self, row: Row, choice: Choice | None) -> None:
+        """Take a side for a row, or a typed value; None goes back to what it was without a choice."""
+        if choice is None:
+            self._choices.pop(row.id, None)
+        else:
+            self._choices[row.id] = choice
+
+    def take(self, side: Side, rows: Iterable[Row] | None = None) -> None:
+        """Take a side for these rows, for all that differ by default."""
+        for row in self.differing if rows is None else rows:
+            if row.kind != "same":
+                self.choose(row, side)
+
+    def choice(self, row: Row) -> Choice | None:
+        """Return what the result takes; None for a conflict that nobody has settled."""
+        chosen = self._choices.get(row.id)
+        if chosen is not None:
+            return chosen
+        if row.kind == "conflict":
+            return None
+        return "b" if row.kind == "b" and self.base is not None else "a"
+
+    def result_of(self, row: Row) -> Value | None:
+        """Return the value in the result; a conflict that is not settled keeps A."""
+        choice = self.choice(row) or "a"
+        return choice.value if isinstance(choice, Typed) else row.of(choice)
+
+    @property
+    def open_conflicts(self) -> list[Row]:
+        """The conflicts that nobody has settled."""
+        return [row for row in self.conflicts if row.id not in self._choices]
+
+    def keep_choices(self, before: Merge, *, swapped: bool = False) -> None:
+        """Take over what was chosen in an earlier merge, for the rows that still differ; with ``swapped`` sides."""
+        other: dict[Side, Side] = {"a": "b", "b": "a", "base": "base"}
+        rows = {row.id for row in self.differing}
+        for row_id, choice in before._choices.items():  # a merge of the same class
+            if row_id in rows:
+                turned = swapped and not isinstance(choice, Typed)
+                self._choices[row_id] = other[choice] if turned else choice  # type: ignore[index]  # a side
+
+    def result(self) -> ParameterFile:
+        """Return A with what the result takes from elsewhere."""
+        file = self.a.copy()
+        self.apply_to(file)
+        return file
+
+    def apply_to(self, file: ParameterFile) -> list[Change]:
+        """Put the result into a file that contains A or B; returns the values changed.
+
+        A value that is the same already stays as it is written. An axis that begins to turn takes its lengths along as angles,
+        as everywhere. Marks of values out of range come with their values.
+        """
+        changes: list[Change] = []
+        for row in self.differing:
+            if row.id.part == "value":
+                changes += self._put_value(file, row)
+            elif row.id.part == "entry":
+                self._put_entry(file, row)
+            else:
+                self._put_header(file, row)
+        return changes + file.refit_turned(changes)
+
+    def _put_value(self, file: ParameterFile, row: Row) -> Iterator[Change]:
+        address, value = row.address, self.result_of(row)
+        choice = self.choice(row) or "a"
+        if not same_value(file.get(address), value):
+            change = file.set(address, value)
+            if change is not None:
+                yield change
+        source = None if isinstance(choice, Typed) else self._sources().get(choice)
+        mark = source.forced.get(address) if source is not None else file.forced.get(address)
+        if mark is None or value is None:
+            file.forced.pop(address, None)
+        else:
+            file.forced[address] = mark
+
+    def _put_entry(self, file: ParameterFile, row: Row) -> None:
+        value = self.result_of(row)
+        if value is None:
+            file.unknown.pop(row.id.key, None)
+        else:
+            file.unknown[row.id.key] = str(value.value)
+
+    def _put_header(self, file: ParameterFile, row: Row) -> None:
+        key, value, choice = row.id.key, self.result_of(row), self.choice(row) or "a"
+        if key == MACHINE:
+            file.set_machine("" if value is None else str(value.value))
+        elif key in HEADER_TEXTS:
+            setattr(file.header, key, "" if value is None else str(value.value))
+            file.evaluation.forget()  # conditions may name the model of the control
+        else:
+            source = self.a if isinstance(choice, Typed) else self._sources()[choice]
+            extra = {name: entry for name, entry in file.header.extra.items() if name != key}
+            file.header.extra = (
+                extra | {key: source.header.extra[key]} if key in source.header.extra else extra
+            )
+
+
+def _demand_one_family(*files: ParameterFile | None) -> None:
+    """Raise ValueError when files are not of one family."""
+    families = {f.schema.family.family for f in files if f is not None}
+    if len(families) > 1:
+        raise ValueError(
+            f"files of different control families cannot be merged: {', '.join(sorted(families))}"
+        )
+
+
+def _header_texts(file: ParameterFile | None) -> dict[str, Value]:
+    """Return what is compared of a header; the machine type only where no parameter is for it."""
+    if file is None:
+        return {}
+    header, family = file.header, file.schema.family
+    found = {key: Value(text) for key in HEADER_TEXTS if (text := getattr(header, key))}
+    if not family.machine_parameter and len(family.machines) > 1:
+        found[MACHINE] = Value(file.machine)
+    return found | {key: Value(str(entry)) for key, entry in header.extra.items()}
+
+
+def in_order(schema: Schema, addresses: Iterable[Address]) -> Sequence[Address]:
+    """Return addresses in the manual's order; what the schema does not have comes last."""
+    order = {p: n for n, p in enumerate(schema.parameters)}
+    places = schema.on(schema.family.default_machine).places  # axes by letter are in no order of letters
+    first, last = len(order), len(places)
+
+    def place(address: Address) -> tuple[int, int, int, str, str]:
+        return order.get(address[0], first), places.get(address, last), len(address[1]), *address
+
+    return sorted(addresses, key=place)

@@ -1,0 +1,16 @@
+"""What a file would have to be told that it has not been told before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .finding import Finding
+
+_NOT_SET = "schema.unset"
+"""Values that nobody gave are a state of the file and no fault of a change."""
+
+
+def new_findings(before: Iterable[Finding], after: Iterable[Finding]) -> list[Finding]:
+    """Return the findings that were not there before, or were less severe; of the same rule for the same instance they are one."""
+    known = {(f.key, f.severity) for f in before}
+    return [f for f in after if f.rule != _NOT_SET and (f.key, f.severity) not in known]
