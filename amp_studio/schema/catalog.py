@@ -88,6 +88,8 @@ class Schema:
         """Checksum over instances, numbers, names, types, units, storage, choices and bits; travels with every file."""
         lines = []
         for parameter in self.parameters.values():
+            if not parameter.in_signature:
+                continue
             instances = {m.key: self.on(m.key).instances(parameter) for m in self.family.machines}
             numbers = {m.key: self.on(m.key).numbers(parameter) for m in self.family.machines}
             choices = _codes(parameter.choices)

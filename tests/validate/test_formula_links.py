@@ -11,13 +11,6 @@ from amp_studio.families.ninepc.formulas import largest_word, word_value
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.validate import formulas
 
-WITHOUT_A_PARAMETER = {
-    # Points of axis calibration are entered at the control and have no parameter number (page 36-5).
-    "calibration_deviation",
-    "calibration_limit",
-    "net_correction",
-}
-
 
 @pytest.mark.parametrize("family", family_ids())
 def test_a_parameter_names_formulas_that_exist_and_each_once(family: str) -> None:
@@ -28,9 +21,9 @@ def test_a_parameter_names_formulas_that_exist_and_each_once(family: str) -> Non
 
 
 @pytest.mark.parametrize("family", family_ids())
-def test_a_formula_is_named_by_a_parameter_or_listed_here(family: str) -> None:
+def test_a_formula_is_named_by_a_parameter_of_the_family(family: str) -> None:
     named = {name for parameter in load_schema(family).parameters.values() for name in parameter.formulas}
-    assert set(formulas(family)) - named == (WITHOUT_A_PARAMETER if family == "9pc" else set())
+    assert set(formulas(family)) - named == set()
 
 
 @pytest.mark.parametrize("name", formulas("9pc"))

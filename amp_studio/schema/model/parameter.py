@@ -258,6 +258,8 @@ class Parameter(Model):
     """Is in the table of values that can be keyed in at the control."""
     optional: bool = False
     """A file is complete without it: a table an operator fills as he goes (tool offsets), a filter that is not used."""
+    in_signature: bool = True
+    """False for what was added when files and controls out there had the family's signature already: it stays as it is."""
     secret: bool = False
     """A password or the like: shown, printed, compared and exported in clear only where a person asks for it."""
     needs: tuple[Need, ...] = ()

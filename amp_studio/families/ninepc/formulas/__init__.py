@@ -14,6 +14,7 @@ from .axes import (
     inside_zone,
     rollover_position,
 )
+from .calibration import calibration_fault, calibration_net, calibration_points
 from .compensation import (
     compensated_feedrate,
     compensation_radius,
@@ -167,7 +168,10 @@ __all__ = [
     "arc_radius_error",
     "arc_reaches",
     "calibration_deviation",
+    "calibration_fault",
     "calibration_limit",
+    "calibration_net",
+    "calibration_points",
     "chamfer_length",
     "coarse_scan_ms",
     "compensated_feedrate",
