@@ -19,6 +19,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
     InvalidValueError,
+    Parameter,
     UnitError,
     UnknownParameterError,
     Value,
@@ -62,7 +63,7 @@ class _Quantity:
 
 _UNIT = r"(?:°|[A-Za-zµ%]+)(?:/[A-Za-z]+[0-9²³]*)*"
 _TOKEN = re.compile(
-    rf"""(?P<blank>\s+)
+    r"""(?P<blank>\s+)
     |(?P<number>(?:[0-9][0-9.,]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
     |(?P<name>(?:"[^"]*"|'[^']*'|\#[A-Za-z$]*[0-9][\w.]*|[^\W\d]\w*(?:\.\w+)*|\$[0-9]+)(?:@\w+(?:\.\w+)?)?)
     |(?P<sign>[-+*/(),×÷−·])""",
@@ -273,14 +274,14 @@ class _Reader:
         """Return the id of the parameter whose id, name, or end of the id this is, or which alone begins with it."""
         word, known = name.casefold(), self._file.schema.parameters.values()
         here = [p for p in known if self._file.machine_schema.instances(p)]
-        ways: tuple[Callable[[str, str], bool], ...] = (
-            lambda id_, own: word in (id_, own),
-            lambda id_, own: id_.endswith("." + word),
-            lambda id_, own: own.startswith(word),
-            lambda id_, own: f" {word} " in f" {own} ",
+        ways: tuple[Callable[[Parameter], bool], ...] = (
+            lambda p: word in (p.id, p.name.casefold()),
+            lambda p: p.id.endswith("." + word),
+            lambda p: p.name.casefold().startswith(word),
+            lambda p: f" {word} " in f" {p.name.casefold()} ",
         )
         for fits in ways:
-            found = [p for p in here if fits(p.id, p.name.casefold())]
+            found = [p for p in here if fits(p)]
             if len(found) == 1:
                 return found[0].id
             if found:
@@ -339,7 +340,7 @@ def _in_unit(quantity: _Quantity, unit: str) -> _Quantity:
 
 def _alike(a: _Quantity, b: _Quantity) -> tuple[_Quantity, _Quantity]:
     """Return two quantities in one unit; a bare number takes the unit of the other. Raises InvalidValueError."""
-    if a.unit == b.unit or b.unit == "":
+    if b.unit in (a.unit, ""):
         return a, _Quantity(b.number, a.unit)
     if a.unit == "":
         return _Quantity(a.number, b.unit), b

@@ -37,9 +37,8 @@ def test_the_same_value_in_another_unit_is_no_change(file: ParameterFile) -> Non
 def test_not_set_clears_and_what_is_no_number_is_refused(file: ParameterFile) -> None:
     entry = plan_entry(file, {X: "Not set", Y: "eleven", Z: "1,234"}, file.read)
     assert entry.changed == {X: None}
-    assert ["is not a number", "two ways"] == [
-        next(w for w in ("is not a number", "two ways") if w in c.problem) for c in entry.refused
-    ]
+    assert "is not a number" in entry.refused[0].problem
+    assert "two ways" in entry.refused[1].problem
 
 
 def test_two_values_that_bound_each_other_move_together(file: ParameterFile) -> None:
