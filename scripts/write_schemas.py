@@ -24,6 +24,7 @@ from amp_studio.schema.model import (
     Family,
     Group,
     Guides,
+    Messages,
     Model,
     Rules,
     Suppression,
@@ -52,6 +53,7 @@ FILES: dict[str, type[BaseModel]] = {
     "errata": Errata,
     "tables": Tables,
     "guides": Guides,
+    "messages": Messages,
     "units": Units,
     "builder-rules": BuilderRules,
 }

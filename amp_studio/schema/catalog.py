@@ -10,7 +10,7 @@ from functools import cache, cached_property
 from .address import Address, UnknownParameterError, whole_of
 from .load import Compiled, load_compiled
 from .machine_schema import MachineSchema
-from .model import Choice, Erratum, Family, Group, Guide, Parameter, Rule, Table
+from .model import Choice, ControlMessage, Erratum, Family, Group, Guide, Messages, Parameter, Rule, Table
 from .units import angular
 
 
@@ -26,6 +26,7 @@ class Schema:
     guides: tuple[Guide, ...]
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
+    message_lists: tuple[Messages, ...] = ()
     description: bytes = b""
     """The description that a control gave of itself, from which this schema was made; empty for the facts of the database."""
 
@@ -47,6 +48,11 @@ class Schema:
     def machines(self) -> frozenset[str]:
         """The keys of the machine types."""
         return frozenset(m.key for m in self.family.machines)
+
+    @cached_property
+    def messages(self) -> dict[str, ControlMessage]:
+        """What the controls of the family show, by id."""
+        return {message.id: message for listed in self.message_lists for message in listed.messages}
 
     # -- words -----------------------------------------------------------------
 
@@ -131,7 +137,8 @@ def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
         groups=compiled.groups,
         rules=compiled.rules,
         errata={e.id: e for e in compiled.errata},
-        tables={t.id: t for t in compiled.tables},
+        tables={t.id: t for t in (*compiled.tables, *(t for m in compiled.messages for t in m.tables()))},
+        message_lists=compiled.messages,
         guides=compiled.guides,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},

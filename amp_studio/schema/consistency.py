@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
-from .model import BoundRef, Family, Group, Parameter, StateRule
+from .model import BoundRef, Family, Group, Messages, Parameter, Rule, StateRule
 from .quoting import quoted
 from .yaml_reader import KeyPath
 
@@ -39,6 +40,27 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
                 *_secret_bounds(parameter, secrets),
             ):
                 yield Inconsistency(group.key, (*here, *place), f"{parameter.id}: {what}")
+
+
+def faults_of_messages(
+    files: Mapping[Path, Messages], groups: tuple[Group, ...], rules: tuple[Rule, ...]
+) -> Iterator[tuple[Path, KeyPath, str]]:
+    """Yield each parameter or rule that a message names and that does not exist, and each duplicate message."""
+    known = {
+        "params": {p.id for group in groups for p in group.parameters},
+        "rules": {rule.id for rule in rules},
+    }
+    seen: set[str] = set()
+    for path, file in files.items():
+        for position, message in enumerate(file.messages):
+            here: KeyPath = ("messages", position)
+            if message.id in seen:
+                yield path, (*here, "id"), f"{message.id} occurs twice"
+            seen.add(message.id)
+            for key, kind in (("params", "parameter"), ("rules", "rule")):
+                for n, name in enumerate(getattr(message, key)):
+                    if name not in known[key]:
+                        yield path, (*here, key, n), f"{message.id}: there is no {kind} {quoted(name)}"
 
 
 def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:

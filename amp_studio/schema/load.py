@@ -17,10 +17,10 @@ import platformdirs
 from pydantic import ValidationError
 
 from .compiled_cache import read_cached, report_unusable, write_cached
-from .consistency import faults_between
+from .consistency import faults_between, faults_of_messages
 from .file_error import FileError, read_yaml_file
 from .folder import database_folder
-from .model import Errata, Erratum, Family, Group, Guide, Guides, Model, Rule, Rules, Table, Tables
+from .model import Errata, Erratum, Family, Group, Guide, Guides, Messages, Model, Rule, Rules, Table, Tables
 from .model_errors import Slip, slips
 from .nearest import unknown_name
 from .quoting import LONGEST, quoted, short
@@ -58,6 +58,7 @@ class Compiled(Model):
     errata: tuple[Erratum, ...]
     tables: tuple[Table, ...]
     guides: tuple[Guide, ...] = ()
+    messages: tuple[Messages, ...] = ()
 
 
 def family_ids() -> tuple[str, ...]:
@@ -108,10 +109,21 @@ def compile_family(folder: Path) -> Compiled:
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
         raise DatabaseError(path, _parsed(path).line(fault.place), fault.what)
+    messages = {path: _read(path, Messages) for path in sorted(folder.glob("messages/*.yaml"))}
+    for path, place, what in faults_of_messages(messages, groups, rules):
+        raise DatabaseError(path, _parsed(path).line(place), what)
     # What is written once for several parameters has reached them.
     family = family.model_copy(update={"choice_lists": {}, "bit_lists": {}})
     groups = tuple(group.model_copy(update={"states": (), "last_states": ()}) for group in groups)
-    return Compiled(family=family, groups=groups, rules=rules, errata=errata, tables=tables, guides=guides)
+    return Compiled(
+        family=family,
+        groups=groups,
+        rules=rules,
+        errata=errata,
+        tables=tables,
+        guides=guides,
+        messages=tuple(messages.values()),
+    )
 
 
 def _of(family: Family, folder: Path) -> list[Path]:

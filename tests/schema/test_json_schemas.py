@@ -70,7 +70,14 @@ def test_an_editor_offers_the_units_that_a_family_has_alone() -> None:
 
 
 def test_every_fact_file_names_the_schema_of_its_kind() -> None:
-    kinds = {"groups": "group", "rules": "rules", "errata": "errata", "tables": "tables", "guides": "guides"}
+    kinds = {
+        "groups": "group",
+        "rules": "rules",
+        "errata": "errata",
+        "tables": "tables",
+        "guides": "guides",
+        "messages": "messages",
+    }
     assert len(FACTS) > 250
     for path in FACTS:
         kind = "family" if path.name == "family.yaml" else kinds[path.parent.name]

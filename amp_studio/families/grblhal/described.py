@@ -19,16 +19,17 @@ from amp_studio.schema.model import (
     Bit,
     Choice,
     Condition,
+    ControlMessage,
     Default,
     Effect,
     Family,
     Group,
     Help,
     Layout,
+    Messages,
     Numbers,
     StateRule,
     Storage,
-    Table,
 )  # fmt: skip
 
 from .description import (
@@ -110,11 +111,11 @@ class _Maker:
         compiled = Compiled(
             family=self._family(tuple(groups)), groups=made, errata=(),
             rules=tuple(r for r in self.known.rules if r.id != AXES_RULE),
-            tables=tuple(self._tables()), guides=self.known.guides,
+            tables=(), guides=self.known.guides, messages=tuple(self._messages()),
         )  # fmt: skip
         return made_of(compiled, description)
 
-    # -- family, tables -------------------------------------------------
+    # -- family, messages -------------------------------------------------
 
     def _family(self, groups: tuple[str, ...]) -> Family:
         known, facts = self.known.family, self.told.facts
@@ -136,15 +137,25 @@ class _Maker:
             "conditions": conditions, "machines": known.machines[:1],
         })  # fmt: skip
 
-    def _tables(self) -> Iterable[Table]:
-        told = (("alarms", "Alarms (ALARM:n)", "EA", self.told.alarms),
-                ("errors", "Answers to a setting or command (error:n)", "EE", self.told.errors))  # fmt: skip
-        for key, title, page, codes in told:
-            rows = tuple((float(n), text) for n, text in sorted(codes.items()) if text)
-            if rows:
-                yield Table(id=key, title=title, page=page, head=("Code", "Meaning"), rows=rows)
-            else:
-                yield self.known.tables[key]
+    def _messages(self) -> Iterable[Messages]:
+        """Yield the control's own lists, with what is known of a code; the known list where it has none."""
+        told = {
+            "alarms": ("ALARM", "alarm", "EA", self.told.alarms),
+            "errors": ("error", "error", "EE", self.told.errors),
+        }
+        for known in self.known.message_lists:
+            word, reaction, page, texts = told[known.id]
+            by_code = {message.code: message for message in known.messages}
+            own = []
+            for n, text in sorted(texts.items()):
+                if text:
+                    new = {"id": f"{reaction}-{n}", "code": f"{word}:{n}", "reaction": reaction, "page": page}
+                    same = by_code.get(f"{word}:{n}")
+                    facts = same.model_dump() if same is not None else new
+                    own.append(
+                        ControlMessage.model_validate(facts | {"text": text, "title": "", "page": page})
+                    )
+            yield known.model_copy(update={"page": page, "messages": tuple(own)}) if own else known
 
     # -- settings --------------------------------------------------------------
 

@@ -8,11 +8,14 @@ forbids unknown keys, so a typing error in a fact cannot hide.
 """
 
 from .documents import (
+    ControlMessage,
     Errata,
     Erratum,
     Guide,
     Guides,
     GuideStep,
+    Messages,
+    Reaction,
     Statement,
     Table,
     Tables,
@@ -78,6 +81,7 @@ __all__ = [
     "BuilderRule",
     "Choice",
     "Condition",
+    "ControlMessage",
     "Default",
     "Effect",
     "Errata",
@@ -94,6 +98,7 @@ __all__ = [
     "Key",
     "Layout",
     "MachineType",
+    "Messages",
     "Model",
     "Need",
     "Numbers",
@@ -104,6 +109,7 @@ __all__ = [
     "Quantity",
     "Range",
     "RangeVariant",
+    "Reaction",
     "Rule",
     "Rules",
     "Scope",

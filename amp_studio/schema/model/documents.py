@@ -1,6 +1,6 @@
 """What else a manual prints: tables, guides, and where it contradicts itself."""
 
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import model_validator
 
@@ -43,6 +43,96 @@ class Tables(Model):
     """A file of ``tables/``."""
 
     tables: tuple[Table, ...]
+
+
+Reaction = Literal["e-stop", "stop", "alarm", "error", "refused", "warning", "notice"]
+"""What a control does beside showing a message; ``alarm`` and ``error`` where no more is printed."""
+
+
+class ControlMessage(Model):
+    """What a control shows on its screen: what it means, which parameters bring it about, what helps.
+
+    ``text`` and ``code`` are the control's own words. Where the manual mentions a message and does not print
+    it, there is a ``title`` of ours instead.
+    """
+
+    id: Key
+    code: str = ""
+    """The number before the text: ``MOT-022``, ``ALARM:1``, ``40 to 71``."""
+    span: tuple[int, int] | None = None
+    """First and last number of a ``code`` that counts axes: the number is the first plus the address of the axis."""
+    also: tuple[str, ...] = ()
+    """Other spellings that are printed."""
+    text: str = ""
+    title: str = ""
+    reaction: Reaction
+    means: str = ""
+    """What has happened, in our own words; empty where the title is all that is known."""
+    causes: tuple[str, ...] = ()
+    """How it comes about, in the order of the manual: where to look."""
+    cures: tuple[str, ...] = ()
+    params: tuple[ParameterId, ...] = ()
+    """Parameters to look at, the nearest first."""
+    rules: tuple[str, ...] = ()
+    """Ids of the rules that find in a file what brings it about."""
+    page: Page
+    pages: tuple[Page, ...] = ()
+    """Where else the manual prints it."""
+    note: str = ""
+
+    @model_validator(mode="after")
+    def _named(self) -> Self:
+        if bool(self.text) == bool(self.title):
+            raise ValueError("a message has either the text that is printed or a title")
+        if self.span is not None and (self.span[0] > self.span[1] or not self.code):
+            raise ValueError("a span goes upward, and has a code")
+        return self
+
+    @property
+    def name(self) -> str:
+        """Code and text, or what we call it."""
+        return " ".join(filter(None, (self.code, self.text or self.title)))
+
+    @property
+    def every_page(self) -> tuple[str, ...]:
+        """Each page that has it, the main one first."""
+        return (self.page, *self.pages)
+
+    def table(self) -> Table:
+        """Return it as a table to look up: when it comes, causes and cures in their order."""
+        rows = [("When", self.means)] if self.means else []
+        for part, texts in (("Cause", self.causes), ("Cure", self.cures)):
+            rows += [(f"{part} {n}" if len(texts) > 1 else part, text) for n, text in enumerate(texts, 1)]
+        head = ("Part", "What")
+        return Table(
+            id=self.id,
+            title=self.name,
+            page=self.page,
+            head=head,
+            rows=tuple(rows),
+            params=self.params,
+            note=self.note,
+        )
+
+
+class Messages(Model):
+    """A file of ``messages/``: the messages of one part of the control, which are a table too."""
+
+    id: Key
+    title: str
+    page: Page
+    note: str = ""
+    messages: tuple[ControlMessage, ...]
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return the list, and behind it each message that has a code, causes and cures."""
+        rows = tuple((m.code, m.text or m.title, m.means, ", ".join(m.every_page)) for m in self.messages)
+        head = ("Code", "Message", "What it means", "Page")
+        params = tuple(dict.fromkeys(name for m in self.messages for name in m.params))
+        listed = Table(
+            id=self.id, title=self.title, page=self.page, head=head, rows=rows, params=params, note=self.note
+        )
+        return listed, *(m.table() for m in self.messages if m.code and m.causes and m.cures)
 
 
 class GuideStep(Model):

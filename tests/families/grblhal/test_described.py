@@ -77,8 +77,12 @@ def test_help_alarms_and_errors_are_those_of_the_control() -> None:
     schema = schema_of(THREE_AXES + HELP)
     assert schema.parameters["homing.cycle"].help.what == "Homes the machine.\nNeeds switches."
     assert schema.parameters["homing.cycle"].help.related, "what is known of the number beside it"
-    assert schema.tables["alarms"].rows == ((9.0, "No switch."),)
-    assert schema.tables["errors"].rows == ((53.0, "Not here."),)
+    assert [(m.name, m.page) for m in schema.messages.values()] == [
+        ("ALARM:9 No switch.", "EA"),
+        ("error:53 Not here.", "EE"),
+    ]
+    assert "axis.max_travel" in schema.messages["alarm-9"].params  # what is known of the code stays
+    assert schema.tables["alarms"].rows[0][:2] == ("ALARM:9", "No switch.")
 
 
 def test_the_table_of_esh_gives_the_help_too_also_over_several_lines() -> None:
