@@ -28,7 +28,7 @@ _USUAL = {
     "a": "file, or address of a control",
     "b": "file, or address of a control",
     "base": "what both sides began with",
-    "ours": "our side, which wins conflicts",
+    "ours": "our side, which is kept in a conflict that is not settled",
     "theirs": "the other side",
     "scenario": "what is simulated",
     "axis": "axis by its letter or number (default: the first)",

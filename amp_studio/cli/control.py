@@ -24,9 +24,9 @@ from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.security import Security, can_others_read, exposure, read_password
 
 from .by_hand import note_by_hand, sheet_offered
+from .comparing import difference_json, print_comparison, print_difference
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
-from .files import difference_json, print_comparison, print_difference
 from .fleet import check_fleet, download_to_several, is_fleet, note_exchange, upload_several, verify_several
 from .out_of_range import settle_values
 from .output import check_new, write_new

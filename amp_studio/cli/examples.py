@@ -29,8 +29,15 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio validate {MILL} --why --json",
     ),
     "fix": (f"amp-studio fix {MILL} --dry-run", f"amp-studio fix {MILL} --safe"),
-    "diff": (f"amp-studio diff {MILL} other.amp",),
-    "merge": (f"amp-studio merge {MILL} other.amp {MILL} -o merged.amp",),
+    "diff": (
+        f"amp-studio diff {MILL} other.amp",
+        f"amp-studio diff {MILL} --axes X Y",
+        f"amp-studio diff {MILL} other.amp --base {MILL}",
+    ),
+    "merge": (
+        f"amp-studio merge {MILL} other.amp {MILL} -o merged.amp",
+        f"amp-studio merge {MILL} other.amp {MILL} --dry-run --take theirs --json",
+    ),
     "report": (
         f"amp-studio report {MILL} -o mill.pdf",
         f"amp-studio report {MILL} -o changed.csv --changed-only --sort axis",

@@ -1,28 +1,21 @@
-"""Verbs that make, change, read, compare and merge parameter files."""
+"""Verbs that make, change and read parameter files."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any
 
 from amp_studio.files import (
-    Comparison,
-    Difference,
     Document,
     ParameterFile,
     RangeError,
-    compare,
-    merge,
     new_file,
     open_file,
 )
-from amp_studio.files.by_schema import by_schema
 from amp_studio.files.lock import now
 from amp_studio.report.wording import counted, state_name
 from amp_studio.schema import (
-    MASKED,
     Address,
     Meant,
     UnknownParameterError,
@@ -40,7 +33,7 @@ from amp_studio.schema import (
 from amp_studio.schema import shown as unit_shown
 from amp_studio.schema.storage import stored_number
 
-from .console import assignments, family, note, print_json, progress
+from .console import assignments, family, note, print_json
 from .errors import UsageError
 from .output import check_new, note_all, write_new
 
@@ -210,98 +203,3 @@ def get_verb(options: argparse.Namespace) -> int:
     if options.json:
         print_json({"values": rows})
     return 0
-
-
-def diff_verb(options: argparse.Namespace) -> int:
-    """Compare two files, or a file and a control; 1 where they differ."""
-    (a, a_digest), (b, b_digest) = _side(options.a), _side(options.b)
-    if a.schema.family.family != b.schema.family.family:
-        raise UsageError(f"{options.a} is for {a.schema.family.name}, {options.b} for {b.schema.family.name}")
-    other = by_schema(b, a.schema)
-    found = compare(a.schema, a.values, other.values)
-    of_b = _of_other_schema(b, other)  # settings that only the control of B has
-    if options.json:
-        rows = [difference_json(a, d, options.secrets) for d in found.differences]
-        rows += [difference_json(b, d, options.secrets) for d in of_b]
-        digests = {"sha256": {"a": a_digest, "b": b_digest}} if a_digest or b_digest else {}
-        print_json({"differences": rows, "same": found.same} | digests)
-        return 1 if rows else 0
-    print_comparison(a, found, options.secrets, (b, of_b))
-    for digest in filter(None, (a_digest, b_digest)):
-        print(f"sha256 {digest}")
-    return 1 if found.differences or of_b else 0
-
-
-def _of_other_schema(b: ParameterFile, by_a: ParameterFile) -> list[Difference]:
-    """Return the values of a file that it does not have by another schema."""
-    return [Difference(a, None, b.values[a]) for a in b.values if a not in by_a.values]
-
-
-def difference_json(file: ParameterFile, difference: Difference, secrets: bool) -> dict[str, Any]:
-    """Return a difference as ``diff --json`` gives it; null is not set, a mask is a secret that is."""
-    address = difference.address
-    parameter = file.schema.parameters[address[0]]
-    masked = parameter.secret and not secrets
-    a, b = (
-        None if v is None else MASKED if masked else write_value(parameter, v)
-        for v in (difference.a, difference.b)
-    )
-    found = {"param": file.machine_schema.short(address), "id": address[0], "instance": address[1],
-             "a": a, "b": b}  # fmt: skip
-    return found | ({"secret": True} if parameter.secret else {})
-
-
-def print_comparison(
-    file: ParameterFile, found: Comparison, secrets: bool,
-    other: tuple[ParameterFile, Sequence[Difference]] | None = None,
-) -> None:  # fmt: skip
-    """Print each difference and how many there are; ``file`` is one of the two sides.
-
-    ``other`` is the second side with what only its schema has.
-    """
-    for difference in found.differences:
-        print_difference(file, difference, secrets)
-    second, of_second = other or (file, ())
-    for difference in of_second:
-        print_difference(second, difference, secrets)
-    more = len(of_second)
-    print(f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not set in A, "
-          f"{found.not_set_in_b} not set in B")  # fmt: skip
-
-
-def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:
-    """Print one difference."""
-    parameter = file.schema.parameters[difference.address[0]]
-    sides = (show_value(parameter, v, secrets=secrets) for v in difference.in_one_unit())
-    print(f"{file.machine_schema.named(difference.address):52} {'  |  '.join(sides)}")
-
-
-def _side(text: str) -> tuple[ParameterFile, str | None]:
-    """Return a side of a comparison, with the digest of its image where it is a control's."""
-    from amp_studio.transfer.links.endpoint import is_endpoint
-
-    if not is_endpoint(text):
-        return open_file(Path(text)).file, None
-    from amp_studio.transfer.client.parameters import fetch_image, sha256
-    from amp_studio.transfer.content import decode_content
-
-    image = fetch_image(text, progress())
-    return decode_content(image), sha256(image)
-
-
-def merge_verb(options: argparse.Namespace) -> int:
-    """Merge three files by parameter; 1 where there are conflicts."""
-    check_new(options.output, "a merge", options.base, options.ours, options.theirs)
-    base, ours, theirs = (open_file(p).file for p in (options.base, options.ours, options.theirs))
-    merged, conflicts = merge(base, ours, theirs)
-    write_new(merged, options.output)
-    for c in conflicts:
-        p = base.schema.parameters.get(c.address[0])
-        if p is None:  # an entry that the schema does not know
-            print(f"conflict at {'@'.join(filter(None, c.address))}: ours is kept")
-            continue
-        was, mine, wanted = (show_value(p, v, secrets=options.secrets) for v in (c.base, c.ours, c.theirs))
-        print(f"conflict at {base.schema.on(ours.machine).named(c.address)}: base {was}, "
-              f"ours {mine}, theirs {wanted}; ours is kept")  # fmt: skip
-    print(f"{options.output}: {counted(len(conflicts), 'conflict')}")
-    return 1 if conflicts else 0

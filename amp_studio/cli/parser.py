@@ -132,15 +132,40 @@ def _checks(verbs: Verbs) -> None:
 
 def _comparing(verbs: Verbs) -> None:
     """Add the verbs that compare files."""
-    sub = verbs.add("diff", "files", "differences by parameter; A or B may be a control's address")
+    sub = verbs.add("diff", "comparing", "differences by parameter; A or B may be a control's address")
     sub.add_argument("a", type=file_or_address)
-    sub.add_argument("b", type=file_or_address)
+    sub.add_argument("b", type=file_or_address, nargs="?")
+    for option, what in (
+        ("--defaults", "compare with the printed defaults"),
+        ("--backup", "compare with the backup beside the file"),
+        ("--last-download", "compare with what the last recorded download put into a control"),
+    ):
+        sub.add_argument(option, action="store_true", help=what)
+    sub.add_argument(
+        "--axes", nargs=2, metavar=("AXIS", "OTHER"), help="compare one axis of A with another one of it"
+    )
+    sub.add_argument(
+        "--base", type=file_or_address, help="what both come from: shows which side changed a value"
+    )
+    sub.add_argument(
+        "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
+    )
     json_option(sub)
     secrets_option(sub)
-    sub = verbs.add("merge", "files", "three-way merge by parameter", writes="output")
+    sub = verbs.add("merge", "merging", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
         sub.add_argument(name, type=path_of)
-    sub.add_argument("-o", "--output", type=path_of, required=True)
+    sub.add_argument("-o", "--output", type=path_of)
+    sub.add_argument(
+        "--take",
+        metavar="[PARAM=]SIDE",
+        action="append",
+        default=[],
+        help="settle conflicts: ours, theirs or base, for all or for one parameter",
+    )
+    sub.add_argument("--dry-run", action="store_true", help="write nothing, list the conflicts")
+    sub.add_argument("--git", action="store_true", help="be git's merge driver: OUTPUT may be OURS")
+    json_option(sub)
     secrets_option(sub)
 
 

@@ -30,7 +30,7 @@ AT_CONTROL = {"old": FAULT, "new": CHANGED, "mixed": CHANGED, "defaults": CHANGE
 
 _PARAMETER_FILE = ".amp"
 
-AT_A_CONTROL = ("control", "identify", "plain_files", "files")
+AT_A_CONTROL = ("control", "identify", "plain_files", "comparing")
 """Modules of verbs that may connect to a control."""
 
 

@@ -97,6 +97,25 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
     )
 
 
+def completed(content: ParameterFile, image: bytes, file: ParameterFile) -> ParameterFile:
+    """Return the content of a control to be compared with a file: what no control of its kind keeps is as the file has it.
+
+    ``image`` are the bytes that show of which kind the control is; empty where they are not known. Both files are of one
+    schema; header, marks and what the schema does not know are the file's own.
+    """
+    found = file.copy()
+    found.values.clear()
+    found.take(content.values)
+    if image:
+        try:
+            kind = kind_of(image)
+            sent = kind.decode(kind.encode(file, image)).values
+        except ImageError:  # the control cannot take the file: all that differs is shown
+            return found
+        found.take({a: v for a, v in file.values.items() if a not in sent and a not in content.values})
+    return found
+
+
 def _known(file: ParameterFile, other: ParameterFile) -> dict[Address, Value]:
     """Return the values of another file that the schema of this one has."""
     return {a: v for a, v in other.values.items() if a[0] in file.schema.parameters}

@@ -1,0 +1,165 @@
+"""The verb that merges three parameter files."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from amp_studio.files import (
+    Merge,
+    ParameterFile,
+    Row,
+    Typed,
+    check_output,
+    open_file,
+    text_of_name,
+    write_atomic,
+)
+from amp_studio.files.merging import Choice, Side
+from amp_studio.files.reading import file_content
+from amp_studio.files.storage import readable_content
+from amp_studio.report.finding_lines import finding_json, finding_text
+from amp_studio.report.wording import counted
+from amp_studio.schema import field_at, meant
+from amp_studio.schema.quoting import quoted
+from amp_studio.validate import Finding, Validator, rules_beside
+from amp_studio.validate.new_findings import new_findings
+
+from .comparing import named, row_json, shown
+from .console import note, print_json
+from .errors import UsageError
+from .output import check_new
+
+SIDES: dict[str, Side] = {"base": "base", "ours": "a", "theirs": "b"}
+"""What a person calls a side -> the side."""
+_NAMES = {side: name for name, side in SIDES.items()}
+
+
+def merge_verb(options: argparse.Namespace) -> int:
+    """Merge three files by parameter; 1 where there are conflicts that nobody has settled."""
+    _check_paths(options)
+    merge = Merge(*_sources(options))
+    _settle(merge, options.take)
+    result = merge.result()
+    new = _new_findings(merge, result, options.ours)
+    if not options.dry_run:
+        _write(result, options)
+    if options.json:
+        print_json(_document(merge, result, new, options))
+    else:
+        _print(merge, options)
+        for finding in new:
+            note(f"new in the result: {finding_text(result, finding)}")
+    return 1 if merge.open_conflicts else 0
+
+
+def _check_paths(options: argparse.Namespace) -> None:
+    if options.output is None and not options.dry_run:
+        raise UsageError("merge needs -o OUTPUT, or --dry-run to list only")
+    if options.output is None or options.dry_run:
+        return
+    if options.git:
+        check_output(options.output)
+    else:
+        check_new(options.output, "a merge", options.base, options.ours, options.theirs)
+
+
+def _sources(options: argparse.Namespace) -> tuple[ParameterFile, ParameterFile, ParameterFile | None]:
+    """Return ours, theirs and the base. git gives an empty file as the base of a file that both sides added."""
+    ours, theirs = open_file(options.ours).file, open_file(options.theirs).file
+    if options.git and options.base.is_file() and options.base.stat().st_size == 0:
+        return ours, theirs, ParameterFile(ours.schema)
+    return ours, theirs, open_file(options.base).file
+
+
+def _settle(merge: Merge, texts: list[str]) -> None:
+    """Take sides: ``theirs`` settles every conflict, ``1300=theirs`` one parameter; later ones count."""
+    for text in texts:
+        param, sign, name = text.rpartition("=")
+        side = SIDES.get(name.strip())
+        if side is None:
+            raise UsageError(f"{quoted(name.strip())} is no side: {', '.join(SIDES)}")
+        if not sign:
+            merge.take(side, merge.conflicts)
+            continue
+        found = meant(merge.a.evaluation, param.strip())
+        if found.bit is not None:
+            label = field_at(merge.a.schema.parameters[found.address[0]], found.bit).label
+            raise UsageError(
+                f"{param.strip()} is one field ({label}) of a value: a side is taken for all of it"
+            )
+        rows = [row for row in merge.rows if row.id.part == "value" and row.address == found.address]
+        if not any(row.kind != "same" for row in rows):
+            note(f"{param.strip()} is the same on all sides")
+        merge.take(side, rows)
+
+
+def _new_findings(merge: Merge, result: ParameterFile, beside: Path) -> list[Finding]:
+    """Return the errors and warnings of the result that neither ours nor theirs has by itself."""
+    own = rules_beside(beside, result.schema)
+    before = [f for file in (merge.a, merge.b) for f in Validator(file, own).run()]
+    return [f for f in new_findings(before, Validator(result, own).run()) if f.severity != "advice"]
+
+
+def _write(result: ParameterFile, options: argparse.Namespace) -> None:
+    """Write the result: ours with what changed in it, remarks and order as they are there.
+
+    For git it takes the place of what is there, under the name that ours has, and without a backup: git has it.
+    """
+    previous = file_content(options.ours)
+    result.header.signature = result.schema.signature
+    if not options.git:
+        result.header.name = text_of_name(options.output.stem)
+    content = readable_content(result, options.output, previous)
+    expected = "" if options.git else None
+    write_atomic(options.output, content, expected, keep_backup=False, notify=note)
+
+
+def _print(merge: Merge, options: argparse.Namespace) -> None:
+    """Print each conflict and what the result has, and how many are open."""
+    for row in merge.conflicts:
+        took = f"{_taken(merge.choice(row))} is {'taken' if row not in merge.open_conflicts else 'kept'}"
+        if row.id.part == "entry":  # it may be a secret of another schema
+            print(f"conflict at {row.id.key}: {took}")
+        elif row.id.part == "header":
+            print(f"conflict at {row.id.key} of the file: {took}")
+        else:
+            was, mine, wanted = (
+                shown(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b)
+            )
+            print(f"conflict at {named(merge.a, row)}: base {was}, ours {mine}, theirs {wanted}; {took}")
+    where = "nothing written" if options.dry_run else options.output
+    print(f"{where}: {counted(len(merge.open_conflicts), 'conflict')}")
+
+
+def _taken(choice: Choice | None) -> str:
+    """Return what a person calls a choice; where nothing was chosen ours is kept."""
+    return "ours" if choice is None or isinstance(choice, Typed) else _NAMES[choice]
+
+
+def _document(
+    merge: Merge, result: ParameterFile, new: list[Finding], options: argparse.Namespace
+) -> dict[str, Any]:
+    changed = [row for row in merge.differing if merge.choice(row) not in ("a", None)]
+    return {
+        "output": None if options.dry_run else str(options.output),
+        "conflicts": [_row(merge, row, options.secrets) for row in merge.conflicts],
+        "changes": [_row(merge, row, options.secrets) for row in changed],
+        "same": merge.same,
+        "findings": [finding_json(result, finding) for finding in new],
+    }
+
+
+def _row(merge: Merge, row: Row, secrets: bool) -> dict[str, Any]:
+    """Return a row with the names of the sides; what an entry that the schema does not know contains is not shown."""
+    settled = {"taken": _taken(merge.choice(row)) if merge.choice(row) else None}
+    if row.id.part == "entry":
+        return {"param": row.id.key} | settled
+    if row.id.part == "header":
+        sides = {name: None if (v := row.of(side)) is None else v.value for name, side in SIDES.items()}
+        return {"param": f"file.{row.id.key}"} | sides | settled
+    found = row_json(merge, row, secrets)
+    return {"param": found["param"], "id": found["id"], "instance": found["instance"], "base": found["base"],
+            "ours": found["a"], "theirs": found["b"]} | settled | (
+        {"secret": True} if found.get("secret") else {})  # fmt: skip
