@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, axis_instances, new_file, open_file
-from amp_studio.schema import Parameter, family_ids, label_of, write_value
+from amp_studio.files import ParameterFile, axis_letter, fitted_axes, new_file, open_file
+from amp_studio.schema import Parameter, family_ids, label_of
 from amp_studio.validate import calculators
 
 
@@ -35,14 +35,7 @@ def facts(kind: str, named: str, current: str) -> Iterable[str]:
 
 
 def _axes(file: ParameterFile) -> Iterator[str]:
-    profile = file.schema.family.axes
-    for axis in axis_instances(file):
-        value = file.get((profile.name, axis)) if profile else None
-        yield (
-            axis
-            if value is None or profile is None
-            else write_value(file.schema.parameters[profile.name], value)
-        )
+    return (axis_letter(file, axis) or axis for axis in fitted_axes(file))
 
 
 def _parameters(file: ParameterFile, current: str) -> Iterator[str]:

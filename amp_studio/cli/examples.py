@@ -24,6 +24,11 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio get {MILL} 1300 home.calibration@Y",
         f"amp-studio get {MILL} --all --json",
     ),
+    "axis": (
+        f"amp-studio axis {MILL}",
+        f"amp-studio axis {MILL} copy X Y",
+        f"amp-studio axis {MILL} add C 3",
+    ),
     "validate": (
         f"amp-studio validate {MILL}",
         f"amp-studio validate {MILL} --why --json",

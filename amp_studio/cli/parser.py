@@ -22,6 +22,8 @@ from .arguments import (
 SENDING = ("xmodem", "xmodem-1k", "ymodem", "raw")
 RECEIVING = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
 """Protocols of plain files, the usual one first; here, because help loads no room (a test compares them)."""
+AXIS_OPERATIONS = ("list", "compare", "copy", "swap", "name", "type", "add", "remove")
+"""What the verb about axes does; here for the same reason."""
 
 
 def parser(asked: str = "") -> argparse.ArgumentParser:
@@ -38,6 +40,7 @@ def parser(asked: str = "") -> argparse.ArgumentParser:
     for some in (
         _facts,
         _files,
+        _axes,
         _checks,
         _comparing,
         _documents,
@@ -98,6 +101,27 @@ def _files(verbs: Verbs) -> None:
     sub.add_argument("path", type=path_of)
     sub.add_argument("params", nargs="*", metavar="PARAM")
     sub.add_argument("--all", action="store_true", help="also what is hidden or not set")
+    json_option(sub)
+    secrets_option(sub)
+
+
+def _axes(verbs: Verbs) -> None:
+    """Add the verb about the axes of a file."""
+    sub = verbs.add("axis", "axes", "list, compare, name, copy, swap, add and remove axes", writes="path")
+    sub.add_argument("path", type=path_of)
+    sub.add_argument(
+        "operation",
+        nargs="?",
+        choices=AXIS_OPERATIONS,
+        default="list",
+        help="compare A B, copy FROM TO, swap A B, name A LETTER, type A TYPE, add LETTER [PLACE], remove A",
+    )
+    sub.add_argument(
+        "arguments",
+        nargs="*",
+        metavar="ARGUMENT",
+        help="an axis by itself or by its letter, a letter, a type",
+    )
     json_option(sub)
     secrets_option(sub)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from amp_studio.schema import Value, load_schema
 from amp_studio.schema.nearest import unknown_name
 
-from .axes import name_axes
+from .axis_fitting import name_axes
 from .parameter_file import Header, ParameterFile, fill_defaults
 
 
@@ -45,5 +45,6 @@ def new_file(
     axes = list(axes)
     if axes:
         name_axes(file, axes)
-    fill_defaults(file, existing_only=schema.family.axis_list is not None)
+    declared = schema.family.declared_axes
+    fill_defaults(file, existing_only=declared is not None and declared.letters is not None)
     return file

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import Address, label_of
+from amp_studio.files import ParameterFile, axis_instances, axis_letter, shown_axes
+from amp_studio.schema import Address
 
 
 def printed_axes(file: ParameterFile) -> tuple[str, ...]:
-    """Return the axes a report prints: the fitted ones, or all if the family has no unfitted axes."""
-    family = file.schema.family
-    if family.fits_axes:
-        return fitted_axes(file)
-    scope = family.scopes.get("axis")
-    return scope.instances if scope else ()
+    """Return the axes a report prints: the fitted ones with inputs that something else uses, or all if the file does not say."""
+    return shown_axes(file) if file.schema.family.fits_axes else axis_instances(file)
 
 
 def scope_of(file: ParameterFile, address: Address) -> str:
@@ -21,13 +17,16 @@ def scope_of(file: ParameterFile, address: Address) -> str:
     return layout.scope if layout else "global"
 
 
-def axis_name(file: ParameterFile, axis: str) -> str:
-    """Return the letter or name of an axis; empty if it has none."""
-    profile = file.schema.family.axes
-    value = file.get((profile.name, axis)) if profile else None
-    return label_of(file.schema.parameters[profile.name], str(value.value)) if profile and value else ""
-
-
 def axis_label(file: ParameterFile, axis: str) -> str:
     """Return ``Axis 1 X``."""
-    return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {axis_name(file, axis)}".rstrip()
+    return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {_other_letter(file, axis)}".rstrip()
+
+
+def axis_column(file: ParameterFile, axis: str) -> str:
+    """Return ``1 X``, or ``X`` where axes are known by their letters."""
+    return f"{axis} {_other_letter(file, axis)}".rstrip()
+
+
+def _other_letter(file: ParameterFile, axis: str) -> str:
+    letter = axis_letter(file, axis)
+    return letter if letter != axis else ""

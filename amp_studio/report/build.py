@@ -13,14 +13,17 @@ from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
     axis_instances,
+    axis_kind,
+    axis_letter,
     content_of,
+    fitted_axes,
     open_file,
     without_secrets,
 )
 from amp_studio.schema import Address, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
-from .axes import axis_name, printed_axes, scope_of
+from .axes import printed_axes, scope_of
 from .findings import joined_places, notes_of, suppressed_notes
 from .model import SORTS, Report, ReportRow, Sort
 from .rows import Rows, row_of, rows_of
@@ -93,7 +96,7 @@ def _facts(
         ("Unit system", header.units),
     ]
     if family.fits_axes:
-        facts.append(("Axes", f"{len(printed_axes(file))} of {len(axis_instances(file))} fitted"))
+        facts.append(("Axes", f"{len(fitted_axes(file))} of {len(axis_instances(file))} fitted"))
     facts += [
         ("File", str(source) if source else ""),
         _checksum(file, source, secrets),
@@ -147,7 +150,7 @@ def _counts(file: ParameterFile, found: Rows, findings: Sequence[Finding]) -> li
         ("Not available", str(sum(r.state == "unusable" for r in rows))),
         ("Hidden, left out", str(found.hidden)),
     ]
-    if file.schema.family.axes is not None:
+    if file.schema.family.fits_axes:
         counts.append(("Of unfitted axes, left out", str(found.unfitted)))
     if file.unknown:
         counts.append(("Unknown entries, kept in the file", str(len(file.unknown))))
@@ -183,15 +186,16 @@ def _not_set(rows: Sequence[ReportRow]) -> Iterator[tuple[str, str, str]]:
 def _axes(
     file: ParameterFile, rows: Sequence[ReportRow], findings: Sequence[Finding]
 ) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
-    """Return heads and lines of the axis summary; both are empty for a family without an axis profile."""
-    profile = file.schema.family.axes
-    if profile is None:
+    """Return heads and lines of the axis summary; both are empty for a family without axes."""
+    if not file.schema.family.fits_axes:
         return (), ()
-    asked = [p for p in (profile.type, profile.hardware, profile.loop) if p]
+    profile = file.schema.family.axes
+    asked = [p for p in (profile.type, profile.hardware, profile.loop) if p] if profile else []
     heads = (
         "Axis",
         "Name",
         *(file.schema.parameters[p].name for p in asked),
+        *([] if profile else ["Type"]),
         "Values",
         "Changed",
         "Findings",
@@ -209,8 +213,8 @@ def _axis(
     own = [r for r in rows if r.instance == axis and scope_of(file, (r.id, axis)) == "axis"]
     touching = [f for f in findings if any(a[1] == axis and scope_of(file, a) == "axis" for a in f.addresses)]
     severities = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
-    settings = [_setting(file, (p, axis)) for p in asked]
-    return (axis, axis_name(file, axis) or "–", *settings, str(len(own)), str(sum(r.is_changed for r in own)),
+    settings = [_setting(file, (p, axis)) for p in asked] or [axis_kind(file, axis) or "–"]
+    return (axis, axis_letter(file, axis) or "–", *settings, str(len(own)), str(sum(r.is_changed for r in own)),
             ", ".join(severities) or "–")  # fmt: skip
 
 

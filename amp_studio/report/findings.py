@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import Finding, Setting, Suppressed
 
-from .axes import axis_label, axis_name, scope_of
+from .axes import axis_label, scope_of
 from .finding_lines import finding_text
 from .note import Note
 from .wording import severity_name
@@ -37,7 +37,7 @@ def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
     if len(same) == 1:
         return finding_text(file, same[0])
     note = _note(file, same, set())
-    axes = [axis_name(file, axis) or axis for axis in _axes(file, same)]
+    axes = [axis_letter(file, axis) or axis for axis in _axes(file, same)]
     place = f"{'axes' if len(axes) > 1 else 'axis'} {', '.join(axes)}: " if axes else ""
     every = (a for f in same for a in (f.addresses if len(f.addresses) <= _NAMED else f.causes[:_NAMED]))
     names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))

@@ -9,7 +9,7 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile
 
-from .axes import axis_label, axis_name, printed_axes, scope_of
+from .axes import axis_column, axis_label, printed_axes, scope_of
 from .model import Grid, GridLine, Listing, ReportRow, Section, Sort
 
 _WIDEST_GRID = 8
@@ -95,7 +95,7 @@ def _group_parts(file: ParameterFile, title: str, rows: list[ReportRow]) -> list
     for start in range(0, len(axes), _WIDEST_GRID):
         shown = axes[start : start + _WIDEST_GRID]
         lines = tuple(_lines(file, rows, shown, with_others=start == 0))
-        columns = tuple(f"{axis} {axis_name(file, axis)}".rstrip() for axis in shown)
+        columns = tuple(axis_column(file, axis) for axis in shown)
         if lines:
             grids.append(Grid(title, columns, lines))
     return grids

@@ -5,7 +5,17 @@ it; every other room asks here and knows no parameter by heart.
 """
 
 from .address import Address, UnknownParameterError, part_of, read_address, written
-from .addressing import Meant, addresses_meant, all_meant, axis_meant, axis_name, meant, unknown
+from .addressing import (
+    Meant,
+    addresses_meant,
+    all_meant,
+    axis_group,
+    axis_meant,
+    axis_name,
+    is_fitted,
+    meant,
+    unknown,
+)
 from .bit_fields import field_at, field_value, with_field
 from .catalog import Schema, load_schema
 from .conditions import ACTIVE, Reference, StateInfo
@@ -77,6 +87,7 @@ __all__ = [
     "addresses_meant",
     "all_meant",
     "angular",
+    "axis_group",
     "axis_meant",
     "axis_name",
     "bounding",
@@ -91,6 +102,7 @@ __all__ = [
     "fault",
     "field_at",
     "field_value",
+    "is_fitted",
     "is_mask",
     "label_of",
     "labelled",

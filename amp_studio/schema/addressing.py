@@ -20,7 +20,7 @@ from functools import partial
 from typing import NamedTuple, Protocol
 
 from .address import Address, UnknownParameterError, whole_of, written
-from .bit_fields import field_value
+from .bit_fields import field_at, field_value
 from .catalog import Schema
 from .conditions import StateInfo
 from .machine_schema import MachineSchema
@@ -43,6 +43,7 @@ class FileState(Protocol):
     def canonical(self, address: Address) -> float | str | bool | None: ...
     def scope(self, address: Address) -> Scope | None: ...
     def state(self, address: Address) -> StateInfo: ...
+    def is_true(self, name: str, instance: str, scope: str | None = None) -> bool: ...
     def least_hidden(self, claims: list[Address]) -> list[Address]: ...
 
 
@@ -161,7 +162,7 @@ def _letters(evaluation: FileState, parameter: Parameter) -> str:
     """Return the letters of the axes that can name the instances of a parameter."""
     if not evaluation.machine_schema.kin(evaluation.scope((parameter.id, "")), "axis"):
         return ""
-    letters = dict.fromkeys(name for axis, name in _axis_names(evaluation) if _is_fitted(evaluation, axis))
+    letters = dict.fromkeys(name for axis, name in _axis_names(evaluation) if is_fitted(evaluation, axis))
     return f", or an axis by its letter: {', '.join(letters)}" if letters else ""
 
 
@@ -185,30 +186,47 @@ def axis_name(evaluation: FileState, axis: str) -> str:
 def _axes_named(evaluation: FileState, letter: str) -> list[str]:
     """Return the axes that the file gives a letter, fitted ones where there are any."""
     found = [axis for axis, name in _axis_names(evaluation) if name.casefold() == letter.casefold()]
-    return [axis for axis in found if _is_fitted(evaluation, axis)] or found
+    return [axis for axis in found if is_fitted(evaluation, axis)] or found
 
 
 def _axis_names(evaluation: FileState) -> Iterator[tuple[str, str]]:
     """Yield each axis with the name that the file gives it."""
     schema, family = evaluation.schema, evaluation.schema.family
-    named_by = family.axes.name if family.axes else family.axis_names.param if family.axis_names else None
+    declared = family.declared_axes.name if family.declared_axes else None
+    named_by = family.axes.name if family.axes else declared.param if declared else None
     if named_by is None:
         return
-    parameter = schema.parameters[named_by]
-    for axis in evaluation.machine_schema.instances(parameter):
-        name = evaluation.canonical((named_by, axis))
-        if isinstance(name, str):
-            yield axis, label_of(parameter, name)
-        elif isinstance(name, float) and family.axis_names:
-            field = next(b for b in parameter.bits or () if b.bit == family.axis_names.bit)
-            code = field_value(field, int(name))
-            yield from ((axis, c.label) for c in field.choices or () if c.raw == code)
+    for axis in evaluation.machine_schema.instances(schema.parameters[named_by]):
+        if name := _label(evaluation, named_by, declared.bit if declared else None, axis):
+            yield axis, name
 
 
-def _is_fitted(evaluation: FileState, axis: str) -> bool:
-    profile = evaluation.schema.family.axes
+def _label(evaluation: FileState, parameter_id: str, bit: int | None, axis: str) -> str:
+    """Return the label of an axis' choice, or of the choice in a field of its word; "" where there is none."""
+    parameter, value = evaluation.schema.parameters[parameter_id], evaluation.canonical((parameter_id, axis))
+    if bit is None:
+        return label_of(parameter, value) if isinstance(value, str) else ""
+    if not isinstance(value, float):
+        return ""
+    field = field_at(parameter, bit)
+    code = field_value(field, int(value))
+    return next((c.label for c in field.choices or () if c.raw == code and c.key != "none"), "")
+
+
+def axis_group(evaluation: FileState, axis: str) -> str:
+    """Return the group that a file puts an axis into (``Group 2``); "" in a family without groups of axes."""
+    declared = evaluation.schema.family.declared_axes
+    if declared is None or declared.group is None:
+        return ""
+    return _label(evaluation, declared.group.param, declared.group.bit, axis)
+
+
+def is_fitted(evaluation: FileState, axis: str) -> bool:
+    """Return whether an axis is there as a file declares it; where it is not known, it is."""
+    profile, declared = evaluation.schema.family.axes, evaluation.schema.family.declared_axes
     if profile is None:
-        return True
+        condition = declared.absent_when if declared else None
+        return condition is None or not evaluation.is_true(condition, axis, "axis")
     if profile.fitted_by is not None:
         return evaluation.canonical((profile.fitted_by, axis)) != 0.0
     return evaluation.canonical((profile.type, axis)) not in (None, profile.unfitted)

@@ -82,12 +82,7 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
                 )
     if family.angular_when is not None and family.angular_when not in family.conditions:
         yield Inconsistency(None, ("angular_when",), f"there is no condition {quoted(family.angular_when)}")
-    if family.axis_names is not None and family.axis_names.param not in ids:
-        what = f"there is no parameter {quoted(family.axis_names.param)}"
-        yield Inconsistency(None, ("axis_names", "param"), what)
-    if family.axis_list is not None and family.axis_list.param not in ids:
-        what = f"there is no parameter {quoted(family.axis_list.param)}"
-        yield Inconsistency(None, ("axis_list", "param"), what)
+    yield from _axis_faults(family, ids)
     for unit, scale in family.scales.items():
         for kind in ("length", "angle"):
             size = getattr(scale, kind)
@@ -102,6 +97,31 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
 
 def _first_line(error: Exception) -> str:
     return str(error).splitlines()[0]
+
+
+def _axis_faults(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
+    """Yield every parameter and condition by which a family declares its axes that does not exist."""
+    declared = family.declared_axes
+    if declared is None:
+        return
+    params: dict[KeyPath, str | None] = {
+        ("name", "param"): declared.name.param if declared.name else None,
+        ("group", "param"): declared.group.param if declared.group else None,
+        ("group_count",): declared.group_count,
+        ("count",): declared.count,
+        ("letters",): declared.letters,
+        **{("flags", n): flag for n, flag in enumerate(declared.flags)},
+    }
+    for place, named in params.items():
+        if named is not None and named not in ids:
+            yield Inconsistency(None, ("declared_axes", *place), f"there is no parameter {quoted(named)}")
+    conditions: dict[KeyPath, str | None] = {
+        ("absent_when",): declared.absent_when,
+        **{("other_uses", condition): condition for condition in declared.other_uses},
+    }
+    for place, named in conditions.items():
+        if named is not None and named not in family.conditions:
+            yield Inconsistency(None, ("declared_axes", *place), f"there is no condition {quoted(named)}")
 
 
 def _in_group_states(family: Family, group: Group) -> Iterator[Inconsistency]:

@@ -34,7 +34,6 @@ from amp_studio.sim import (
     law_of,
     listing,
     simulate,
-    titled,
     write_trace,
 )
 from amp_studio.sim.listing import SimulationListing
@@ -174,11 +173,7 @@ class MotionView(QWidget):
         """Fill the scenarios and axes of the file; keep the axis ``wanted`` where it is there."""
         file = self._workspace.file
         found, self._impossible = _possible(file)
-        kinds = file.schema.family.axes is not None
-        titles = [
-            (axis, axis_title(file, axis) if kinds else titled(axis, letter))
-            for axis, letter in zip(found.axes, found.letters, strict=True)
-        ]
+        titles = [(axis, axis_title(file, axis)) for axis in found.axes]
         refill(
             self.scenario,
             [(each.name, each.name.capitalize()) for each in found.scenarios],

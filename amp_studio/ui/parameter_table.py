@@ -12,7 +12,7 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 from PySide6.QtGui import QBrush, QFont
 
-from amp_studio.files import axis_title, fitted_axes
+from amp_studio.files import axis_title, shown_axes
 from amp_studio.files.local_time import with_local_times
 from amp_studio.report.wording import state_name
 from amp_studio.schema import (
@@ -21,7 +21,6 @@ from amp_studio.schema import (
     UnitError,
     Value,
     convert,
-    labelled,
     show_value,
     write_value,
 )
@@ -117,8 +116,8 @@ class ParameterTable(QAbstractTableModel):
         file = self.workspace.file
         needed = dict.fromkeys(column for p in self.asked for row in self._layout(p) for column in row.cells)
         if not self.all_axes and file.schema.family.fits_axes:
-            fitted = set(fitted_axes(file))
-            needed = {c: None for c in needed if c == CONTROL or c in fitted}
+            shown = set(shown_axes(file))
+            needed = {c: None for c in needed if c == CONTROL or c in shown}
         return sorted(needed, key=lambda column: column != CONTROL)
 
     def _rows(self, columns: list[str]) -> list[TableRow]:
@@ -227,12 +226,7 @@ class ParameterTable(QAbstractTableModel):
 
     def column_title(self, column: str) -> str:
         """Return the head of a column: ``1 X linear``, ``Control``."""
-        file = self.workspace.file
-        if column == CONTROL:
-            return "Control"
-        if file.schema.family.axes is not None:
-            return axis_title(file, column)
-        return labelled(file.schema.family.scopes["axis"].label, column)
+        return "Control" if column == CONTROL else axis_title(self.workspace.file, column)
 
     def _row_head(self, row: int, role: int) -> Any:
         if role == Qt.ItemDataRole.DisplayRole:

@@ -21,7 +21,8 @@ from .documents import (
     Tables,
 )
 from .family import (
-    AxisList,
+    AxisDeclaration,
+    AxisField,
     AxisProfile,
     Condition,
     Family,
@@ -73,7 +74,8 @@ from .rule import (
 
 __all__ = [
     "Assignment",
-    "AxisList",
+    "AxisDeclaration",
+    "AxisField",
     "AxisProfile",
     "Bit",
     "Bound",

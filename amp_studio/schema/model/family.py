@@ -64,19 +64,46 @@ class AxisProfile(Model):
         return self
 
 
-class AxisNames(Model):
-    """Where the letters of the axes are stored in a family without an axis profile: a field of a packed word."""
+class AxisField(Model):
+    """A parameter of each axis, or a field of its packed word."""
 
     param: ParameterId
-    bit: int
+    bit: int | None = None
+    """The first bit of the field; None for the parameter itself."""
 
 
-class AxisList(Model):
-    """Where a control whose axes are compiled in has their letters: a text parameter, the first instances in order."""
+class AxisDeclaration(Model):
+    """How a file declares which axes there are, in a family whose axes have no types.
 
-    param: ParameterId
+    Without ``flags``, ``count`` and ``letters`` the family always has all of them.
+    """
+
+    page: Page
+    name: AxisField | None = None
+    """Where the letter of an axis is stored; None where the instances are the letters."""
+    group: AxisField | None = None
+    """Where the group (channel) of an axis is stored."""
+    group_count: ParameterId | None = None
+    """How many groups there are."""
+    absent_when: str | None = None
+    """Condition under which an axis is not there."""
+    other_uses: dict[str, str] = {}
+    """Condition under which something else uses the input of an axis -> what that is (``spindle``)."""
+    flags: tuple[ParameterId, ...] = ()
+    """Words with a bit for each axis that is there."""
+    count: ParameterId | None = None
+    """The number of axes: the first ones are there."""
+    letters: ParameterId | None = None
+    """A text with the letters of the axes that are compiled into a control: the first ones, in order."""
     least: int = 1
     """The fewest axes there can be."""
+    place: str = ""
+    """What an instance is at the machine, for families where none can be inserted (``address of the encoder card``)."""
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether a file cannot choose its axes."""
+        return not (self.flags or self.count or self.letters)
 
 
 class OwnUnit(Model):
@@ -162,8 +189,7 @@ class Family(Model):
     angular_when: str | None = None
     """Condition under which length-like quantities of an axis are entered in degrees."""
     axes: AxisProfile | None = None
-    axis_names: AxisNames | None = None
-    axis_list: AxisList | None = None
+    declared_axes: AxisDeclaration | None = None
     effect: Effect
     groups: tuple[str, ...]
     choice_lists: dict[Key, tuple[Choice, ...]] = {}
@@ -174,5 +200,5 @@ class Family(Model):
 
     @property
     def fits_axes(self) -> bool:
-        """Whether a file shows which of the axes are fitted: by an axis profile, or a list of their letters."""
-        return self.axes is not None or self.axis_list is not None
+        """Whether a file declares which of the axes are there."""
+        return self.axes is not None or (self.declared_axes is not None and not self.declared_axes.is_fixed)

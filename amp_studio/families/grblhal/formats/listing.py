@@ -79,9 +79,9 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
     except SettingError as error:
         raise FormatError(str(error), lines[error.number], 1) from None
     count = next((n for n in range(9) if _STEPS + n not in settings), 9)
-    listed, letters = schema.family.axis_list, schema.family.scopes["axis"].instances
-    if listed and count >= listed.least:
-        found.values[listed.param, ""] = Value("".join(letters[:count]))
+    declared, letters = schema.family.declared_axes, schema.family.scopes["axis"].instances
+    if declared and declared.letters and count >= declared.least:
+        found.values[declared.letters, ""] = Value("".join(letters[:count]))
     return found
 
 

@@ -1,0 +1,48 @@
+"""What a family can do with its axes, and the reason where it cannot: for menus and dialogs, before anything is tried."""
+
+from __future__ import annotations
+
+from amp_studio.schema import Schema
+
+
+def why_axes_are_fixed(schema: Schema) -> str:
+    """Return why a file of a family cannot choose its axes; "" where it can."""
+    family = schema.family
+    if family.fits_axes:
+        return ""
+    axes = family.scopes["axis"].instances if "axis" in family.scopes else ()
+    if not axes:
+        return f"{family.name} has no axes to configure"
+    page = f" (page {family.declared_axes.page})" if family.declared_axes else ""
+    return f"{family.name} always has the axes {' and '.join((', '.join(axes[:-1]), axes[-1]))}{page}"
+
+
+def why_letters_are_fixed(schema: Schema) -> str:
+    """Return why an axis of a family cannot have another letter; "" where it can."""
+    declared = schema.family.declared_axes
+    if schema.family.axes or (declared and declared.name):
+        return ""
+    return f"{schema.family.name} has fixed names for its axes"
+
+
+def why_types_are_fixed(schema: Schema) -> str:
+    """Return why an axis of a family cannot have another type; "" where it can."""
+    if schema.family.axes:
+        return ""
+    return f"{schema.family.name} has no parameter for the type of an axis"
+
+
+def parameters_of_axes(schema: Schema) -> tuple[str, ...]:
+    """Return the parameters that a choice of axes is written to."""
+    profile, declared = schema.family.axes, schema.family.declared_axes
+    if profile:
+        return tuple(filter(None, (profile.name, profile.type, profile.fitted_by)))
+    if declared is None:
+        return ()
+    named = (
+        declared.name.param if declared.name else None,
+        declared.group_count,
+        declared.count,
+        declared.letters,
+    )
+    return tuple(filter(None, (*named, *declared.flags)))
