@@ -20,6 +20,7 @@ from amp_studio.files.project import PROJECT_FORMAT, ProjectInfo
 from amp_studio.schema import database_folder, family_ids, load_schema
 from amp_studio.schema.model import (
     BuilderRule,
+    Commissioning,
     Errata,
     Family,
     Group,
@@ -54,6 +55,7 @@ FILES: dict[str, type[BaseModel]] = {
     "tables": Tables,
     "guides": Guides,
     "messages": Messages,
+    "commissioning": Commissioning,
     "units": Units,
     "builder-rules": BuilderRules,
 }

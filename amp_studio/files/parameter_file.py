@@ -56,6 +56,8 @@ class Header:
     """Unit system of display and entry; values keep the unit they were entered in."""
     notes: str = ""
     signature: str = ""
+    done: Mapping[str, str] = field(default_factory=dict)
+    """Steps of commissioning that a person has ticked, and when; replaced and never changed in place."""
     extra: dict[str, object] = field(default_factory=dict)
     """Keys this program does not know, kept as they are."""
 

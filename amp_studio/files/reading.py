@@ -46,7 +46,7 @@ FORMAT = 1
 """Version of the file format; a file of a newer one is refused."""
 
 HEADER_KEYS = ("name", "application", "revision", "machine", "units", "notes", "signature")
-SECTIONS = ("values", "forced")
+SECTIONS = ("done", "values", "forced")
 DESCRIPTION = "description"
 """The description that the control gave of itself, in lines, where its schema is made of that: so the file opens without it."""
 KNOWN_KEYS = {"amp_studio", "family", DESCRIPTION, *SECTIONS, *HEADER_KEYS}
@@ -104,6 +104,11 @@ class _FileReader:
             if not isinstance(why, str):
                 raise self._fault(f"{short(key)} has no reason", "forced", key)
             self.file.forced[read_address(key)] = why
+        done = self._section("done", "steps with who has done them")
+        for key, who in done.items():
+            if not isinstance(who, str):
+                raise self._fault(f"{short(key)} does not say who has done it", "done", key)
+        self.file.header.done = done
         return self.file
 
     def _fault(self, what: str, *place: str) -> ParameterFileError:

@@ -35,7 +35,7 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     header: dict[str, Any] = {"amp_studio": str(FORMAT), "family": file.schema.family.family}
     header |= {key: getattr(file.header, key) for key in HEADER_KEYS if getattr(file.header, key)}
     header |= file.header.extra
-    wanted: dict[str, Any] = header | {"values": _entries(file)}
+    wanted: dict[str, Any] = header | {"done": dict(file.header.done), "values": _entries(file)}
     wanted |= {"forced": {written(a): why for a, why in file.forced.items()}}
     if file.schema.description:
         description = file.schema.description

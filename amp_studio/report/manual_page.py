@@ -7,6 +7,7 @@ import re
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
+from amp_studio.guide import step_of, steps_of
 from amp_studio.schema import (
     Address,
     Evaluation,
@@ -82,6 +83,7 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
     for title, text in help_parts(schema, parameter):
         lines += [title, *_wrapped(text), ""]
     lines += _section("Formulas", formula_lines(schema, parameter))
+    lines += _section("Commissioning", _commissioning(schema, parameter))
     lines += _section("Guides", _steps(schema, parameter))
     for table in tables_of(schema, parameter):
         lines += [
@@ -95,6 +97,14 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
         (f"{severity_name(r.severity):14} {r.title} (page {r.page}; {r.id})" for r in rules),
     )
     return "\n".join(lines).rstrip()
+
+
+def _commissioning(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield the steps of commissioning at which a parameter is set, or checked again."""
+    own, steps = step_of(schema)[parameter.id], steps_of(schema)
+    for step in steps if schema.commissioning is not None else ():
+        if step is own or parameter in step.again:
+            yield f"Step {step.number} of {len(steps)}: {step.title} (page {step.page})"
 
 
 def _steps(schema: Schema, parameter: Parameter) -> Iterator[str]:

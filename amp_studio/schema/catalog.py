@@ -10,7 +10,19 @@ from functools import cache, cached_property
 from .address import Address, UnknownParameterError, whole_of
 from .load import Compiled, load_compiled
 from .machine_schema import MachineSchema
-from .model import Choice, ControlMessage, Erratum, Family, Group, Guide, Messages, Parameter, Rule, Table
+from .model import (
+    Choice,
+    Commissioning,
+    ControlMessage,
+    Erratum,
+    Family,
+    Group,
+    Guide,
+    Messages,
+    Parameter,
+    Rule,
+    Table,
+)
 from .units import angular
 
 
@@ -27,6 +39,8 @@ class Schema:
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
     message_lists: tuple[Messages, ...] = ()
+    commissioning: Commissioning | None = None
+    """The order in which its machines are commissioned, where there is one."""
     description: bytes = b""
     """The description that a control gave of itself, from which this schema was made; empty for the facts of the database."""
 
@@ -140,6 +154,7 @@ def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
         tables={t.id: t for t in (*compiled.tables, *(t for m in compiled.messages for t in m.tables()))},
         message_lists=compiled.messages,
         guides=compiled.guides,
+        commissioning=compiled.commissioning,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},
         description=description,

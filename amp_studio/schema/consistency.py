@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
-from .model import BoundRef, Family, Group, Messages, Parameter, Rule, StateRule
+from .model import BoundRef, Commissioning, Family, Group, Messages, Parameter, Rule, StateRule
 from .quoting import quoted
 from .yaml_reader import KeyPath
 
@@ -26,6 +26,7 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
     ids = {p.id for group in groups for p in group.parameters}
     secrets = {p.id for group in groups for p in group.parameters if p.secret}
     yield from _in_family(family, ids)
+    yield from _in_areas(family)
     seen: set[str] = set()
     for group in groups:
         yield from _in_group_states(family, group)
@@ -197,3 +198,35 @@ def _all_scopes(parameter: Parameter) -> Iterator[tuple[KeyPath, str]]:
         yield ("scope",), parameter.scope
     for n, layout in enumerate(parameter.layouts or ()):
         yield ("layouts", n, "scope"), layout.scope
+
+
+def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield what is wrong with the steps of a family: what does not exist, and what is in two of them."""
+    known = {
+        "params": {p.id for group in groups for p in group.parameters},
+        "groups": {group.key for group in groups},
+    }
+    known["again"], known["id"] = known["params"], set()
+    seen: dict[str, set[str]] = {"params": set(), "groups": set(), "id": set()}
+    for n, step in enumerate(order.steps):
+        if step.id in seen["id"]:
+            yield ("steps", n, "id"), f"there are two steps {quoted(step.id)}"
+        seen["id"].add(step.id)
+        for key in ("params", "groups", "again"):
+            for at, name in enumerate(getattr(step, key)):
+                here: KeyPath = ("steps", n, key, at)
+                if name not in known[key]:
+                    yield here, f"there is no {'group' if key == 'groups' else 'parameter'} {quoted(name)}"
+                elif name in seen.get(key, ()):
+                    yield here, f"{quoted(name)} is in an earlier step"
+                seen.get(key, set()).add(name)
+
+
+def _in_areas(family: Family) -> Iterator[Inconsistency]:
+    """Yield where the areas of a family are not all of its groups in their order."""
+    listed = [key for area in family.areas for key in area.groups]
+    if family.areas and listed != list(family.groups):
+        odd = next((k for k in listed if k not in family.groups), None) or next(
+            (k for k in family.groups if k not in listed), "the groups in their order"
+        )
+        yield Inconsistency(None, ("areas",), f"the areas do not have each group once: {quoted(odd)}")

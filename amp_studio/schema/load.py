@@ -17,10 +17,24 @@ import platformdirs
 from pydantic import ValidationError
 
 from .compiled_cache import read_cached, report_unusable, write_cached
-from .consistency import faults_between, faults_of_messages
+from .consistency import faults_between, faults_of_messages, faults_of_order
 from .file_error import FileError, read_yaml_file
 from .folder import database_folder
-from .model import Errata, Erratum, Family, Group, Guide, Guides, Messages, Model, Rule, Rules, Table, Tables
+from .model import (
+    Commissioning,
+    Errata,
+    Erratum,
+    Family,
+    Group,
+    Guide,
+    Guides,
+    Messages,
+    Model,
+    Rule,
+    Rules,
+    Table,
+    Tables,
+)
 from .model_errors import Slip, slips
 from .nearest import unknown_name
 from .quoting import LONGEST, quoted, short
@@ -59,6 +73,7 @@ class Compiled(Model):
     tables: tuple[Table, ...]
     guides: tuple[Guide, ...] = ()
     messages: tuple[Messages, ...] = ()
+    commissioning: Commissioning | None = None
 
 
 def family_ids() -> tuple[str, ...]:
@@ -105,6 +120,10 @@ def compile_family(folder: Path) -> Compiled:
     errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
     tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
     guides = tuple(g for path in sorted(folder.glob("guides/*.yaml")) for g in _read(path, Guides).guides)
+    order = folder / "commissioning.yaml"
+    commissioning = _read(order, Commissioning) if order.is_file() else None
+    if commissioning and (wrong := next(iter(faults_of_order(commissioning, groups)), None)):
+        raise DatabaseError(order, _parsed(order).line(wrong[0]), wrong[1])
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
@@ -123,6 +142,7 @@ def compile_family(folder: Path) -> Compiled:
         tables=tables,
         guides=guides,
         messages=tuple(messages.values()),
+        commissioning=commissioning,
     )
 
 

@@ -97,6 +97,22 @@ class Validator:
         )
         return (*self.own.faults, *stay, *meets_nothing)
 
+    def needed(self) -> Iterator[Address]:
+        """Yield every active value without which the file is not complete, set or not."""
+        evaluation = self.file.evaluation
+        for alike in self._plan.needed:
+            if evaluation.state(alike[0]).is_active:
+                yield from alike
+
+    @property
+    def not_set(self) -> tuple[Address, ...]:
+        """The active values that are not set, in the manual's order.
+
+        A value for the control as a whole speaks for each of its processes.
+        """
+        every = {a for a in self._not_set if not a[1] or (a[0], "") not in self.file.values}
+        return tuple(sorted(every, key=self._plan.order.__getitem__))
+
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
         readers = self._plan.rule_readers.get(address, ())
@@ -130,9 +146,8 @@ class Validator:
             self._filed[check.place] = (self._order(finding, check.place), finding)
 
     def _all_not_set(self) -> set[Address]:
-        evaluation, values = self.file.evaluation, self.file.values.keys()
-        active = (alike for alike in self._plan.needed if evaluation.state(alike[0]).is_active)
-        return {address for alike in active for address in alike if address not in values}
+        values = self.file.values.keys()
+        return {address for address in self.needed() if address not in values}
 
     def _check_address(self, address: Address) -> Finding | None:
         asked = (
@@ -172,12 +187,8 @@ class Validator:
         return found
 
     def _missing_values(self) -> Iterator[Finding]:
-        """Yield one recommendation on all values that are missing.
-
-        A value for the control as a whole speaks for each of its processes.
-        """
-        every = {a for a in self._not_set if not a[1] or (a[0], "") not in self.file.values}
-        not_set = tuple(sorted(every, key=self._plan.order.__getitem__))
+        """Yield one recommendation on all values that are missing."""
+        not_set = self.not_set
         if not not_set:
             return
         names = ", ".join(self.file.schema.on(self._checks.machine).label(address) for address in not_set[:4])

@@ -149,6 +149,12 @@ def test_the_steps_of_the_guides_stand_on_the_page_of_what_they_set(amp) -> None
     assert "\nGuides\n" not in amp("show", "9pc", "1801").out
 
 
+def test_the_step_of_commissioning_is_on_the_page_and_the_one_that_looks_again(amp) -> None:
+    said = amp("show", "9pc", "servo.velocity_integral_gain").out
+    steps = "\nCommissioning\n  Step 7 of 23: Velocity loop (page 7-46)\n  Step 22 of 23: Tuning at the machine (page 36-1)\n"
+    assert steps in said
+
+
 def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) -> None:
     mask = amp("show", "num", "P3N0").out
     assert "Number         P3N0\n" in mask

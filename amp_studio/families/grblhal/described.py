@@ -112,6 +112,7 @@ class _Maker:
             family=self._family(tuple(groups)), groups=made, errata=(),
             rules=tuple(r for r in self.known.rules if r.id != AXES_RULE),
             tables=(), guides=self.known.guides, messages=tuple(self._messages()),
+            commissioning=self.known.commissioning,
         )  # fmt: skip
         return made_of(compiled, description)
 

@@ -7,6 +7,7 @@ forbids unknown keys, so a typing error in a fact cannot hide.
 ``docs/schema.md`` explains the same words to somebody who writes YAML.
 """
 
+from .commissioning import Commissioning, CommissioningStep, Remainder
 from .documents import (
     ControlMessage,
     Errata,
@@ -21,6 +22,7 @@ from .documents import (
     Tables,
 )
 from .family import (
+    Area,
     AxisDeclaration,
     AxisField,
     AxisProfile,
@@ -73,6 +75,7 @@ from .rule import (
 )
 
 __all__ = [
+    "Area",
     "Assignment",
     "AxisDeclaration",
     "AxisField",
@@ -82,6 +85,8 @@ __all__ = [
     "BoundRef",
     "BuilderRule",
     "Choice",
+    "Commissioning",
+    "CommissioningStep",
     "Condition",
     "ControlMessage",
     "Default",
@@ -112,6 +117,7 @@ __all__ = [
     "Range",
     "RangeVariant",
     "Reaction",
+    "Remainder",
     "Rule",
     "Rules",
     "Scope",

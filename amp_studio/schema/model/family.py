@@ -165,6 +165,13 @@ def _defined(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
     return own
 
 
+class Area(Model):
+    """A head above groups that belong together; ours, no manual prints it."""
+
+    name: str
+    groups: tuple[Key, ...]
+
+
 class Family(Model):
     """``family.yaml``: identity, scopes, units and the order of the groups."""
 
@@ -192,6 +199,8 @@ class Family(Model):
     declared_axes: AxisDeclaration | None = None
     effect: Effect
     groups: tuple[str, ...]
+    areas: tuple[Area, ...] = ()
+    """The same groups in the same order under heads, for a family with many; empty: a plain list."""
     choice_lists: dict[Key, tuple[Choice, ...]] = {}
     """Choices that several parameters have, by the name that is there under ``choices``."""
     bit_lists: dict[Key, tuple[Bit, ...]] = {}

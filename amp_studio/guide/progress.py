@@ -1,0 +1,186 @@
+"""How far a file has come in the steps of commissioning.
+
+A value is *open* where the file needs it and has none: the parameter is active, can be set, and is not one that a file is
+complete without. A value is *untouched* where it is open or the printed default.
+
+A finding belongs to the last step of which it reads an untouched value: not before then has anybody put that value next
+to the others. Where it reads none, somebody has set all that it is about, and it belongs to the step of what is wrong.
+
+The steps are reached in their order, as far as the first that is not finished: it has an open value, or an error belongs
+to it. A finding that reads an untouched value of a later step is deferred: left out of a list, never of a check.
+``validate``, a download and its preview know nothing of steps.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address
+from amp_studio.validate import Finding, Validator
+
+from .steps import SetupStep, step_of, steps_of
+
+StepState = Literal["not begun", "begun", "done", "not needed"]
+
+
+@dataclass(frozen=True)
+class StepProgress:
+    """One step in one file."""
+
+    step: SetupStep
+    total: int
+    """Values that somebody has to give: active ones without a printed default, and open ones."""
+    open: tuple[Address, ...]
+    """Those of them that are not set, parameter by parameter."""
+    active: int
+    """Values that are active, with or without a default."""
+    own: int
+    """Active values that are not the printed default."""
+    findings: tuple[Finding, ...]
+    """The findings about its values that are not deferred."""
+    ticked: str
+    """By whom and when it was ticked as done; empty where nobody has."""
+
+    @property
+    def set(self) -> int:
+        """How many of the values that have to be given are set."""
+        return self.total - len(self.open)
+
+    def count(self, severity: str) -> int:
+        """Return how many findings of a severity there are."""
+        return sum(f.severity == severity for f in self.findings)
+
+    @property
+    def state(self) -> StepState:
+        """How far it is.
+
+        It is done when nothing is open, nothing about it is an error, and all that somebody had to give is given. Where
+        every value has a default nobody had to give any: then it is done when a person ticks it.
+        """
+        if not self.active:
+            return "not needed"
+        if not self.open and not self.count("error") and (self.total or self.ticked):
+            return "done"
+        return "begun" if self.own or self.ticked else "not begun"
+
+
+@dataclass(frozen=True)
+class GuideProgress:
+    """All steps of one file."""
+
+    steps: tuple[StepProgress, ...]
+    current: StepProgress | None
+    """The first step that is not finished, up to which the steps are reached; None where all are."""
+    deferred: tuple[Finding, ...]
+    """Findings of steps that have not been reached."""
+
+    @property
+    def total(self) -> int:
+        """Values that somebody has to give."""
+        return sum(each.total for each in self.steps)
+
+    @property
+    def set(self) -> int:
+        """How many of them are set."""
+        return sum(each.set for each in self.steps)
+
+    @property
+    def needed(self) -> tuple[StepProgress, ...]:
+        """The steps that this machine needs."""
+        return tuple(each for each in self.steps if each.state != "not needed")
+
+    @property
+    def done(self) -> int:
+        """How many steps are done."""
+        return sum(each.state == "done" for each in self.steps)
+
+    def of(self, step: SetupStep) -> StepProgress:
+        """Return the progress of a step."""
+        return self.steps[step.number - 1]
+
+
+def progress(validator: Validator) -> GuideProgress:
+    """Return how far the file of a validator, which has run, has come."""
+    file, findings = validator.file, validator.findings()
+    places, steps = step_of(file.schema), steps_of(file.schema)
+    not_set = set(validator.not_set)
+    total, active, own = Counter[int](), Counter[int](), Counter[int]()
+    open_of: dict[int, list[Address]] = {}
+    parameters = file.schema.parameters
+    for address in validator.needed():
+        number = places[address[0]].number
+        active[number] += 1
+        if address in not_set:
+            open_of.setdefault(number, []).append(address)
+            total[number] += 1
+        elif address in file.values:
+            has_default = parameters[address[0]].default is not None
+            total[number] += not has_default
+            own[number] += not has_default or not file.is_default(address)
+    waits = [(f, _waits_for(file, f)) for f in findings if f.rule != NOT_SET]
+    errors = [last or _step_of_cause(file, f) for f, last in waits if f.severity == "error"]
+    reached = min([*open_of, *filter(None, errors)], default=len(steps) + 1)
+    about: dict[int, list[Finding]] = {}
+    for finding, last in waits:
+        if last <= reached:
+            for number in {places[name].number for name, _ in finding.causes if name in places}:
+                about.setdefault(number, []).append(finding)
+    each = tuple(
+        StepProgress(
+            step, total[step.number], _in_order(step, open_of.get(step.number, ())), active[step.number],
+            own[step.number], tuple(about.get(step.number, ())), file.header.done.get(step.id, ""),
+        )
+        for step in steps
+    )  # fmt: skip
+    deferred = tuple(f for f, last in waits if last > reached)
+    return GuideProgress(each, each[reached - 1] if reached <= len(steps) else None, deferred)
+
+
+NOT_SET = "schema.unset"
+"""The one recommendation about all values that are not set: progress has the same, step by step."""
+
+
+def _waits_for(file: ParameterFile, finding: Finding) -> int:
+    """Return the number of the last step of which a finding reads an untouched value; 0 where it reads none."""
+    places = step_of(file.schema)
+    return max(
+        (
+            places[address[0]].number
+            for address in finding.addresses
+            if address[0] in places and (address not in file.values or file.is_default(address))
+        ),
+        default=0,
+    )
+
+
+def _step_of_cause(file: ParameterFile, finding: Finding) -> int:
+    """Return the number of the step of what is wrong; 0 where a finding is about no parameter."""
+    places = step_of(file.schema)
+    return next((places[name].number for name, _ in finding.causes if name in places), 0)
+
+
+def _in_order(step: SetupStep, addresses: Sequence[Address]) -> tuple[Address, ...]:
+    """Return addresses parameter by parameter in the order of a step, each over its instances."""
+    places = {p.id: n for n, p in enumerate(step.parameters)}
+    return tuple(sorted(addresses, key=lambda address: places[address[0]]))
+
+
+def next_open(now: GuideProgress, after: Address | None = None) -> Address | None:
+    """Return the next open value behind an address in the order of the steps, from the first again after the last.
+
+    Without an address, or one that is in no step, it is the first. None where nothing is open.
+    """
+    opened = [address for each in now.steps for address in each.open]
+    if after is None or not opened:
+        return opened[0] if opened else None
+    place = {p.id: n for n, p in enumerate(p for each in now.steps for p in each.step.parameters)}
+    here = place.get(after[0], -1)
+    own = [a for a in opened if a[0] == after[0]]
+    if after in own:
+        own = own[own.index(after) + 1 :]
+    behind = [a for a in opened if place[a[0]] > here]
+    return next(iter([*own, *behind, *opened]))
