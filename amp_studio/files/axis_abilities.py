@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from amp_studio.schema import Schema
 
+from .axes import axis_instances, fitted_axes, other_use
+from .parameter_file import ParameterFile
+
 
 def why_axes_are_fixed(schema: Schema) -> str:
     """Return why a file of a family cannot choose its axes; "" where it can."""
@@ -46,3 +49,28 @@ def parameters_of_axes(schema: Schema) -> tuple[str, ...]:
         declared.letters,
     )
     return tuple(filter(None, (*named, *declared.flags)))
+
+
+def letters_offered(schema: Schema) -> tuple[str, ...]:
+    """Return the letters an axis can be given; none where they are fixed, or any text is one."""
+    profile, declared = schema.family.axes, schema.family.declared_axes
+    field = declared.name if declared else None
+    named = profile.name if profile else field.param if field else None
+    if named is None:
+        return ()
+    parameter = schema.parameters[named]
+    packed = field is not None and field.bit is not None
+    bits = next((b.choices for b in parameter.bits or () if field and b.bit == field.bit), None)
+    return tuple(c.label for c in (bits if packed else parameter.choices) or () if c.key != "none")
+
+
+def places_offered(file: ParameterFile) -> tuple[str, ...]:
+    """Return the places at which an axis can be added, the usual one first; none where no axis can be."""
+    schema, fitted = file.schema, fitted_axes(file)
+    free = [a for a in axis_instances(file) if a not in fitted and not other_use(file, a)]
+    if why_axes_are_fixed(schema) or not free:
+        return ()
+    declared = schema.family.declared_axes
+    if declared is None:
+        return (free[0], *(a for a in axis_instances(file) if a != free[0]))
+    return tuple(free) if declared.flags else (free[0],)

@@ -1,4 +1,4 @@
-"""The dialogs of the axis menu: which axis, which name, which type, which servo."""
+"""The dialogs of the axis menu: which axis, which name, which type, which servo, which place."""
 
 from __future__ import annotations
 
@@ -13,7 +13,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import axis_instances, axis_title, axis_type
+from amp_studio.files import (
+    are_alike,
+    axis_instances,
+    axis_letter,
+    axis_title,
+    fitted_axes,
+    letters_offered,
+    places_offered,
+    shown_axes,
+)
 from amp_studio.schema import Address, write_value
 
 from .choice_box import ChoiceBox
@@ -32,7 +41,7 @@ class AxisDialog(QDialog):
         self.axis_box = self._axis_list(axis)
         self.axis_box.currentIndexChanged.connect(lambda _: self._fill())
         self._form = QFormLayout()
-        self._form.addRow("&Axis", self.axis_box)
+        self._form.addRow(self.tr("&Axis"), self.axis_box)
         self.note = QLabel()
         self.note.setWordWrap(True)
         self._buttons = buttons = QDialogButtonBox(
@@ -48,7 +57,9 @@ class AxisDialog(QDialog):
 
     def _axis_list(self, axis: str) -> QComboBox:
         box = QComboBox()
-        for instance in axis_instances(self._workspace.file):
+        file = self._workspace.file
+        # An axis that is not there can be given a type; where axes have no types there is nothing to do with it.
+        for instance in axis_instances(file) if file.schema.family.axes else fitted_axes(file):
             box.addItem(axis_title(self._workspace.file, instance), instance)
         box.setCurrentIndex(max(box.findData(axis), 0))
         return box
@@ -58,19 +69,32 @@ class AxisDialog(QDialog):
         self._wanted = parameter_ids
         self._fill()
 
-    def ask_for_target(self) -> QComboBox:
-        """Show a field for the target axis and return it."""
+    def ask_for_letter(self) -> QComboBox:
+        """Show a field for the letter of the chosen axis and return it."""
+        box = letter_box(self._workspace)
+        self._form.addRow(self.tr("&Letter"), box)
+        QWidget.setTabOrder(self.axis_box, box)
+
+        def fill(*_: object) -> None:
+            box.setCurrentText(axis_letter(self._workspace.file, self.axis()))
+
+        self.axis_box.currentIndexChanged.connect(fill)
+        fill()
+        return box
+
+    def ask_for_target(self, label: str) -> QComboBox:
+        """Show a field for another axis and return it."""
         box = self._axis_list(self.axis())
         same = [
             n for n in range(box.count()) if n != box.currentIndex() and self._is_alike(str(box.itemData(n)))
         ]
         box.setCurrentIndex(same[0] if same else box.currentIndex())
-        self._form.addRow("&To axis", box)
+        self._form.addRow(label, box)
         QWidget.setTabOrder(self.axis_box, box)
         return box
 
     def _is_alike(self, axis: str) -> bool:
-        return axis_type(self._workspace.file, axis) == axis_type(self._workspace.file, self.axis())
+        return are_alike(self._workspace.file, axis, self.axis())
 
     def _fill(self) -> None:
         for box in self._fields.values():
@@ -109,3 +133,52 @@ class AxisDialog(QDialog):
             elif field.currentIndex() >= 0:
                 found[parameter_id, self.axis()] = str(field.currentData())
         return found
+
+
+class AddAxisDialog(QDialog):
+    """Asks for the letter and the place of one more axis."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Add axis"))
+        self.setMinimumWidth(380)
+        file = workspace.file
+        self._places = QComboBox()
+        for place in places_offered(file):
+            there = place in shown_axes(file)
+            text = self.tr("Before {axis}").format(axis=axis_title(file, place)) if there else place
+            self._places.addItem(text, place)
+        self._letters = letter_box(workspace)
+        if self._letters.count() == 0:
+            self._letters.addItem(str(self._places.currentData()))
+        taken = {axis_letter(file, axis) for axis in fitted_axes(file)}
+        free = [n for n in range(self._letters.count()) if self._letters.itemText(n) not in taken]
+        self._letters.setCurrentIndex(free[0] if free else 0)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
+        buttons.addButton(self.tr("A&dd Axis"), QDialogButtonBox.ButtonRole.AcceptRole)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        form = QFormLayout(self)
+        form.addRow(self.tr("&Letter"), self._letters)
+        form.addRow(self.tr("&Place"), self._places)
+        form.addRow(buttons)
+
+    def done(self, result: int) -> None:
+        """Close the dialog; its input can be read until the next event."""
+        super().done(result)
+        self.deleteLater()
+
+    def name(self) -> str:
+        """Return the chosen letter."""
+        return self._letters.currentText()
+
+    def place(self) -> str:
+        """Return the chosen place."""
+        return str(self._places.currentData())
+
+
+def letter_box(workspace: Workspace) -> QComboBox:
+    """Return a list of the letters that an axis can have."""
+    box = QComboBox()
+    box.addItems(letters_offered(workspace.file.schema))
+    return box

@@ -9,7 +9,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QLabel, QMainWindow, QMessageBox, QStackedWidget
 
-from amp_studio.files import ENDING
+from amp_studio.files import ENDING, axis_instances
 from amp_studio.report.wording import counted
 from amp_studio.validate import Finding
 
@@ -159,13 +159,14 @@ class MainWindow(StudioWindow):
         """Update actions, title and status bar."""
         workspace = self.workspace
         may_edit = workspace is not None and workspace.may_edit
-        has_axes = workspace is not None and workspace.file.schema.family.axes is not None
+        has_axes = workspace is not None and bool(axis_instances(workspace.file))
         can = {"": True, "file": workspace is not None, "edit": may_edit, "axes": may_edit and has_axes,
                "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
                "project": self.project is not None}  # fmt: skip
         for needs, actions in self.actions_needing.items():
             for action in actions:
                 action.setEnabled(can[needs])
+        self.axes.enable(workspace)
         self.edits.show_state(workspace)
         self.control.enable()
         self.view.check(workspace)

@@ -32,7 +32,7 @@ from .value_table import ValueTable
 from .workspace import Workspace
 
 Needs = Literal["", "file", "edit", "axes", "project", "units"]
-"""What an action needs: nothing, an open file, the right to change it, a family with axes as well, a project."""
+"""What an action needs: nothing, an open file, the right to change it, axes as well, a project, several systems of units."""
 
 
 class StudioWindow(QMainWindow):

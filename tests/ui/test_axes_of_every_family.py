@@ -1,0 +1,160 @@
+"""The axis menu on families whose axes have no types, through the real window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QComboBox
+
+from amp_studio.files import Document, fitted_axes, new_file
+from amp_studio.schema import Value
+from amp_studio.ui.axis_comparison import AxisComparison
+from amp_studio.ui.axis_dialogs import AddAxisDialog, AxisDialog
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.workspace import Workspace
+
+from .conftest import action
+
+
+@pytest.fixture
+def opened(open_window: Callable[..., MainWindow], tmp_path: Path) -> Callable[..., MainWindow]:
+    """Return what opens a new file of a family with some axes."""
+
+    def open_family(family: str, axes: str) -> MainWindow:
+        file = new_file(family, None, axes.split(","))
+        window = open_window()
+        window.show_workspace(Workspace(Document.create(file, tmp_path / f"{family}.amp")))
+        return window
+
+    return open_family
+
+
+def choose(dialog: AxisDialog, axis: str, other: str) -> None:
+    """Choose an axis, and another one or a letter."""
+    dialog.axis_box.setCurrentIndex(dialog.axis_box.findData(axis))
+    second = next(b for b in dialog.findChildren(QComboBox) if b is not dialog.axis_box)
+    at = second.findData(other)
+    second.setCurrentIndex(at if at >= 0 else second.findText(other))
+
+
+def heads(window: MainWindow) -> list[str]:
+    """Return the heads of the axis columns."""
+    shown = [column for column in window.table.columns if column]
+    return [
+        window.table.column_title(column)
+        for column in shown
+        if window.table.column_title(column) != "Control"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("family", "axes", "parameter", "titles"),
+    [
+        ("num", "X,Y,B", "servo.max_speed", ["0 X linear", "1 Y linear", "2 B rotary"]),
+        ("acromill", "X,Y", "axes.pulses_per_unit", ["Axis X", "Axis Y"]),
+        ("57c422b", "X,Y", "setup.encoder", ["X axis", "Y axis"]),
+        ("grblhal", "X,Y,Z", "axis.max_rate", ["X axis linear", "Y axis linear", "Z axis linear"]),
+        ("syntec", "X,Z", "axis.type", ["1 X linear", "2 Z linear"]),
+    ],
+)
+def test_heads_have_letters_and_unfitted_axes_are_hidden(
+    opened, family: str, axes: str, parameter: str, titles: list[str]
+) -> None:
+    window = opened(family, axes)
+    window.follow(parameter)
+    assert heads(window) == titles
+
+
+def test_the_values_of_a_num_axis_are_copied_and_two_change_places(opened, accept) -> None:
+    window = opened("num", "X,Y,B")
+    file = window.workspace.file
+    window.edits.commit(("travel.limit_max", "0"), "5000 iu")
+    accept(AxisDialog, lambda d: choose(d, "0", "1"))
+    action(window, "Copy Axis").trigger()
+    assert file.get(("travel.limit_max", "1")) == Value(5000, "iu")
+    before = dict(file.values)
+    action(window, "Swap Axes").trigger()
+    assert file.get(("axes.assignment", "0")) == Value(1), "Y is the first axis now"
+    window.edits.undo.trigger()
+    assert file.values == before
+
+
+def test_an_axis_of_an_acromill_is_named_added_and_deleted(opened, accept) -> None:
+    window = opened("acromill", "X,Y")
+    file = window.workspace.file
+    accept(AddAxisDialog)
+    action(window, "Add Axis").trigger()
+    assert fitted_axes(file) == ("X", "Y", "Z")
+    assert file.get(("view.number_of_axes", "")) == Value(3)
+    accept(AxisDialog, lambda d: choose(d, "Z", "C"))
+    action(window, "Name Axis").trigger()
+    assert window.table.column_title("Z") == "Z C"
+    accept(AxisDialog, lambda d: d.axis_box.setCurrentIndex(2))
+    action(window, "Delete Axis").trigger()
+    assert fitted_axes(file) == ("X", "Y")
+
+
+def test_what_a_family_cannot_do_is_off_and_the_reason_is_there(opened) -> None:
+    window = opened("57c422b", "X,Y")
+    off = {
+        a.text().replace("&", ""): a.toolTip()
+        for a in window.axes.menu.actions()
+        if a.text() and not a.isEnabled()
+    }
+    assert off.keys() == {
+        "Name Axis…",
+        "Configure Axis Type…",
+        "Configure Servo…",
+        "Add Axis…",
+        "Delete Axis…",
+    }
+    assert off["Add Axis…"] == "Reliance 57C422B 2-Axis Servo Module always has the axes X and Y (page 4-1)"
+    assert "no parameter for the type" in off["Configure Axis Type…"]
+
+
+def test_an_action_that_works_again_has_its_own_tooltip(opened, open_window, tmp_path: Path) -> None:
+    window = opened("57c422b", "X,Y")
+    file = new_file("num", None, ["X", "Y"])
+    window.show_workspace(Workspace(Document.create(file, tmp_path / "second.amp")))
+    assert window.axes.add_action.isEnabled()
+    assert window.axes.add_action.toolTip() == "Add Axis"
+
+
+def test_two_axes_are_compared_side_by_side_and_a_value_is_taken(opened) -> None:
+    window = opened("num", "X,Y,B")
+    window.edits.commit(("travel.limit_max", "0"), "5000 iu")
+    window.edits.commit(("travel.homing_negative", ""), "2")
+    action(window, "Compare Axes").trigger()
+    shown = window.findChild(AxisComparison)
+    rows = [
+        [shown.list.topLevelItem(n).text(c) for c in range(3)] for n in range(shown.list.topLevelItemCount())
+    ]
+    assert rows == [
+        ["P15N0 Homing Direction", "no", "yes"],
+        ["P17N1 Axis Travel Limits, Maximum", "5000 iu", "not set"],
+    ]
+    assert shown.count.text() == "2 parameters differ"
+    shown.list.selectAll()
+    shown.take_first.click()
+    assert window.workspace.file.get(("travel.limit_max", "1")) == Value(5000, "iu")
+    assert window.workspace.file.get(("travel.homing_negative", "")) == Value(0)
+    assert shown.count.text() == "No differences"
+    assert not shown.take_first.isEnabled()
+    shown.close()
+
+
+def test_a_compared_parameter_is_shown_in_the_table(opened) -> None:
+    window = opened("acromill", "X,Y")
+    window.edits.commit(("axes.pulses_per_unit", "Y"), "2000")
+    action(window, "Compare Axes").trigger()
+    shown = window.findChild(AxisComparison)
+    item = next(
+        shown.list.topLevelItem(n)
+        for n in range(shown.list.topLevelItemCount())
+        if "Pulses" in shown.list.topLevelItem(n).text(0)
+    )
+    shown.list.itemActivated.emit(item, 2)
+    assert window.selected() == ("axes.pulses_per_unit", "Y")
+    shown.close()
