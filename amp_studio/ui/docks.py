@@ -1,12 +1,18 @@
-"""The docks around the tabs: they stay while files come and go, and show the panels of the file in front."""
+"""The docks around the tabs: they stay while files come and go, and show the panels of the file in front.
+
+A window that becomes narrow or low keeps the room of the table: the parameter comes beside the findings, the left panel
+goes, the findings fold to their head. It all comes back with the room.
+"""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QByteArray, Qt
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QStackedWidget
+from PySide6.QtCore import QByteArray, QCoreApplication, QSize, Qt
+from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QMainWindow, QStackedWidget, QWidget
 
 from .file_page import FilePage
+from .segment import Segment
 from .settings import UserSettings
+from .theme import GAP2, HEAD, font
 
 _PANELS = (
     ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 248),
@@ -16,6 +22,24 @@ _PANELS = (
 """Name of a dock, where it is and how wide or high, until somebody arranges them."""
 _LEAST_TABLE = 320
 """Width in pixels that a kept arrangement must leave to the table."""
+WIDE, LEFT_WIDE, LOW = 1200, 900, 620
+"""Width from which the parameter has a separate side, width from which there is a left panel, height below which findings fold."""
+
+
+class _Heads(QStackedWidget):
+    """The heads of the panels of a dock, of which one is seen."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setFixedHeight(HEAD)
+
+    def sizeHint(self) -> QSize:
+        """Return what a dock gives its title bar, whatever is in it."""
+        return QSize(super().sizeHint().width(), HEAD)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return no width, so that a head never keeps a dock wide."""
+        return QSize(0, HEAD)
 
 
 class Docks:
@@ -24,27 +48,64 @@ class Docks:
     def __init__(self, window: QMainWindow, settings: UserSettings) -> None:
         self._window, self._settings = window, settings
         self._stacks: dict[str, QStackedWidget] = {}
+        self._heads: dict[str, QStackedWidget] = {}
         self._arranged: QByteArray | None = None
         """How the docks were when the last file was closed; None while they are there."""
+        self._size = QSize(WIDE, LOW)
+        self._is_first = True
+        self._taken: set[str] = set()
+        """Docks that a small window has taken away."""
         self.docks: list[QDockWidget] = []
         for title, area, _ in _PANELS:
-            dock, stack = QDockWidget(title, window), QStackedWidget()
+            dock, stack, head = QDockWidget(_name(title), window), QStackedWidget(), _Heads()
             dock.setObjectName(title)
             dock.setWidget(stack)
+            head.setAccessibleName(_name(title))
+            dock.setTitleBarWidget(head)
             window.addDockWidget(area, dock)
             dock.hide()
             self.docks.append(dock)
-            self._stacks[title] = stack
-        self._is_first = True
+            self._stacks[title], self._heads[title] = stack, head
+        self._share_the_bottom()
+
+    def _share_the_bottom(self) -> None:
+        """Make room for the parameter in the dock of the findings, with a segment that chooses between them."""
+        below = self._dock("Findings")
+        self._bottom = QStackedWidget()
+        self._bottom.addWidget(self._stacks["Findings"])
+        below.setWidget(self._bottom)
+        head = QWidget()
+        row = QHBoxLayout(head)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        self.chooser = Segment(
+            _name("Panel"), [(title, _name(title), "") for title in ("Findings", "Parameter")]
+        )
+        self.chooser.layout().setContentsMargins(GAP2, 0, GAP2, 0)
+        self.chooser.chosen.connect(self._turn_bottom)
+        self.chooser.hide()
+        self._bottom_heads = _Heads()
+        self._bottom_heads.addWidget(self._heads["Findings"])
+        row.addWidget(self.chooser)
+        row.addWidget(self._bottom_heads, 1)
+        head.setFixedHeight(HEAD)
+        below.setTitleBarWidget(head)
+
+    def _dock(self, title: str) -> QDockWidget:
+        return next(dock for dock in self.docks if dock.objectName() == title)
 
     def add(self, page: FilePage) -> None:
-        """Take the panels of a page in."""
+        """Take the panels of a page in, each with its head."""
         for title, panel in page.panels.items():
             self._stacks[title].addWidget(panel)
+            self._heads[title].addWidget(_head_of(panel, title))
 
     def remove(self, page: FilePage) -> None:
         """Let the panels of a page go."""
         for title, panel in page.panels.items():
+            if (head := self._heads[title].widget(self._stacks[title].indexOf(panel))) is not None:
+                self._heads[title].removeWidget(head)
+                head.deleteLater()
             self._stacks[title].removeWidget(panel)
             panel.deleteLater()
 
@@ -52,19 +113,23 @@ class Docks:
         """Show the panels of a page; without one the docks leave until there is one again."""
         if page is None:
             if not self._is_first and self._arranged is None:
+                self._widen()
                 self._arranged = self._window.saveState()
             for dock in self.docks:
                 dock.hide()
             return
         for title, panel in page.panels.items():
             self._stacks[title].setCurrentWidget(panel)
+            self._heads[title].setCurrentIndex(self._stacks[title].indexOf(panel))
             self._stacks[title].setFocusProxy(panel)
+        self._bottom.setFocusProxy(self._bottom.currentWidget() or self._stacks["Findings"])
         if self._is_first or self._arranged is not None:
             kept = self._settings.arrangement() if self._is_first else self._arranged
             self._is_first, self._arranged = False, None
             self.reset()
             if kept is not None:
                 self._restore(kept)
+            self.fit(self._size)
 
     def _restore(self, kept: QByteArray) -> None:
         """Arrange the docks as they were, unless that leaves the table no room or hides everything off the screen."""
@@ -77,6 +142,7 @@ class Docks:
 
     def reset(self) -> None:
         """Dock everything in its place, in its size."""
+        self._widen()
         for dock, (_, area, _) in zip(self.docks, _PANELS, strict=True):
             dock.setFloating(False)
             self._window.addDockWidget(area, dock)
@@ -86,8 +152,102 @@ class Docks:
             self._window.resizeDocks(
                 [dock], [size], Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal
             )
+        self.fit(self._size)
 
     def keep(self) -> None:
         """Store the arrangement for the next start."""
         if not self._is_first:
+            self._widen()
             self._settings.keep_arrangement(self._arranged or self._window.saveState())
+
+    # -- small windows -----------------------------------------------------------
+
+    def fit(self, size: QSize) -> None:
+        """Keep the table usable in a window of this size; what was taken away for room comes back with it."""
+        self._size = size
+        if self._is_first or self._arranged is not None:
+            return
+        self._take("Parameter", size.width() < WIDE)
+        self._take("Groups", size.width() < LEFT_WIDE)
+        self._fold(size.height() < LOW)
+
+    def show(self, title: str) -> None:
+        """Show a panel, wherever a small window has put it, and give it the focus."""
+        dock = self._dock(title)
+        if title == "Parameter" and title in self._taken:
+            self.chooser.show_choice(title)
+            self._turn_bottom(title)
+            dock = self._dock("Findings")
+        elif title == "Findings":
+            self.chooser.show_choice(title)
+            self._turn_bottom(title)
+        if dock.objectName() == "Findings":
+            self._fold(False)
+        dock.show()
+        dock.raise_()
+        dock.widget().setFocus()
+
+    def _take(self, title: str, is_small: bool) -> None:
+        if is_small == (title in self._taken):
+            return
+        dock = self._dock(title)
+        if is_small and not dock.isHidden() and not dock.isFloating():
+            self._taken.add(title)
+            dock.hide()
+            if title == "Parameter":
+                self._move_parameter(self._bottom, self._bottom_heads)
+        elif not is_small:
+            self._taken.discard(title)
+            if title == "Parameter":
+                self._move_parameter(None, None)
+            dock.show()
+
+    def _move_parameter(self, into: QStackedWidget | None, heads: QStackedWidget | None) -> None:
+        """Put the panel of the parameter beside the findings, or back into its own dock."""
+        stack, head, dock = self._stacks["Parameter"], self._heads["Parameter"], self._dock("Parameter")
+        if into is not None and heads is not None:
+            into.addWidget(stack)
+            heads.addWidget(head)
+        else:
+            self._bottom.removeWidget(stack)
+            self._bottom_heads.removeWidget(head)
+            dock.setWidget(stack)
+            dock.setTitleBarWidget(head)
+            stack.show()
+            head.show()
+        self.chooser.setVisible(into is not None)
+        self.chooser.show_choice("Findings")
+        self._turn_bottom("Findings")
+
+    def _turn_bottom(self, title: str) -> None:
+        if self._bottom.indexOf(self._stacks[title]) >= 0:
+            self._bottom.setCurrentWidget(self._stacks[title])
+            self._bottom_heads.setCurrentWidget(self._heads[title])
+            self._bottom.setFocusProxy(self._stacks[title])
+            self._fold(False)
+
+    def _fold(self, is_low: bool) -> None:
+        """Show the head of the findings alone, or all of them."""
+        self._bottom.setVisible(not is_low)
+        self._dock("Findings").setMaximumHeight(HEAD if is_low else 16_777_215)
+
+    def _widen(self) -> None:
+        """Put back what a small window has taken away, so that an arrangement is that of a large one."""
+        for title in tuple(self._taken):
+            self._take(title, False)
+        self._fold(False)
+
+
+def _name(title: str) -> str:
+    return QCoreApplication.translate("Docks", title)
+
+
+def _head_of(panel: QWidget, title: str) -> QWidget:
+    """Return the head that a panel brings, or its name."""
+    own = getattr(panel, "head", None)
+    if isinstance(own, QWidget):
+        return own
+    label = QLabel(_name(title))
+    label.setFont(font("text", own=True))
+    label.setContentsMargins(12, 0, 12, 0)
+    return label

@@ -69,9 +69,8 @@ class FileActions:
         menu.addMenu(self._recent_menu)
         menu.addActions([save, save_as, close])
         menu.addSeparator()
-        menu.addActions(
-            [act("Compare &With…", self.compare), act("Recover &Backup…", self.recover, None, "edit")]
-        )
+        self.compare_action = act("Compare &With…", self.compare, None, "file", "git-diff", "Compare")
+        menu.addActions([self.compare_action, act("Recover &Backup…", self.recover, None, "edit")])
         menu.addSeparator()
         self.formats = FormatActions(window, self.ask_path, self.write_new)
         menu.addActions(self.formats.actions)
@@ -79,7 +78,7 @@ class FileActions:
         menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()
         menu.addAction(act("E&xit", window.close, keys.Quit, ""))
-        self.toolbar: list[QAction] = [new, opened, save, report]
+        self.toolbar: list[QAction] = [new, opened, save]
         self.welcome: list[QAction] = [new, opened]
 
     # -- recent files ----------------------------------------------------------

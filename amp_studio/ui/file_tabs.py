@@ -7,9 +7,12 @@ from functools import partial
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QTabWidget, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QTabBar, QTabWidget, QWidget
 
 from .file_page import FilePage
+from .tab_end import TabEnd
+
+_RIGHT = QTabBar.ButtonPosition.RightSide
 
 
 class FileTabs(QSplitter):
@@ -33,14 +36,12 @@ class FileTabs(QSplitter):
         side = QTabWidget()
         side.setDocumentMode(True)
         side.setMovable(True)
-        side.setTabsClosable(True)
         side.setElideMode(Qt.TextElideMode.ElideMiddle)
         side.setUsesScrollButtons(True)
         side.setAccessibleName(name)
         bar = side.tabBar()
         bar.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         bar.customContextMenuRequested.connect(partial(self._menu, side))
-        side.tabCloseRequested.connect(lambda n: self.close_wanted.emit(side.widget(n)))
         side.currentChanged.connect(partial(self._turn, side))
         self.addWidget(side)
         return side
@@ -86,9 +87,19 @@ class FileTabs(QSplitter):
         """Update the name on a tab."""
         side = self._side_of(page)
         place = side.indexOf(page)
-        if side.tabText(place) != page.title:
-            side.setTabText(place, page.title.replace("&", "&&"))
-        side.setTabToolTip(place, f"{page.workspace.path}\n{page.workspace.file.schema.family.name}")
+        name, bar = page.workspace.path.stem, side.tabBar()
+        if side.tabText(place) != name.replace("&", "&&"):
+            side.setTabText(place, name.replace("&", "&&"))
+        family = page.workspace.file.schema.family
+        side.setTabToolTip(place, f"{page.workspace.path}\n{family.name}")
+        end = bar.tabButton(place, _RIGHT)
+        if not isinstance(end, TabEnd):
+            end = TabEnd(family.short or family.name)
+            end.close_clicked.connect(partial(self.close_wanted.emit, page))
+            bar.setTabButton(place, _RIGHT, end)
+        end.show_unsaved(page.workspace.is_dirty)
+        state = self.tr("{name}, not saved") if page.workspace.is_dirty else "{name}"
+        bar.setAccessibleTabName(place, state.format(name=page.workspace.path.name))
 
     def turn(self, step: int) -> None:
         """Bring the next tab to the front, or the one before."""

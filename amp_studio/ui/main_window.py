@@ -5,12 +5,10 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QLabel, QMainWindow, QMessageBox, QStackedWidget
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget
 
 from amp_studio.files import ENDING, axis_instances
-from amp_studio.report.wording import counted
 from amp_studio.validate import Finding
 
 from .axis_actions import AxisActions
@@ -23,10 +21,12 @@ from .garbage import collect_by_timer
 from .program_icon import program_icon
 from .project_actions import ProjectActions
 from .questions import show_message
+from .status_line import StatusLine
 from .studio_window import StudioWindow
 from .task import Task
-from .theme import ICON, wear
+from .theme import wear
 from .theme_actions import ThemeActions
+from .tool_bar import MainToolBar
 from .view_actions import ViewActions
 from .welcome import WelcomePage
 from .workspace import Workspace
@@ -43,9 +43,8 @@ class MainWindow(StudioWindow):
         self.setAcceptDrops(True)
         room = self.screen().availableSize()
         self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
-        self.file_status, self.value_status = QLabel(), QLabel()
-        self.statusBar().addWidget(self.value_status, 1)
-        self.statusBar().addPermanentWidget(self.file_status)
+        self.status = StatusLine(self.statusBar())
+        self.status.findings_wanted.connect(lambda: self.show_panel("Findings"))
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
         self.files = FileActions(self, self.show_workspace)
         self.edits = EditActions(self)
@@ -76,15 +75,12 @@ class MainWindow(StudioWindow):
         menu.addAction(self.action("&About AMP Studio", self._about, None, ""))
 
     def _toolbar(self) -> None:
-        bar = self.addToolBar("Main")
-        bar.setObjectName("main-toolbar")
-        bar.setMovable(False)
-        bar.setIconSize(QSize(ICON, ICON))
-        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        for action in (*self.files.toolbar, None, self.edits.undo, self.edits.redo, None, *self.view.toolbar, None,
-                       *self.control.toolbar):  # fmt: skip
-            bar.addSeparator() if action is None else bar.addAction(action)
+        undo = (self.edits.undo, self.edits.redo)
+        views = (*self.view.toolbar, self.files.compare_action)
+        self.tools = MainToolBar(
+            self, self.files.toolbar, undo, self.view.switch, views, self.control.toolbar
+        )
+        self.addToolBar(self.tools)
 
     def _about(self) -> None:
         from amp_studio import __version__
@@ -126,7 +122,7 @@ class MainWindow(StudioWindow):
         if page is None:
             self.welcome.show_recent(self.files.recent())
             self.centre.setCurrentWidget(self.welcome)
-            self.value_status.clear()
+            self.status.value.clear()
         else:
             self.centre.setCurrentWidget(self.tabs)
             self.view.follow(page.workspace)
@@ -136,7 +132,7 @@ class MainWindow(StudioWindow):
         self.enable()
 
     def _show_value(self, *_: object) -> None:
-        self.value_status.setText(self.page.address_text() if self.page else "")
+        self.status.value.setText(self.page.address_text() if self.page else "")
 
     def _why(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.why(finding), "Explain")
@@ -170,10 +166,11 @@ class MainWindow(StudioWindow):
         self.edits.show_state(workspace)
         self.control.enable()
         self.view.check(workspace)
+        self.tools.show_units()
+        self.status.show_file(workspace, self.settings.control())
         if workspace is None:
             self.setWindowTitle("AMP Studio")
             self.setWindowModified(False)
-            self.file_status.clear()
             return
         project = self.projects.name_of(workspace.path)
         place = f"{project} — " if project else ""
@@ -181,12 +178,11 @@ class MainWindow(StudioWindow):
             f"{workspace.path.name}[*]{'' if may_edit else ' [read-only]'} — {place}AMP Studio"
         )
         self.setWindowModified(workspace.is_dirty)
-        file = workspace.file
-        counts = [counted(workspace.count(s), s, none="no") for s in ("error", "warning")]
-        saved = "not saved" if workspace.is_dirty else "saved"
-        units = "as entered" if workspace.as_entered else file.header.units
-        parts = (file.schema.family.name, file.machine, units, *counts, saved if may_edit else "read-only")
-        self.file_status.setText("   ".join(parts))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.tools.fit(event.size().width())
+        self.docks.fit(event.size())
 
     # -- leaving ---------------------------------------------------------------
 

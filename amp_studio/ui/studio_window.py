@@ -12,7 +12,7 @@ from typing import Literal
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QDockWidget, QMainWindow
+from PySide6.QtWidgets import QMainWindow
 
 from amp_studio.files import ChangedOnDiskError, Project, same_file
 from amp_studio.schema import Address
@@ -161,11 +161,7 @@ class StudioWindow(QMainWindow):
 
     def show_panel(self, title: str) -> None:
         """Show a panel that may be closed, and give it the keyboard focus."""
-        for dock in self.findChildren(QDockWidget):
-            if dock.objectName() == title:
-                dock.show()
-                dock.raise_()
-                dock.widget().setFocus()
+        self.docks.show(title)
 
     # -- selection -------------------------------------------------------------
 

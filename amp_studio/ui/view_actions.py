@@ -50,7 +50,7 @@ class ViewActions:
         ])  # fmt: skip
         menu.addSeparator()
         menu.addAction(self.motion_action)
-        self.toolbar: list[QAction] = [self.switch, self.motion_action]
+        self.toolbar: list[QAction] = [self.motion_action]
 
     def _option(self, text: str, act: Callable[[], None], shortcut: str | None = None) -> QAction:
         action = self.window.action(text, act, shortcut)

@@ -14,7 +14,7 @@ from PySide6.QtGui import QUndoCommand, QUndoStack
 from amp_studio.files import Change, Comparison, Document, Opened, ParameterFile, compare, digest_of
 from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address, Value, read_value
-from amp_studio.validate import Finding, Validator, rules_beside
+from amp_studio.validate import NOT_SET, Finding, Validator, rules_beside
 
 JOURNAL_MS = 500
 """Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""
@@ -199,8 +199,13 @@ class Workspace(QObject):
         return {s.address: s.value for f in reversed(self.findings) for s in f.effective}
 
     def count(self, severity: str) -> int:
-        """Return how many findings of a severity there are."""
-        return sum(f.severity == severity for f in self.findings)
+        """Return how many findings of a severity there are; values that are not set are a state of the file, not findings."""
+        return sum(f.severity == severity and f.rule != NOT_SET for f in self.findings)
+
+    def changes(self) -> int:
+        """Return how many values differ from those on disk, as far as this program knows them."""
+        saved, present = self.document.saved, self.file.values
+        return sum(saved.get(a) != present.get(a) for a in saved.keys() | present.keys())
 
     def typed_unit(self, address: Address) -> str:
         """Return the unit of a number typed without one: the unit in which the value is shown."""

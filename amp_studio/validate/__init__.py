@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from .beside import rules_beside
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
 from .expressions import RuleError
-from .finding import SEVERITIES, Finding, Setting
+from .finding import NOT_SET, SEVERITIES, Finding, Setting, not_set
 from .formulas import formulas
 from .validator import Validator
 
@@ -45,6 +45,7 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "NOT_SET",
     "NO_RULES",
     "RULES_FILE",
     "SEVERITIES",
@@ -65,6 +66,7 @@ __all__ = [
     "calculators",
     "explain",
     "formulas",
+    "not_set",
     "read_builder_rules",
     "rules_beside",
     "shown_result",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -9,6 +10,8 @@ from amp_studio.schema import Address, Value
 from amp_studio.schema.model import Severity
 
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "advice")
+NOT_SET = "schema.unset"
+"""The rule that is about all active values that are not set."""
 OWN_FAULT = "rules.unusable"
 """The rule that findings about a builder's rules themselves belong to."""
 
@@ -56,3 +59,8 @@ class Finding:
     def cited(self) -> str:
         """Its source in words: ``page 7-20``, or a builder's own words; empty where he gave none."""
         return f"page {self.page}" if self.page and not self.is_own else self.page or ""
+
+
+def not_set(findings: Iterable[Finding]) -> tuple[Address, ...]:
+    """Return the active addresses without a value among what was found: a state of the file."""
+    return tuple(address for finding in findings if finding.rule == NOT_SET for address in finding.causes)

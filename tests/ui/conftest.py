@@ -164,7 +164,9 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
     def show(path: Path | None = None) -> MainWindow:
         window = MainWindow()
         windows.append(window)
-        window.resize(960, 600)  # half the size is half the painting
+        window.resize(
+            1200, 640
+        )  # the least in which every panel has its own place; a smaller one is painted sooner
         window.show()
         with qtbot.waitActive(window, timeout=WAIT_MS):
             window.activateWindow()

@@ -45,7 +45,7 @@ def test_save_writes_the_file_and_keeps_the_one_before(
     assert on_disk(path).get(EXCESS) == EDITED
     assert backup_path(path).read_bytes() == example
     assert not window.isWindowModified()
-    assert "saved" in window.file_status.text()
+    assert "saved" in window.status.file.text()
 
 
 def test_undo_after_a_save_is_unsaved_again(window: MainWindow) -> None:

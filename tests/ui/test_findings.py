@@ -32,7 +32,7 @@ def test_errors_come_first_and_are_counted(wrong: MainWindow) -> None:
     errors = wrong.workspace.count("error")
     assert errors >= 3
     assert wrong.findings.counts.text().startswith(f"{errors} errors, ")
-    assert f"{errors} errors" in wrong.file_status.text()
+    assert wrong.status.counts["error"].text() == str(errors)
     assert not model.index(0, 0).data(Qt.ItemDataRole.DecorationRole).isNull()
 
 

@@ -237,7 +237,7 @@ def test_a_kept_layout_that_leaves_no_room_for_the_table_is_not_used(open_window
     window.close()
 
     again: MainWindow = MainWindow()
-    again.resize(960, 600)
+    again.resize(1200, 640)
     again.show()
     again.files.open_path(path)
     QApplication.processEvents()

@@ -33,7 +33,7 @@ def test_the_switch_changes_the_display_and_no_value(window: MainWindow, workspa
 
     assert window.table.index_of(EXCESS).data() == "0.433070866 in"
     assert workspace.file.values == before
-    assert "inch" in window.file_status.text()
+    assert "inch" in window.status.file.text()
     assert [a.isChecked() for a in window.view.units_menu.actions()] == [False, True]
     window.view.switch.trigger()
     assert window.table.index_of(EXCESS).data() == "11 mm"
@@ -73,7 +73,7 @@ def test_as_entered_a_bare_number_stays_in_the_unit_it_is_shown_in(
     assert window.edits.commit(home_speed, "12")
 
     assert workspace.file.get(home_speed) == Value(12.0, "in/min")
-    assert "as entered" in window.file_status.text()
+    assert "as entered" in window.status.file.text()
 
 
 def test_a_value_in_its_own_unit_loses_no_digit(table: ParameterTable, workspace: Workspace) -> None:

@@ -179,6 +179,8 @@ class Family(Model):
     """Units that the program does not know by itself. First, because all that follows may use them."""
     family: Key
     name: str
+    short: str = ""
+    """A name that a tab has room for; empty for the whole name."""
     document: str
     title: str
     applications: tuple[str, ...] = ()

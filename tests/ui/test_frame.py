@@ -1,0 +1,136 @@
+"""The frame of the window: tool bar, tabs, status bar, and what a small window does with its panels."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QDockWidget
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import content_of, new_file
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.segment import Segment
+from amp_studio.ui.tab_end import TabEnd
+
+EXCESS = ("servo.excess_error", "1")
+
+
+def shown(window: MainWindow, width: int, height: int) -> None:
+    """Give the window a size and let everything find its place."""
+    window.resize(width, height)
+    QApplication.processEvents()
+
+
+def test_a_narrow_window_has_the_parameter_beside_the_findings(window: MainWindow) -> None:
+    shown(window, 1024, 700)
+    assert not window.findChild(QDockWidget, "Parameter").isVisible()
+    assert window.findings.isVisible()
+    assert window.table_view.width() > 700
+    window.docks.chooser.buttons["Parameter"].click()
+    assert window.detail.isVisible()
+    assert not window.findings.isVisible()
+    window.show_panel("Findings")
+    assert window.findings.isVisible()
+
+    shown(window, 1300, 700)
+    assert window.findChild(QDockWidget, "Parameter").isVisible()
+    assert window.detail.isVisible()
+    assert window.findings.isVisible()
+    assert not window.docks.chooser.isVisible()
+
+
+def test_a_key_shows_the_parameter_also_in_a_narrow_window(window: MainWindow) -> None:
+    shown(window, 1024, 700)
+    window.show_panel("Parameter")
+    assert window.detail.isVisible()
+
+
+def test_a_very_narrow_window_keeps_its_table_and_shows_the_left_on_demand(window: MainWindow) -> None:
+    shown(window, 800, 640)
+    assert not window.groups.isVisible()
+    assert window.table_view.width() > 700
+    window.show_panel("Groups")
+    assert window.groups.isVisible()
+
+
+def test_a_low_window_folds_the_findings_to_their_head(window: MainWindow) -> None:
+    shown(window, 1300, 600)
+    assert not window.findings.isVisible()
+    assert window.table_view.height() > 300
+    window.show_panel("Findings")
+    assert window.findings.isVisible()
+    shown(window, 1300, 700)
+    assert window.findings.isVisible()
+
+
+def test_a_panel_that_was_closed_by_hand_stays_closed_when_the_window_grows(window: MainWindow) -> None:
+    window.findChild(QDockWidget, "Parameter").close()
+    shown(window, 1024, 700)
+    shown(window, 1300, 700)
+    assert not window.findChild(QDockWidget, "Parameter").isVisible()
+
+
+def test_tools_have_words_only_where_there_is_room(window: MainWindow) -> None:
+    styles = Qt.ToolButtonStyle
+    assert window.tools.toolButtonStyle() == styles.ToolButtonTextBesideIcon
+    shown(window, 1024, 700)
+    assert window.tools.toolButtonStyle() == styles.ToolButtonIconOnly
+
+
+def test_the_segment_of_units_shows_and_switches_them(window: MainWindow) -> None:
+    units = window.tools.units
+    assert [button.text() for button in units.buttons.values()] == ["mm", "inch"]
+    assert units.choice == "metric"
+    units.buttons["inch"].click()
+    assert window.workspace.file.header.units == "inch"
+    window.view.switch.trigger()
+    assert units.choice == "metric"
+    window.view.as_entered.trigger()
+    assert units.choice is None
+
+
+def test_a_tab_has_the_family_and_a_dot_while_there_is_unsaved_work(window: MainWindow) -> None:
+    bar = window.tabs.sides[0].tabBar()
+    end = bar.tabButton(0, bar.ButtonPosition.RightSide)
+    assert isinstance(end, TabEnd)
+    assert (bar.tabText(0), end.dot.isVisible()) == ("mill", False)
+    window.edits.commit(EXCESS, "3 mm")
+    assert end.dot.isVisible()
+    assert bar.accessibleTabName(0) == "mill.amp, not saved"
+    window.edits.undo.trigger()
+    assert not end.dot.isVisible()
+
+
+def test_the_cross_on_a_tab_closes_its_file(window: MainWindow) -> None:
+    bar = window.tabs.sides[0].tabBar()
+    bar.tabButton(0, bar.ButtonPosition.RightSide).close_clicked.emit()
+    assert window.page is None
+
+
+def test_values_that_are_not_set_are_a_state_of_the_file_and_no_findings(open_window, path: Path) -> None:
+    path.write_bytes(content_of(new_file("num", "cnc", [], "bare")))
+    window = open_window(path)
+    assert window.status.not_set.text() == "921 not set"
+    assert not window.status.counts["advice"].isVisible()
+    assert window.workspace.count("advice") == 0
+
+
+def test_unsaved_changes_are_counted(window: MainWindow) -> None:
+    assert not window.status.changes.isVisible()
+    window.edits.commit(EXCESS, "3 mm")
+    window.edits.commit(("servo.excess_error", "2"), "3 mm")
+    assert window.status.changes.text().startswith("2 unsaved")
+
+
+def test_a_segment_speaks_only_when_a_person_presses(qtbot: QtBot) -> None:
+    segment = Segment("Side", [("a", "A", ""), ("b", "B", "")])
+    qtbot.addWidget(segment)
+    heard: list[str] = []
+    segment.chosen.connect(heard.append)
+    segment.show_choice("b")
+    assert (segment.choice, heard) == ("b", [])
+    segment.buttons["a"].click()
+    assert (segment.choice, heard) == ("a", ["a"])
+    segment.buttons["a"].click()
+    assert segment.choice == "a"
