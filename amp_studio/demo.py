@@ -75,7 +75,7 @@ def _in_terminal() -> int:
         f"validated: {', '.join(counted(count, severity) for severity, count in counts.items())}",
     )
     report = folder / f"{path.stem}.pdf"
-    write_report(file, report, sort="group", changed_only=False, source=path)
+    write_report(file, report, source=path)
     _print_step(3, f"printed {report} ({report.stat().st_size // 1024} KiB)")
     control = _start_control(folder / "control", file.schema.family.family, file.machine)
     try:

@@ -33,7 +33,7 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     yield from peers.measures(full, times)
     yield from _saves(folder, full, times)
     file, pdf = open_file(full).file, folder / "warm.pdf"
-    print_it = timed(lambda: write_report(file, pdf, sort="group", changed_only=False, source=full), times)
+    print_it = timed(lambda: write_report(file, pdf, source=full), times)
     yield Measure("report to PDF", print_it)
     mill = open_file(example).file
     yield Measure(

@@ -34,7 +34,7 @@ _USUAL = {
     "axis": "axis by its letter or number (default: the first)",
     "output": "file to write",
     "sort": "order of the values (default: group)",
-    "changed-only": "only values that differ from the default",
+    "changed-only": "only values that differ from the printed default, or have none",
     "listen": "where the control is reached",
     "to": "where the control is reached",
     "source": "where the control is reached",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from amp_studio.files import open_file, real_path
-from amp_studio.report import write_report
+from amp_studio.report import Contents, write_report
 from amp_studio.validate import RULES_FILE, rules_beside
 
 from .console import note
@@ -20,11 +20,9 @@ def report_verb(options: argparse.Namespace) -> int:
     write_report(
         file,
         options.output,
-        sort=options.sort,
-        changed_only=options.changed_only,
+        Contents(options.sort, options.changed_only, options.inactive, options.units),
         source=options.path,
         own=own,
-        secrets=options.secrets,
         notify=note,
     )
     print(options.output)

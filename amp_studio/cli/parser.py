@@ -200,7 +200,13 @@ def _documents(verbs: Verbs) -> None:
     sub.add_argument("-o", "--output", type=path_of, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
     sub.add_argument("--changed-only", action="store_true")
-    secrets_option(sub)
+    sub.add_argument("--inactive", action="store_true", help="also what the control ignores on this machine")
+    sub.add_argument(
+        "--units",
+        choices=("file", "metric", "inch", "both"),
+        default="file",
+        help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
+    )
     sub = verbs.add(
         "sheet",
         "sheet",

@@ -46,6 +46,16 @@ class ProjectInfo:
     """The name the control goes by (``CNC_1``)."""
     revision: str = ""
     """Control software revision."""
+    builder: str = ""
+    """Who built the machine."""
+    serial_number: str = ""
+    """Serial number of the machine."""
+    built: str = ""
+    """When it was built or commissioned."""
+    options: str = ""
+    """Options of the machine and its control."""
+    people: str = ""
+    """Who set it up, who answers for it."""
     notes: str = ""
     extra: dict[str, Any] = field(default_factory=dict, compare=False)
 

@@ -1,7 +1,7 @@
 """Printed documentation, and parameters and findings as text and JSON.
 
 ``write_report`` prints a parameter file as PDF, HTML, CSV or text, in one of
-one of three orders; ``build_report`` returns the same as plain data.
+three orders; ``build_report`` returns the same as plain data.
 
 What is named here is loaded when it is first asked for: most verbs print findings, and no report.
 """
@@ -15,17 +15,20 @@ if TYPE_CHECKING:
     from .finding_lines import finding_json, finding_text, suppressed_text
     from .findings import alike, same_finding_text
     from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
-    from .model import SORTS, Report, Sort
+    from .model import SORTS, UNIT_CHOICES, Contents, Report, Sort, UnitChoice
     from .printed_table import cells_of, table_lines, tables_of
     from .why import why_parts, why_text
     from .wording import counted
     from .write import FORMATS, write_report
 
 _PLACES = {
+    "Contents": "model",
     "FORMATS": "write",
     "Report": "model",
     "SORTS": "model",
     "Sort": "model",
+    "UNIT_CHOICES": "model",
+    "UnitChoice": "model",
     "alike": "findings",
     "build_report": "build",
     "cells_of": "printed_table",
@@ -60,8 +63,11 @@ def __getattr__(name: str) -> Any:
 __all__ = [
     "FORMATS",
     "SORTS",
+    "UNIT_CHOICES",
+    "Contents",
     "Report",
     "Sort",
+    "UnitChoice",
     "alike",
     "build_report",
     "cells_of",

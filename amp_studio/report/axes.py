@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.files import ParameterFile, axis_instances, axis_letter, shown_axes
+from amp_studio.files import ParameterFile, axis_instances, axis_kind, axis_letter, other_use, shown_axes
 from amp_studio.schema import Address
 
 
@@ -18,15 +18,15 @@ def scope_of(file: ParameterFile, address: Address) -> str:
 
 
 def axis_label(file: ParameterFile, axis: str) -> str:
-    """Return ``Axis 1 X``."""
-    return f"{file.schema.family.scopes['axis'].label.format(i=axis)} {_other_letter(file, axis)}".rstrip()
+    """Return ``X``; ``X (axis 1)`` where several printed axes have that letter, ``Axis 1`` without a letter."""
+    letter, label = axis_letter(file, axis), file.schema.family.scopes["axis"].label.format(i=axis)
+    if not letter:
+        return label
+    letters = [axis_letter(file, other) for other in printed_axes(file)]
+    return letter if letters.count(letter) <= 1 else f"{letter} ({label.lower()})"
 
 
-def axis_column(file: ParameterFile, axis: str) -> str:
-    """Return ``1 X``, or ``X`` where axes are known by their letters."""
-    return f"{axis} {_other_letter(file, axis)}".rstrip()
-
-
-def _other_letter(file: ParameterFile, axis: str) -> str:
-    letter = axis_letter(file, axis)
-    return letter if letter != axis else ""
+def axis_note(file: ParameterFile, axis: str) -> str:
+    """Return what is beside the letter of an axis: ``1 linear``; its number only where that is not its name."""
+    number = axis if axis_letter(file, axis) not in ("", axis) else ""
+    return f"{number} {other_use(file, axis) or axis_kind(file, axis)}".strip()

@@ -12,6 +12,7 @@ from amp_studio import __version__
 from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
+    ProjectInfo,
     axis_instances,
     axis_kind,
     axis_letter,
@@ -20,39 +21,39 @@ from amp_studio.files import (
     open_file,
     without_secrets,
 )
-from amp_studio.schema import Address, label_of
+from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
 from .axes import printed_axes, scope_of
 from .findings import joined_places, notes_of, suppressed_notes
-from .model import SORTS, Report, ReportRow, Sort
+from .manual_page import help_parts
+from .model import SORTS, UNIT_CHOICES, Contents, Report, ReportRow
 from .rows import Rows, row_of, rows_of
-from .sections import number_span, sections_of
+from .sections import numbers_of, sections_of
 from .wording import counted
 
 _SHORT = 16
-"""Number of digits of a checksum that are printed."""
+"""Digits of a schema's signature that are printed."""
 
 
 def build_report(
     file: ParameterFile,
+    contents: Contents | None = None,
     *,
-    sort: Sort = "group",
-    changed_only: bool = False,
     source: Path | None = None,
+    project: ProjectInfo | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    secrets: bool = False,
 ) -> Report:
-    """Return the report of a file as it is in memory; secrets are masked unless ``secrets`` is true.
+    """Return the report of a file as it is in memory; secrets are masked.
 
-    ``source`` is its path on disk; ``date`` is printed, the present time if left
-    out. Raises ValueError for an unknown order.
+    ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed, the present
+    time if left out.
     """
-    if sort not in SORTS:
-        raise ValueError(f"Unknown order '{sort}'. Known: {', '.join(SORTS)}")
-    found = rows_of(file, secrets=secrets)
-    printed = tuple(r for r in found.rows if r.is_changed) if changed_only else found.rows
+    contents = contents or Contents()
+    found = rows_of(file, contents.units)
+    printed = tuple(row for row in found.rows if _is_wanted(row, contents))
+    anchors = {row.anchor for row in printed}
     validator = Validator(file, own)
     findings = validator.run()
     heads, axes = _axes(file, found.rows, findings)
@@ -64,56 +65,78 @@ def build_report(
         file_name=name,
         date=date or datetime.now().astimezone(),
         program=f"AMP Studio {__version__}",
-        order=SORTS[sort],
-        changed_only=changed_only,
-        facts=tuple(_facts(file, source, sort, changed_only, secrets)),
-        counts=tuple(_counts(file, found, findings)),
+        contents=contents,
+        machine=tuple(_machine(file, project)),
+        facts=tuple(_facts(file, source, contents)),
+        counts=tuple(_counts(file, found, len(printed), findings)),
         remarks=file.header.notes.strip(),
         axis_heads=heads,
         axes=axes,
-        notes=notes_of(file, findings, {r.anchor for r in printed})
-        + suppressed_notes(file, validator.suppressed, {r.anchor for r in printed}),
-        forced=_forced(file, found.rows, secrets),
+        notes=notes_of(file, findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),
+        forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
-        sections=sections_of(file, printed, sort),
+        sections=sections_of(file, printed, contents.sort),
+        help={i: tuple(_help(file.schema, i)) for i in dict.fromkeys(row.id for row in printed)},
     )
+
+
+def _is_wanted(row: ReportRow, contents: Contents) -> bool:
+    """Return whether a value is printed; one that was forced is in every report."""
+    if row.forced:
+        return True
+    is_wanted = contents.inactive or row.state == "in-force"
+    return is_wanted and (not contents.changed_only or row.is_changed or row.no_default)
+
+
+def _help(schema: Schema, parameter_id: str) -> Iterator[tuple[str, str]]:
+    parameter = schema.parameters[parameter_id]
+    yield from help_parts(schema, parameter)
+    yield "Manual", f"page {parameter.page}"
 
 
 # -- facts ---------------------------------------------------------------------
 
 
-def _facts(
-    file: ParameterFile, source: Path | None, sort: Sort, changed_only: bool, secrets: bool
-) -> list[tuple[str, str]]:
+def _machine(file: ParameterFile, project: ProjectInfo | None) -> list[tuple[str, str]]:
     family, header = file.schema.family, file.header
     machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
     facts = [
-        ("Machine", header.name),
-        ("Control family", family.name),
-        ("Application", header.application),
+        ("Machine", header.name or (project.name if project else "")),
+        ("Builder", project.builder if project else ""),
+        ("Serial number", project.serial_number if project else ""),
+        ("Built", project.built if project else ""),
         ("Machine type", machine),
-        ("Control software revision", header.revision),
-        ("Unit system", header.units),
+        ("Application", header.application or (project.application if project else "")),
+        ("Control family", family.name),
+        ("Control", project.control_name if project else ""),
+        ("Control software revision", header.revision or (project.revision if project else "")),
+        ("Options", project.options if project else ""),
+        ("People", project.people if project else ""),
     ]
     if family.fits_axes:
         facts.append(("Axes", f"{len(fitted_axes(file))} of {len(axis_instances(file))} fitted"))
-    facts += [
-        ("File", str(source) if source else ""),
-        _checksum(file, source, secrets),
+    return [(title, text.strip() or "–") for title, text in facts]
+
+
+def _facts(file: ParameterFile, source: Path | None, contents: Contents) -> list[tuple[str, str]]:
+    units = file.header.units if contents.units == "file" else UNIT_CHOICES[contents.units]
+    return [
+        ("File", str(source) if source else "not saved yet"),
+        _checksum(file, source),
         ("Schema signature", _signature(file)),
-        ("Order", SORTS[sort]),
-        ("Contents", "only what differs from the printed default" if changed_only else "all parameters"),
+        ("Unit system", units),
+        ("Order", SORTS[contents.sort]),
+        ("Contents", contents.text),
     ]
-    return [(title, text or "–") for title, text in facts]
 
 
-def _checksum(file: ParameterFile, source: Path | None, secrets: bool) -> tuple[str, str]:
-    """Return title and short checksum of the file on disk, with a note where its values differ from the report.
+def _checksum(file: ParameterFile, source: Path | None) -> tuple[str, str]:
+    """Return title and checksum of the file on disk, with a note where its values differ from the report.
 
-    With the report, somebody could try all passwords against a checksum, so it excludes secrets that are not printed.
+    With the report, somebody could try all passwords against a checksum, so it excludes secrets.
     """
     title = "SHA-256 of the file"
-    if not secrets and without_secrets(file) is not file:
+    if without_secrets(file) is not file:
         title, file = "SHA-256 without the secret values", without_secrets(file)
     if source is None:
         return title, _digest(file) + " (not saved yet)"
@@ -121,15 +144,15 @@ def _checksum(file: ParameterFile, source: Path | None, secrets: bool) -> tuple[
         opened = open_file(source)
     except ParameterFileError:
         return title, "the file on disk cannot be read"
-    on_disk = opened.file if secrets else without_secrets(opened.file)
-    digest = opened.digest[:_SHORT] if on_disk is opened.file else _digest(on_disk)
+    on_disk = without_secrets(opened.file)
+    digest = opened.digest if on_disk is opened.file else _digest(on_disk)
     if on_disk.values != file.values:
         return title, digest + " – but this report contains unsaved changes"
     return title, digest
 
 
 def _digest(file: ParameterFile) -> str:
-    return hashlib.sha256(content_of(file)).hexdigest()[:_SHORT]
+    return hashlib.sha256(content_of(file)).hexdigest()
 
 
 def _signature(file: ParameterFile) -> str:
@@ -137,13 +160,17 @@ def _signature(file: ParameterFile) -> str:
     return f"{own} (the file was written under {written})" if written and written != own else own
 
 
-def _counts(file: ParameterFile, found: Rows, findings: Sequence[Finding]) -> list[tuple[str, str]]:
+def _counts(
+    file: ParameterFile, found: Rows, printed: int, findings: Sequence[Finding]
+) -> list[tuple[str, str]]:
     rows = found.rows
     severities = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(findings, s))]
     counts = [
         ("Findings", ", ".join(severities) or "none"),
         ("Values", str(len(rows))),
+        ("Printed here", str(printed)),
         ("Differ from the default", str(sum(r.is_changed for r in rows))),
+        ("Set, no default printed", str(sum(r.no_default for r in rows))),
         ("Forced out of range", str(len(file.forced))),
         ("Not set", str(sum(_is_missing(r) for r in rows))),
         ("Ignored by the control", str(sum(r.state == "ignored" for r in rows))),
@@ -161,11 +188,11 @@ def _severity(findings: Sequence[Finding], severity: str) -> int:
     return sum(f.severity == severity for f in findings)
 
 
-def _forced(file: ParameterFile, rows: Sequence[ReportRow], secrets: bool) -> tuple[ReportRow, ...]:
+def _forced(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[ReportRow, ...]:
     """Return all forced values, also those that are not printed otherwise."""
     printed = {(r.id, r.instance): r for r in rows}
     forced = (a for a in file.addresses() if a in file.forced)
-    return tuple(printed.get(a) or row_of(file, a, secrets=secrets) for a in forced)
+    return tuple(printed.get(a) or row_of(file, a) for a in forced)
 
 
 def _is_missing(row: ReportRow) -> bool:
@@ -177,7 +204,7 @@ def _not_set(rows: Sequence[ReportRow]) -> Iterator[tuple[str, str, str]]:
     for _, members in groupby((r for r in rows if _is_missing(r)), key=lambda r: r.id):
         own = list(members)
         places = [r.place or "Control" for r in own] if any(r.place for r in own) else []
-        yield number_span(own), own[0].name, joined_places(places)
+        yield numbers_of(own), own[0].name, joined_places(places)
 
 
 # -- axes ----------------------------------------------------------------------

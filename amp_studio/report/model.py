@@ -23,8 +23,19 @@ SORTS: dict[Sort, str] = {
     "group": "by group",
 }
 
+UnitChoice = Literal["file", "metric", "inch", "both"]
+"""The units of a report: those of the file, one system, or the file's with the other system's beside them."""
+
+UNIT_CHOICES: dict[UnitChoice, str] = {
+    "file": "as in the file",
+    "metric": "metric",
+    "inch": "inch",
+    "both": "those of the file, with the other system's below",
+}
+
 MARKS: dict[str, str] = {
-    "*": "differs from the printed default, or none is printed",
+    "*": "differs from the printed default",
+    "n": "set, and no default is printed",
     "!": "forced: set out of range on purpose",
     "i": "ignored by the control on this machine; the reason is below the table",
     "u": "not available: another setting excludes it; the reason is below the table",
@@ -32,6 +43,30 @@ MARKS: dict[str, str] = {
 
 
 _MANY_AXES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What a report contains, and how."""
+
+    sort: Sort = "group"
+    changed_only: bool = False
+    """Only what is set and differs from the printed default, or has none."""
+    inactive: bool = False
+    """Also what the control ignores or cannot use on this machine."""
+    units: UnitChoice = "file"
+
+    def __post_init__(self) -> None:
+        if self.sort not in SORTS:
+            raise ValueError(f"Unknown order '{self.sort}'. Known: {', '.join(SORTS)}")
+        if self.units not in UNIT_CHOICES:
+            raise ValueError(f"Unknown units '{self.units}'. Known: {', '.join(UNIT_CHOICES)}")
+
+    @property
+    def text(self) -> str:
+        """The choice in words."""
+        which = "active parameters" if not self.inactive else "all parameters"
+        return f"{which} that differ from the printed default or have none" if self.changed_only else which
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +83,27 @@ class ReportRow:
     """``Axis 1 X``; empty for a value of the whole control."""
     is_set: bool
     value: str
-    """Label or number without its unit; empty when not set."""
+    """Label, or number without its unit to the last digit, as in the file; empty when not set."""
     unit: str
-    """In the spelling of the database (``mm/s2``)."""
+    """Of ``value`` and ``plain_default``, in the spelling of the database (``mm/s2``)."""
+    figure: str
+    """Label, or number without its unit, as printed: in the one unit that a report has for the parameter; ``≈`` when rounded."""
     shown_unit: str
-    """In the printed spelling (``mm/s²``)."""
+    """Of ``figure`` and ``default``, in the printed spelling (``mm/s²``)."""
+    also: str
+    """Number and unit in the other unit system; empty unless the report prints both."""
+    entered: str
+    """Value and unit as in the file, where ``figure`` is rounded."""
     detail: str
     """The meaning of the set bits of a packed word; empty for all others."""
     default: str
-    """The printed default; with its unit if that differs from the unit of the value."""
+    """The printed default in ``shown_unit``; with its own unit where it cannot be given in that."""
     plain_default: str
-    """The default as a number in the unit of the value, for calculations in a spreadsheet."""
+    """The default as a number in ``unit``, for calculations in a spreadsheet."""
     is_changed: bool
     """Whether a value is set and differs from the printed default."""
+    no_default: bool
+    """Whether a value is set and the manual prints no default for it."""
     state: ParameterState
     why: str
     """Why it is inactive; empty when it is active."""
@@ -82,25 +125,32 @@ class ReportRow:
     @property
     def other_marks(self) -> str:
         """Its marks without ``*``, for a format that shows a change by colour."""
-        return ("!" if self.forced else "") + self.state_mark
+        return ("n" if self.no_default else "") + ("!" if self.forced else "") + self.state_mark
 
     @property
     def text(self) -> str:
         """Value and unit; a dash when it is not set."""
-        if not self.value:
+        if not self.figure:
             return self.bare_text
-        return f"{self.value}{'' if self.shown_unit == '°' else ' '}{self.shown_unit}".rstrip()
+        return f"{self.figure}{'' if self.shown_unit == '°' else ' '}{self.shown_unit}".rstrip()
 
     @property
     def bare_text(self) -> str:
         """Value without its unit; a dash when it is not set."""
-        return self.value or ("(empty)" if self.is_set else "—")
+        return self.figure or ("(empty)" if self.is_set else "—")
+
+    @property
+    def small_print(self) -> str:
+        """The text below the value: the other unit system, the unit of entry, the bits of a word."""
+        entered = f"in the file {self.entered}" if self.entered else ""
+        return "; ".join(part for part in (self.also, entered, self.detail) if part)
 
 
 @dataclass(frozen=True, slots=True)
 class GridLine:
     """One line of a grid: a parameter across the axes, or a non-axis value that spans all columns."""
 
+    id: str
     number: str
     name: str
     place: str
@@ -137,11 +187,24 @@ class Listing:
 
 
 @dataclass(frozen=True, slots=True)
+class Column:
+    """The head of an axis in a grid: its letter, and what it is (``1 linear``)."""
+
+    name: str
+    kind: str
+
+    @property
+    def text(self) -> str:
+        """Both in one line."""
+        return f"{self.name} {self.kind}".rstrip()
+
+
+@dataclass(frozen=True, slots=True)
 class Grid:
     """A table with one line for each parameter and one column for each axis, as in the editor."""
 
     title: str
-    columns: tuple[str, ...]
+    columns: tuple[Column, ...]
     lines: tuple[GridLine, ...]
 
     @property
@@ -179,9 +242,11 @@ class Report:
     file_name: str
     date: datetime
     program: str
-    order: str
-    changed_only: bool
+    contents: Contents
+    machine: tuple[tuple[str, str], ...]
+    """The facts of the cover about the machine and its control."""
     facts: tuple[tuple[str, str], ...]
+    """The facts of the cover about the file and the document."""
     counts: tuple[tuple[str, str], ...]
     remarks: str
     """The notes kept in the file."""
@@ -192,6 +257,13 @@ class Report:
     not_set: tuple[tuple[str, str, str], ...]
     """(number, parameter, places) of each active parameter without a value."""
     sections: tuple[Section, ...]
+    help: dict[str, tuple[tuple[str, str], ...]]
+    """Id of a printed parameter -> (title, text) of its help and its page."""
+
+    @property
+    def order(self) -> str:
+        """The order in words."""
+        return SORTS[self.contents.sort]
 
     @property
     def when(self) -> str:

@@ -14,18 +14,24 @@ from amp_studio.schema import (
     UnitError,
     Value,
     convert,
+    dimension,
     field_value,
     shown,
     write_value,
 )
 
 from .axes import axis_label, printed_axes, scope_of
-from .model import ReportRow
+from .model import ReportRow, UnitChoice
+
+_EXACT = 9
+"""Most digits of a converted figure that is exact; with more of them it would be the same figure by chance."""
+_ROUNDED = 7
+"""Digits of a converted figure that is not exact."""
 
 
 @dataclass(frozen=True)
 class Rows:
-    """The printed values of a file in the manual's order, and the number of values not printed."""
+    """The values of a file in the manual's order, and the number of values that no report prints."""
 
     rows: tuple[ReportRow, ...]
     hidden: int
@@ -34,11 +40,10 @@ class Rows:
     """Number of values of unfitted axes."""
 
 
-def rows_of(file: ParameterFile, *, secrets: bool = False) -> Rows:
+def rows_of(file: ParameterFile, units: UnitChoice = "file") -> Rows:
     """Return a row for every value; hidden values and those of unfitted axes are only counted.
 
-    Secrets are masked unless ``secrets`` is true. Of optional entries (those of a tool table) only the
-    values that are set are printed.
+    Of optional entries (those of a tool table) there are only rows for the values that are set.
     """
     axes = printed_axes(file)
     rows, hidden, unfitted = [], 0, 0
@@ -49,7 +54,7 @@ def rows_of(file: ParameterFile, *, secrets: bool = False) -> Rows:
         elif (state := file.evaluation.state(address)).state == "hidden":
             hidden += 1
         elif address in file.values or not file.schema.parameters[address[0]].optional:
-            rows.append(row_of(file, address, _state_mark(state, marks), secrets=secrets))
+            rows.append(row_of(file, address, _state_mark(state, marks), units))
     return Rows(tuple(rows), hidden, unfitted)
 
 
@@ -64,36 +69,51 @@ def _state_mark(state: StateInfo, marks: dict[tuple[str, str], str]) -> str:
 
 
 def row_of(
-    file: ParameterFile, address: Address, state_mark: str = "", *, secrets: bool = False
+    file: ParameterFile, address: Address, state_mark: str = "", units: UnitChoice = "file"
 ) -> ReportRow:
     """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive.
 
-    The row of a secret has no default: together with the mark of a change it would reveal the value.
+    Secrets are masked. The row of a secret has no default: together with the mark of a change it would reveal the value.
     """
-    schema, here = file.schema, file.machine_schema
+    schema, here, evaluation = file.schema, file.machine_schema, file.evaluation
     parameter = schema.parameters[address[0]]
-    value, default, state = file.get(address), file.default(address), file.evaluation.state(address)
-    masked = parameter.secret and not secrets
+    value, default, state = file.get(address), file.default(address), evaluation.state(address)
     known = value or default
-    unit = (
-        known.unit if known else "" if parameter.choices else file.evaluation.unit(address, file.header.units)
-    )
+    own_system = file.header.units
+    unit = known.unit if known else "" if parameter.choices else evaluation.unit(address, own_system)
+    system = units if units in ("metric", "inch") else own_system
+    printed_unit = _unit_for(file, address, unit, system)
+    figure = _figure(parameter, value, printed_unit)
+    also = ""
+    if units == "both" and value is not None:
+        other = _unit_for(file, address, unit, "inch" if system == "metric" else "metric")
+        also = "" if other == printed_unit else _with_unit(_figure(parameter, value, other), other)
+    is_rounded = figure.startswith("≈")
+    if parameter.secret:
+        figure, also, is_rounded, default = MASKED if value is not None else "", "", False, None
+    number = "" if here.is_disputed(address[0]) else here.number(address) or ""
     on_axis = scope_of(file, address) == "axis"
+    is_changed = value is not None and not file.is_default(address)
+    has_default = file.default(address) is not None
     return ReportRow(
         id=address[0],
         instance=address[1],
-        number="" if here.is_disputed(address[0]) else here.number(address) or "",
+        number=number,
         name=parameter.name,
         group=schema.group_of[address[0]].name,
         place=axis_label(file, address[1]) if on_axis else here.instance_label(address),
         is_set=value is not None,
-        value=MASKED if masked and value is not None else _bare(parameter, value),
+        value=MASKED if parameter.secret and value is not None else _bare(parameter, value),
         unit=unit,
-        shown_unit=shown(unit),
+        figure=figure,
+        shown_unit=shown(printed_unit),
+        also=also,
+        entered=_with_unit(_bare(parameter, value), unit) if is_rounded else "",
         detail=_bits(parameter, value),
-        default="" if masked else _default(parameter, default, unit),
-        plain_default="" if masked else _bare(parameter, _converted(default, unit)),
-        is_changed=value is not None and not file.is_default(address),
+        default=_default(parameter, default, printed_unit),
+        plain_default=_bare(parameter, _converted(default, unit)),
+        is_changed=is_changed and has_default,
+        no_default=is_changed and not has_default,
         state=state.state,
         why=state.why,
         state_mark=state_mark,
@@ -106,19 +126,43 @@ def _bare(parameter: Parameter, value: Value | None) -> str:
     return "" if value is None else write_value(parameter, Value(value.value))
 
 
+def _unit_for(file: ParameterFile, address: Address, unit: str, system: str) -> str:
+    """Return the unit of entry of a value in a unit system; its own unit where it cannot be given in that."""
+    wanted = file.evaluation.unit(address, system)
+    return wanted if dimension(wanted) == dimension(unit) else unit
+
+
+def _figure(parameter: Parameter, value: Value | None, unit: str) -> str:
+    """Return a value in a unit as printed: exact, or with ``≈`` where it is rounded to seven digits."""
+    other = _converted(value, unit)
+    if other is None or other is value or value is None or isinstance(other.value, (str, bool)):
+        return _bare(parameter, other or value)
+    for digits in range(1, _EXACT + 1):
+        rounded = float(f"{other.value:.{digits}g}")
+        if convert(rounded, unit, value.unit) == value.value:
+            return _bare(parameter, Value(rounded))
+    return f"≈ {_bare(parameter, Value(float(f'{other.value:.{_ROUNDED}g}')))}"
+
+
+def _with_unit(figure: str, unit: str) -> str:
+    return f"{figure}{'' if shown(unit) == '°' else ' '}{shown(unit)}".rstrip()
+
+
 def _default(parameter: Parameter, default: Value | None, unit: str) -> str:
-    """Return the default as printed; with its unit if that is not ``unit``."""
-    if default is None or default.unit == unit:
-        return _bare(parameter, default)
-    return f"{_bare(parameter, default)} {shown(default.unit)}".rstrip()
+    """Return the default as printed; with its own unit where it cannot be given in ``unit``."""
+    if default is None:
+        return ""
+    if _converted(default, unit) is None:
+        return _with_unit(_bare(parameter, default), default.unit)
+    return _figure(parameter, default, unit)
 
 
-def _converted(default: Value | None, unit: str) -> Value | None:
-    """Return a default in another unit; None for a unit of another quantity."""
-    if default is None or isinstance(default.value, (str, bool)) or default.unit == unit:
-        return default
+def _converted(value: Value | None, unit: str) -> Value | None:
+    """Return a value in another unit; None for a unit of another quantity."""
+    if value is None or isinstance(value.value, (str, bool)) or value.unit == unit:
+        return value
     try:
-        return Value(convert(float(default.value), default.unit, unit), unit)
+        return Value(convert(float(value.value), value.unit, unit), unit)
     except UnitError:
         return None
 

@@ -9,8 +9,8 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile
 
-from .axes import axis_column, axis_label, printed_axes, scope_of
-from .model import Grid, GridLine, Listing, ReportRow, Section, Sort
+from .axes import axis_label, axis_note, printed_axes, scope_of
+from .model import Column, Grid, GridLine, Listing, ReportRow, Section, Sort
 
 _WIDEST_GRID = 8
 """Most axes in one grid; further axes get another grid below."""
@@ -53,13 +53,18 @@ def _by_axis(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, .
         own = [r for r in rows if r.instance == axis and _is_axis(file, r)]
         if own:
             sections.append(
-                Section(f"axis-{axis}", axis_label(file, axis), _listings(file, own, by_place=False))
+                Section(f"axis-{axis}", _axis_title(file, axis), _listings(file, own, by_place=False))
             )
     rest = [r for r in rows if not _is_axis(file, r)]
     if rest:
         by_place = any(r.place for r in rest)
         sections.append(Section("no-axis", "Non-axis parameters", _listings(file, rest, by_place)))
     return tuple(sections)
+
+
+def _axis_title(file: ParameterFile, axis: str) -> str:
+    label, note = axis_label(file, axis), axis_note(file, axis)
+    return f"Axis {label} ({note})" if note and "(" not in label else label
 
 
 def _listings(file: ParameterFile, rows: Iterable[ReportRow], by_place: bool) -> tuple[Listing, ...]:
@@ -95,7 +100,7 @@ def _group_parts(file: ParameterFile, title: str, rows: list[ReportRow]) -> list
     for start in range(0, len(axes), _WIDEST_GRID):
         shown = axes[start : start + _WIDEST_GRID]
         lines = tuple(_lines(file, rows, shown, with_others=start == 0))
-        columns = tuple(axis_column(file, axis) for axis in shown)
+        columns = tuple(Column(axis_label(file, axis), axis_note(file, axis)) for axis in shown)
         if lines:
             grids.append(Grid(title, columns, lines))
     return grids
@@ -109,7 +114,8 @@ def _lines(
         if not _is_axis(file, own[0]):
             if with_others:
                 yield from (
-                    GridLine(r.number, r.name, r.place, r.shown_unit, r.default, (r,), True) for r in own
+                    GridLine(r.id, r.number, r.name, r.place, r.shown_unit, r.default, (r,), True)
+                    for r in own
                 )
             continue
         at = {r.instance: r for r in own}
@@ -122,7 +128,8 @@ def _lines(
 def _axis_line(present: list[ReportRow], cells: tuple[ReportRow | None, ...]) -> GridLine:
     defaults = dict.fromkeys(r.default for r in present)
     return GridLine(
-        number=number_span(present),
+        id=present[0].id,
+        number=numbers_of(present),
         name=present[0].name,
         place="",
         shown_unit=_line_unit(present),
@@ -139,7 +146,10 @@ def _line_unit(present: list[ReportRow]) -> str:
     return Counter(straight or units).most_common(1)[0][0]
 
 
-def number_span(rows: Sequence[ReportRow]) -> str:
-    """Return ``1300–5300`` for the values of one parameter."""
-    first, last = rows[0].number, rows[-1].number
-    return first if first == last else f"{first}–{last}"
+def numbers_of(rows: Sequence[ReportRow]) -> str:
+    """Return the numbers of one parameter's values: ``1300``, ``20020, 21020``, ``1300, 2300 … 5300``.
+
+    Never a range: between two of them there are numbers of other parameters.
+    """
+    numbers = list(dict.fromkeys(row.number for row in rows))
+    return ", ".join(numbers) if len(numbers) <= 3 else f"{numbers[0]}, {numbers[1]} … {numbers[-1]}"

@@ -21,6 +21,7 @@ HEADS = (
     "changed",
     "state",
     "forced",
+    "default_printed",
 )
 
 
@@ -38,4 +39,4 @@ def render_csv(report: Report) -> bytes:
 
 def _line(row: ReportRow) -> tuple[str, ...]:
     return (row.number, row.id, row.instance, row.name, row.group, row.value, row.unit, row.plain_default,
-            "yes" if row.is_changed else "no", row.state, row.forced)  # fmt: skip
+            "yes" if row.is_changed else "no", row.state, row.forced, "no" if row.no_default else "yes")  # fmt: skip

@@ -36,6 +36,10 @@ def _lines(report: Report) -> Iterator[str]:
             for mark, why in part.reasons:
                 yield from _wrapped(why, f"  {mark} ")
             yield ""
+    yield from _heading("SIGNATURES")
+    for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
+        yield ""
+        yield f"{label + ' ':_<60}  {'Date ':_<38}"
 
 
 # -- before the values ---------------------------------------------
@@ -48,7 +52,7 @@ def _title(report: Report) -> Iterator[str]:
         + report.when
     )
     yield "=" * WIDTH
-    for title, text in (*report.facts, *report.counts):
+    for title, text in (*report.machine, *report.facts, *report.counts):
         yield from _wrapped(text, f"{title + ' ':.<30} ")
     yield ""
     if report.remarks:
@@ -57,9 +61,6 @@ def _title(report: Report) -> Iterator[str]:
         yield ""
     if report.axes:
         yield from _columns(report.axis_heads, report.axes)
-        yield ""
-    for label in ("Set up by", "Released by"):
-        yield f"{label + ' ':_<60}  {'Date ':_<38}"
         yield ""
     for mark, what in MARKS.items():
         yield from _wrapped(what, f"  {mark} ")
@@ -118,7 +119,9 @@ def _table(rows: Iterable[ReportRow], by_place: bool) -> Iterator[str]:
     for row in rows:
         name = row.name if row.id != before else ""
         value = (
-            row.text + (f" ({row.detail})" if row.detail else "") + (f" [{row.forced}]" if row.forced else "")
+            row.text
+            + (f" ({row.small_print})" if row.small_print else "")
+            + (f" [{row.forced}]" if row.forced else "")
         )
         yield from _beside((row.number or "–", name, row.place, value, row.default, row.marks), widths)
         before = row.id

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import Header, ParameterFile, ProjectInfo, new_file
-from amp_studio.report import Sort
+from amp_studio.report import UNIT_CHOICES, Contents, Sort, UnitChoice
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import show_message
@@ -132,13 +132,7 @@ class FactsDialog(_Form):
 class ReportDialog(_Form):
     """Asks for path, order and content of a report."""
 
-    def __init__(
-        self,
-        path: Path,
-        parent: QWidget | None = None,
-        has_secrets: bool = False,
-        shows_secrets: bool = False,
-    ) -> None:
+    def __init__(self, path: Path, parent: QWidget | None = None) -> None:
         super().__init__("Report", parent)
         self.setMinimumWidth(560)
         self.sort = QComboBox()
@@ -150,9 +144,10 @@ class ReportDialog(_Form):
             self.sort.addItem(name, key)
         self.sort.setCurrentIndex(2)
         self.changed = QCheckBox("Only values that &differ from the default")
-        self.secrets = QCheckBox("Show passwords in &clear text")
-        self.secrets.setToolTip("Passwords are masked when this is off")
-        self.secrets.setChecked(shows_secrets)
+        self.inactive = QCheckBox("Also what the control &ignores on this machine")
+        self.units = QComboBox()
+        for choice, name in UNIT_CHOICES.items():
+            self.units.addItem(name[0].upper() + name[1:], choice)
         self.show_it = QCheckBox("O&pen the report when it is written")
         self.path = QLineEdit(str(path.with_suffix(".pdf").absolute()))
         self.path.setToolTip("The file extension sets the format: .pdf, .html, .csv or .txt")
@@ -165,9 +160,9 @@ class ReportDialog(_Form):
         label = QLabel("&File (.pdf .html .csv .txt)")
         label.setBuddy(self.path)
         self.form.addRow("&Order", self.sort)
+        self.form.addRow("&Units", self.units)
         self.form.addRow("", self.changed)
-        if has_secrets:
-            self.form.addRow("", self.secrets)
+        self.form.addRow("", self.inactive)
         self.form.addRow(label, row)
         self.form.addRow("", self.show_it)
         self.add_buttons()
@@ -181,10 +176,15 @@ class ReportDialog(_Form):
                 text if path.suffix else str(path.with_suffix(chosen[chosen.index("*") + 1 : -1]))
             )
 
-    def chosen(self) -> tuple[Path, Sort, bool, bool]:
-        """Return path, order, whether only changed values are printed, and whether to open the report."""
-        sort = cast(Sort, self.sort.currentData())
-        return Path(self.path.text().strip()), sort, self.changed.isChecked(), self.show_it.isChecked()
+    @property
+    def output(self) -> Path:
+        """The file to write."""
+        return Path(self.path.text().strip())
+
+    def contents(self) -> Contents:
+        """Return what the report contains, and how."""
+        sort, units = cast(Sort, self.sort.currentData()), cast(UnitChoice, self.units.currentData())
+        return Contents(sort, self.changed.isChecked(), self.inactive.isChecked(), units)
 
 
 class ProjectDialog(_Form):

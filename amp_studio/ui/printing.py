@@ -7,7 +7,7 @@ import threading
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 
-from amp_studio.files import check_output, secret_values
+from amp_studio.files import check_output
 
 from .file_dialogs import ReportDialog
 from .studio_window import StudioWindow
@@ -17,16 +17,10 @@ from .workspace import Workspace
 
 def print_report(window: StudioWindow, workspace: Workspace) -> None:
     """Print a file as PDF, HTML, CSV or text; nothing where the dialog is cancelled."""
-    dialog = ReportDialog(
-        workspace.path,
-        window,
-        has_secrets=bool(secret_values(workspace.file)),
-        shows_secrets=workspace.secrets,
-    )
+    dialog = ReportDialog(workspace.path, window)
     if not dialog.exec():
         return
-    path, sort, changed_only, show = dialog.chosen()
-    secrets = dialog.secrets.isChecked()
+    path, contents, show = dialog.output, dialog.contents(), dialog.show_it.isChecked()
     check_output(path, workspace.path)
     file = workspace.file.copy()
     notes: list[str] = []
@@ -37,11 +31,9 @@ def print_report(window: StudioWindow, workspace: Workspace) -> None:
         write_report(
             file,
             path,
-            sort=sort,
-            changed_only=changed_only,
+            contents,
             source=workspace.path,
             own=workspace.validator.own,
-            secrets=secrets,
             notify=notes.append,
         )
 

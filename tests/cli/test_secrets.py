@@ -102,8 +102,6 @@ def test_no_report_prints_a_secret(machine: Path, amp, tmp_path: Path, ending: s
         assert amp("report", machine, "-o", report, "--sort", sort, *changed).code == 0
         assert SECRET not in text_of(report)
         assert "secret" in text_of(report)
-    assert amp("report", machine, "-o", tmp_path / f"clear{ending}", "--sort", sort, "--secrets").code == 0
-    assert SECRET in text_of(tmp_path / f"clear{ending}")
 
 
 def text_of(report: Path) -> str:
@@ -117,8 +115,7 @@ def text_of(report: Path) -> str:
     from amp_studio.report import build_report
     from amp_studio.report.pdf import typst_source
 
-    clear = report.stem == "clear"
-    return typst_source(build_report(open_file(report.with_name("machine.amp")).file, secrets=clear))
+    return typst_source(build_report(open_file(report.with_name("machine.amp")).file))
 
 
 def test_no_export_holds_a_secret_and_what_is_masked_comes_back_as_not_set(

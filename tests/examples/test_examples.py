@@ -158,7 +158,7 @@ def test_a_value_put_back_leaves_the_file_as_it_was(example: Path) -> None:
 
 def test_it_can_be_printed(example: Path, tmp_path: Path) -> None:
     path = tmp_path / "example.pdf"
-    write_report(open_file(example).file, path, sort="group", changed_only=False, source=example)
+    write_report(open_file(example).file, path, source=example)
     assert path.read_bytes().startswith(b"%PDF-")
 
 

@@ -54,10 +54,22 @@ def save_again(path: Path, number: float) -> None:
 
 def test_a_project_is_opened_as_it_was_made(project: Project) -> None:
     info = ProjectInfo(
-        "Bench", "9pc", "Mill/Lathe", "mill", "tcp://10.0.0.2:4000", "CNC_1", "2.30", "hall 4\n# no comment"
+        "Bench",
+        "9pc",
+        "Mill/Lathe",
+        "mill",
+        "tcp://10.0.0.2:4000",
+        "CNC_1",
+        "2.30",
+        "Cincinnati",
+        "A-17",
+        "1996",
+        "5 axes",
+        "J. Fitter",
+        "hall 4\n# no comment",
     )
     project.change(
-        **{key: getattr(info, key) for key in ("application", "control", "control_name", "revision", "notes")}
+        **{key: getattr(info, key) for key in vars(info) if key not in ("name", "family", "machine", "extra")}
     )
     assert info == project.info == Project.open(project.folder).info
     assert [] == project.files() == project.backups()

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file
-from amp_studio.report import write_report
+from amp_studio.report import Contents, write_report
 from amp_studio.report.model import Sort
 from amp_studio.schema import Value
 
@@ -76,7 +76,9 @@ def printed(
     @cache
     def path_of(which: str, sort: Sort) -> Path:
         path = folder / f"{which}-{sort}.pdf"
-        write_report(files[which].copy(), path, sort=sort, source=folder / "mill.amp", date=DATE)
+        write_report(
+            files[which].copy(), path, Contents(sort, inactive=True), source=folder / "mill.amp", date=DATE
+        )
         return path
 
     return path_of

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.report import SORTS, build_report, write_report
+from amp_studio.report import SORTS, Contents, build_report, write_report
 from amp_studio.report.model import Sort
 from amp_studio.report.table_csv import HEADS
 from amp_studio.schema import Value, family_ids, read_value
@@ -30,8 +30,9 @@ def read_back(file: ParameterFile, line: dict[str, str]) -> Value | None:
 @pytest.mark.parametrize("family", family_ids())
 def test_the_values_of_a_new_file_read_back(tmp_path: Path, family: str, sort: Sort) -> None:
     file = new_file(family)
-    write_report(file, tmp_path / "r.csv", sort=sort, secrets=True)
+    write_report(file, tmp_path / "r.csv", Contents(sort, inactive=True))
     lines = table_of(tmp_path / "r.csv")
+    lines = [n for n in lines if not file.schema.parameters[n["id"]].secret]
     assert [file.get((n["id"], n["instance"])) for n in lines] == [read_back(file, n) for n in lines]
 
 
@@ -50,13 +51,13 @@ def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> 
     group = "Home Parameters"
     name = "Home Calibration"
     assert lines["home.calibration", "1"] == (
-        "1300", "home.calibration", "1", name, group, "12.5", "mm", "0", "yes", "in-force", "")  # fmt: skip
+        "1300", "home.calibration", "1", name, group, "12.5", "mm", "0", "yes", "in-force", "", "yes")  # fmt: skip
     assert lines["home.calibration", "2"] == (
-        "2300", "home.calibration", "2", name, group, "-0.1", "in", "0", "yes", "in-force", "")  # fmt: skip
+        "2300", "home.calibration", "2", name, group, "-0.1", "in", "0", "yes", "in-force", "", "yes")  # fmt: skip
     assert lines["home.calibration", "4"] == (
-        "4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "")  # fmt: skip
+        "4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "", "yes")  # fmt: skip
     assert lines["servo.gain_break_point", "1"][5:] == (
-        "999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01")  # fmt: skip
+        "999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01", "yes")  # fmt: skip
     unset = lines["servo.inposition_band", "2"]
     assert unset[5:9] == ("", "mm", "0.0254", "no"), "a value that is not set does not differ from anything"
 
@@ -74,12 +75,12 @@ def test_the_file_is_what_rfc_4180_and_excel_expect(tmp_path: Path, mill: Parame
     content = (tmp_path / "r.csv").read_bytes()
     assert content.startswith(b"\xef\xbb\xbf" + ",".join(HEADS).encode() + b"\r\n")
     assert content.endswith(b"\r\n")
-    assert b'"by ""J, Fitter""\nat night"\r\n' in content
+    assert b'"by ""J, Fitter""\nat night",yes\r\n' in content
     assert all(len(line) == len(HEADS) for line in table_of(tmp_path / "r.csv"))
 
 
 @pytest.mark.parametrize("sort", SORTS)
 def test_every_order_has_the_same_lines(mill: ParameterFile, date: datetime, sort: Sort) -> None:
     by_group = build_report(mill, date=date)
-    ordered = build_report(mill, sort=sort, date=date)
+    ordered = build_report(mill, Contents(sort), date=date)
     assert sorted(r.anchor for r in by_group.rows()) == sorted(r.anchor for r in ordered.rows())

@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.report import SORTS, build_report
+from amp_studio.report import SORTS, Contents, build_report
 from amp_studio.report.model import Sort
 from amp_studio.report.page import render_html
 
@@ -41,7 +41,7 @@ class Reader(HTMLParser):
 
 
 def read(file: ParameterFile, sort: Sort = "group") -> tuple[Reader, str]:
-    page = render_html(build_report(file, sort=sort)).decode()
+    page = render_html(build_report(file, Contents(sort))).decode()
     reader = Reader()
     reader.feed(page)
     return reader, page
@@ -74,4 +74,4 @@ def test_a_text_stays_a_text(mill: ParameterFile) -> None:
 def test_every_value_stands_on_the_page(mill: ParameterFile) -> None:
     reader, _ = read(mill)
     assert {r.anchor for r in build_report(mill).rows()} <= set(reader.ids)
-    assert {"12.5", "-0.1 in", "999999"} <= {t.strip() for t in reader.texts}
+    assert {"12.5", "-2.54", "999999"} <= {t.strip() for t in reader.texts}

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, content_of, digest_of, fitted_axes, new_file, save_file
-from amp_studio.report import SORTS, build_report
+from amp_studio.report import SORTS, Contents, build_report
 from amp_studio.report.model import Grid, Listing, ReportRow, Sort
 from amp_studio.report.sections import number_key
 from amp_studio.schema import Value
@@ -18,12 +18,13 @@ from amp_studio.schema import Value
 def row_with(number: str) -> ReportRow:
     return ReportRow(
         id="a.b", instance="", number=number, name="", group="", place="", is_set=False, value="", unit="", shown_unit="",
+        figure="", also="", entered="", no_default=False,
         detail="", default="", plain_default="", is_changed=False, state="in-force", why="", state_mark="", forced="",
     )  # fmt: skip
 
 
 def rows_by_anchor(file: ParameterFile) -> dict[str, ReportRow]:
-    return {r.anchor: r for r in build_report(file, sort="number").rows()}
+    return {r.anchor: r for r in build_report(file, Contents("number")).rows()}
 
 
 # -- orders --------------------------------------------------------------------
@@ -36,15 +37,15 @@ def test_numbers_are_sorted_as_numbers_and_what_has_none_comes_last() -> None:
 
 
 def test_the_order_by_number_runs_through_all_axes(mill: ParameterFile) -> None:
-    numbers = [int(r.number) for r in build_report(mill, sort="number").rows() if r.number]
+    numbers = [int(r.number) for r in build_report(mill, Contents("number")).rows() if r.number]
     assert all(a <= b for a, b in pairwise(numbers))
-    assert {1300, 2300, 3300, 4300, 5300} <= set(numbers)
+    assert {1300, 2300, 3300, 4300} <= set(numbers)
 
 
 def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: ParameterFile) -> None:
-    sections = build_report(mill, sort="axis").sections
+    sections = build_report(mill, Contents("axis")).sections
     assert [s.title for s in sections] == [
-        "Axis 1 X", "Axis 2 Y", "Axis 3 Z", "Axis 4 B", "Axis 5 S", "Non-axis parameters"]  # fmt: skip
+        "Axis X (1 linear)", "Axis Y (2 linear)", "Axis Z (3 linear)", "Axis B (4 rotary)", "Axis S (5 spindle)", "Non-axis parameters"]  # fmt: skip
     for axis, section in zip("12345", sections[:-1], strict=True):
         assert {r.instance for part in section.parts for r in part.rows} == {axis}
     rest = {(r.id, r.instance) for part in sections[-1].parts for r in part.rows}
@@ -52,17 +53,23 @@ def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: Paramete
 
 
 def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: ParameterFile) -> None:
-    report = build_report(mill, sort="group")
+    report = build_report(mill, Contents("group"))
     groups = list(dict.fromkeys(g.name for g in mill.schema.groups))
     assert [s.title for s in report.sections] == [
         g for g in groups if g in {s.title for s in report.sections}
     ]
     home = next(s for s in report.sections if s.title == "Home Parameters").parts[0]
     assert isinstance(home, Grid)
-    assert home.columns == ("1 X", "2 Y", "3 Z", "4 B", "5 S")
+    assert [c.text for c in home.columns] == [
+        "X 1 linear",
+        "Y 2 linear",
+        "Z 3 linear",
+        "B 4 rotary",
+        "S 5 spindle",
+    ]
     line = next(n for n in home.lines if n.name == "Home Calibration")
-    assert (line.number, line.shown_unit) == ("1300–5300", "mm")
-    assert [line.cell_text(r) if r else None for r in line.cells][:4] == ["12.5", "-0.1 in", "0", "0°"]
+    assert (line.number, line.shown_unit) == ("1300, 2300 … 4300", "mm")
+    assert [line.cell_text(r) if r else None for r in line.cells][:4] == ["12.5", "-2.54", "0", "0°"]
 
 
 def test_the_parts_of_a_long_group_stay_together(mill: ParameterFile) -> None:
@@ -83,7 +90,7 @@ def test_a_value_of_no_axis_spans_the_columns(mill: ParameterFile) -> None:
 
 @pytest.mark.parametrize("sort", SORTS)
 def test_every_existing_value_of_a_fitted_axis_is_printed_once(mill: ParameterFile, sort: Sort) -> None:
-    printed = [(r.id, r.instance) for r in build_report(mill, sort=sort).rows()]
+    printed = [(r.id, r.instance) for r in build_report(mill, Contents(sort, inactive=True)).rows()]
     axes = fitted_axes(mill)
     for parameter, instance in mill.addresses():
         layout = mill.machine_schema.layout(mill.schema.parameters[parameter])
@@ -93,7 +100,7 @@ def test_every_existing_value_of_a_fitted_axis_is_printed_once(mill: ParameterFi
 
 
 def test_what_is_left_out_is_counted(mill: ParameterFile) -> None:
-    report = build_report(mill)
+    report = build_report(mill, Contents(inactive=True))
     counts = dict(report.counts)
     told = sum(int(counts[k]) for k in ("Values", "Hidden, left out", "Of unfitted axes, left out"))
     assert told == len(mill.addresses())
@@ -102,28 +109,29 @@ def test_what_is_left_out_is_counted(mill: ParameterFile) -> None:
 
 @pytest.mark.parametrize("sort", SORTS)
 def test_changed_only_keeps_what_differs_from_the_printed_default(mill: ParameterFile, sort: Sort) -> None:
-    changed = {r.anchor for r in build_report(mill, sort=sort, changed_only=True).rows()}
-    everything = build_report(mill, sort=sort)
-    assert changed == {r.anchor for r in everything.rows() if r.is_changed}
+    changed = {r.anchor for r in build_report(mill, Contents(sort, changed_only=True)).rows()}
+    everything = build_report(mill, Contents(sort))
+    assert changed == {r.anchor for r in everything.rows() if r.is_changed or r.no_default}
     assert {"home.calibration@1", "home.calibration@2", "servo.gain_break_point@1"} <= changed
     assert "home.calibration@3" not in changed
     assert all(
-        part.rows for s in build_report(mill, sort=sort, changed_only=True).sections for part in s.parts
+        part.rows for s in build_report(mill, Contents(sort, changed_only=True)).sections for part in s.parts
     )
 
 
 def test_marks_tell_changed_forced_and_ignored_apart(mill: ParameterFile) -> None:
-    rows = rows_by_anchor(mill)
+    rows = {r.anchor: r for r in build_report(mill, Contents(inactive=True)).rows()}
     assert rows["home.calibration@1"].marks == "*"
     assert rows["home.calibration@3"].marks == ""
     assert rows["servo.gain_break_point@1"].marks == "*!"
     ignored = next(r for r in rows.values() if r.state == "ignored")
     assert ignored.state_mark.startswith("i")
     assert ignored.why
+    assert rows["axis.name@1"].marks == "n", "set, and the manual prints no default for it"
 
 
 def test_each_reason_has_one_number_and_stands_below_its_table(mill: ParameterFile) -> None:
-    report = build_report(mill)
+    report = build_report(mill, Contents(inactive=True))
     reasons = {r.state_mark: r.why for r in report.rows() if r.state_mark}
     assert len(set(reasons.values())) == len(reasons)
     for section in report.sections:
@@ -153,11 +161,11 @@ def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFil
     report = build_report(mill)
     assert [(r.number, r.text, r.forced) for r in report.forced] == [
         ("1730", "999999 mm", "by J. Fitter on 2026-07-01")]  # fmt: skip
-    assert ("2735", "Inposition Band", "Axis 2 Y") in report.not_set
+    assert ("2735", "Inposition Band", "Y") in report.not_set
     about = (("servo.gain_break_point@1", "1730 Gain Break Point"),)
     error = next(n for n in report.severities()["error"] if n.about == about)
     assert error.page == "7-22"
-    assert error.place == "Axis 1 X"
+    assert error.place == "X"
     assert error.fix == "", "nobody can know which value within the range was meant"
     assert "It was forced by J. Fitter on 2026-07-01" in error.message
 
@@ -169,7 +177,7 @@ def test_the_same_sentence_about_several_axes_is_said_once(mill: ParameterFile) 
         mill.set(("home.calibration", axis), Value(1.05e6, "mm"))
     found = [n for n in build_report(mill).notes if n.about and n.about[0][0].startswith("home.calibration")]
     assert [(n.place, n.count, n.fix) for n in found] == [
-        ("Axis 2 Y, 3 Z", 2, "2300, 3300 Home Calibration = 999999.99 mm")]  # fmt: skip
+        ("Y, Z", 2, "2300, 3300 Home Calibration = 999999.99 mm")]  # fmt: skip
     assert found[0].about == (
         ("home.calibration@2", "2300"), ("home.calibration@3", "3300 Home Calibration"))  # fmt: skip
 
@@ -184,9 +192,10 @@ def test_the_facts_name_the_file_and_its_checksum(
 ) -> None:
     path = tmp_path / "mill.amp"
     save_file(mill, path)
-    facts = dict(build_report(mill, source=path, date=date, secrets=True).facts)
+    report = build_report(mill, source=path, date=date)
+    facts = dict(report.machine + report.facts)
     assert facts["File"] == str(path)
-    assert facts["SHA-256 of the file"] == str(digest_of(path))[:16]
+    assert len(facts["SHA-256 without the secret values"]) == 64
     assert facts["Schema signature"] == mill.schema.signature[:16]
     assert facts["Machine type"] == "Mill"
     assert facts["Axes"] == "5 of 8 fitted"
@@ -229,7 +238,7 @@ def test_a_file_without_secrets_has_its_own_checksum(tmp_path: Path, mill: Param
     for instance in "123456":
         mill.set(("password.character", instance), None)
     save_file(mill, path)
-    assert checksum(mill, path) == ("SHA-256 of the file", str(digest_of(path))[:16])
+    assert checksum(mill, path) == ("SHA-256 of the file", str(digest_of(path)))
 
 
 def test_a_file_of_another_schema_is_told(mill: ParameterFile) -> None:

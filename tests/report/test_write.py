@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Header, ParameterFile, SaveError, new_file
-from amp_studio.report import FORMATS, SORTS, write_report
+from amp_studio.report import FORMATS, SORTS, Contents, write_report
 from amp_studio.report.model import Sort
 from amp_studio.schema import Value, family_ids, load_schema
 
@@ -27,7 +27,7 @@ def test_a_new_file_is_printed_in_every_format_and_order(
 ) -> None:
     path = tmp_path / f"report{ending}"
     file = new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"])
-    write_report(file, path, sort=sort, changed_only=changed_only)
+    write_report(file, path, Contents(sort, changed_only))
     assert path.read_bytes().startswith(STARTS[ending])
     assert list(tmp_path.iterdir()) == [path], "nothing else may be left in the folder, not even a backup"
 
@@ -44,7 +44,7 @@ EVERY_FAMILY = [
 @pytest.mark.parametrize(("family", "ending", "sort"), EVERY_FAMILY)
 def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort: Sort) -> None:
     path = tmp_path / f"report{ending}"
-    write_report(new_file(family), path, sort=sort)
+    write_report(new_file(family), path, Contents(sort))
     assert path.read_bytes().startswith(STARTS[ending])
 
 
@@ -52,7 +52,7 @@ def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort:
 def test_a_file_without_a_single_value_is_printed(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"report{ending}"
     for changed_only in (False, True):
-        write_report(ParameterFile(load_schema("9pc"), Header()), path, changed_only=changed_only)
+        write_report(ParameterFile(load_schema("9pc"), Header()), path, Contents(changed_only=changed_only))
         assert path.read_bytes().startswith(STARTS[ending])
 
 
@@ -66,7 +66,7 @@ def test_no_text_of_a_file_is_taken_for_an_order(
     mill.forced[("servo.gain_break_point", "1")] = ODD
     mill.unknown[ODD] = "1"
     path = tmp_path / f"report{ending}"
-    write_report(mill, path, sort=sort, source=tmp_path / ("n" * 120 + "#.amp"))
+    write_report(mill, path, Contents(sort), source=tmp_path / ("n" * 120 + "#.amp"))
     content = path.read_bytes()
     assert content.startswith(STARTS[ending])
     if ending == ".html":
@@ -104,7 +104,7 @@ def test_another_ending_is_refused_in_one_sentence(tmp_path: Path, mill: Paramet
 
 def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
     with pytest.raises(ValueError, match=r"Unknown order 'name'\. Known: axis, number, group"):
-        write_report(mill, tmp_path / "report.txt", sort="name")  # type: ignore[arg-type]
+        write_report(mill, tmp_path / "report.txt", Contents("name"))  # type: ignore[arg-type]
 
 
 def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:

@@ -1,0 +1,134 @@
+"""The web page in a real browser, with real keys: searching, jumping, help, a phone, paper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile
+from amp_studio.report import write_report
+
+from .browser import CHROMIUM, Browser
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory, first_mill: ParameterFile) -> Path:
+    path = tmp_path_factory.mktemp("page") / "mill.html"
+    write_report(first_mill.copy(), path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def browser(page: Path) -> Iterator[Browser]:
+    with Browser(page) as open_browser:
+        yield open_browser
+
+
+@pytest.fixture(autouse=True)
+def reload(browser: Browser, page: Path) -> None:
+    browser.go("about:blank#")
+    browser.value("location.href = 'about:blank'")
+    browser.go(page.as_uri())
+
+
+def found(browser: Browser) -> str:
+    return str(browser.value("document.getElementById('found').textContent"))
+
+
+def row_at(browser: Browser) -> str:
+    return str(browser.value("document.querySelector('.at').textContent"))
+
+
+def test_hits_are_counted_and_enter_jumps_from_one_to_the_next(browser: Browser) -> None:
+    browser.click("#search")
+    browser.type("home calibration")
+    assert found(browser).endswith(" hits")
+    count = int(found(browser).split()[0])
+    assert count > 1
+    browser.press("Enter")
+    assert found(browser) == f"1 of {count}"
+    first = row_at(browser)
+    assert browser.value("document.querySelector('.at mark, .at + .help mark') !== null")
+    assert browser.value(
+        "(r => r.top >= 0 && r.bottom <= innerHeight)(document.querySelector('.at').getBoundingClientRect())"
+    )
+    browser.press("Enter")
+    assert found(browser) == f"2 of {count}"
+    assert row_at(browser) != first
+    browser.press("Enter", shift=True)
+    assert row_at(browser) == first
+    browser.press("Escape")
+    assert found(browser) == ""
+    assert browser.value("document.querySelector('mark')") is None
+
+
+def test_the_text_of_a_help_is_found_and_shown_below_its_row(browser: Browser) -> None:
+    """Lead Screw Thread Pitch: its help has the example of 5 threads per inch (page 7-17)."""
+    browser.click("#search")
+    browser.type("threads per inch")
+    browser.press("Enter")
+    assert "Lead Screw Thread Pitch" in row_at(browser)
+    shown = str(browser.value("document.querySelector('tr.help').textContent"))
+    assert "5 threads per inch" in shown
+    assert "page 7-17" in shown
+
+
+def test_what_is_nowhere_is_told(browser: Browser) -> None:
+    browser.click("#search")
+    browser.type("flux capacitor")
+    assert found(browser) == "no hits"
+    assert browser.value("document.getElementById('next').disabled")
+
+
+def test_only_hits_hides_the_rest_of_the_values(browser: Browser) -> None:
+    every = browser.value(
+        "[...document.querySelectorAll('#values tbody tr')].filter(r => r.offsetParent).length"
+    )
+    browser.click("#only")
+    browser.click("#search")
+    browser.type("1750")
+    shown = browser.value(
+        "[...document.querySelectorAll('#values tbody tr')].filter(r => r.offsetParent).length"
+    )
+    assert 0 < shown < every
+    assert "Excess Error" in browser.value("document.getElementById('values').innerText")
+    assert "Home Calibration" not in browser.value("document.getElementById('values').innerText")
+
+
+def test_a_name_opens_its_help_by_mouse_and_by_keyboard(browser: Browser) -> None:
+    name = "[data-help='home.calibration']"
+    browser.click(name)
+    assert "Home" in browser.value("document.querySelector('tr.help').textContent")
+    browser.value(f'document.querySelector("{name}").focus()')
+    browser.press("Enter")
+    assert browser.value("document.querySelector('tr.help')") is None
+
+
+def test_a_phone_scrolls_the_tables_and_folds_the_contents(page: Path) -> None:
+    with Browser(page, 390, 800) as phone:
+        assert phone.value("document.documentElement.scrollWidth") == 390, (
+            "only the tables are wider than the screen"
+        )
+        assert not phone.value("document.getElementById('menu').open")
+        phone.click("#menu > summary")
+        assert phone.value("document.getElementById('menu').open")
+        phone.click("#menu a[href='#findings']")
+        assert not phone.value("document.getElementById('menu').open"), "a choice closes it"
+        wide = "[...document.querySelectorAll('.wide')].some(w => w.scrollWidth > w.clientWidth)"
+        assert phone.value(wide)
+
+
+def test_on_paper_there_are_neither_menu_nor_buttons(browser: Browser, tmp_path: Path) -> None:
+    printed = browser.pdf()
+    assert printed.startswith(b"%PDF")
+    (tmp_path / "p.pdf").write_bytes(printed)
+    from .test_pdf import poppler, texts_of
+
+    if not poppler.args[0]:
+        text = " ".join(texts_of(tmp_path / "p.pdf"))
+        assert "Home Calibration" in text
+        assert "only hits" not in text
