@@ -28,6 +28,6 @@ def axis_label(file: ParameterFile, axis: str) -> str:
 
 
 def axis_note(file: ParameterFile, axis: str) -> str:
-    """Return what is beside the letter of an axis: ``1 linear``; its number only where that is not its name."""
+    """Return what is beside the letter of an axis: ``1 linear``; without its number if that is its name."""
     number = axis if axis_letter(file, axis) not in ("", axis) else ""
     return f"{number} {other_use(file, axis) or axis_kind(file, axis)}".strip()
