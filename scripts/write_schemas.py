@@ -27,6 +27,7 @@ from amp_studio.schema.model import (
     Guides,
     Messages,
     Model,
+    PictureRoles,
     Rules,
     Suppression,
     Tables,
@@ -56,6 +57,7 @@ FILES: dict[str, type[BaseModel]] = {
     "guides": Guides,
     "messages": Messages,
     "commissioning": Commissioning,
+    "pictures": PictureRoles,
     "units": Units,
     "builder-rules": BuilderRules,
 }

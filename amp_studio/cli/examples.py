@@ -75,6 +75,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio simulate {MILL} step --axis X",
         f"amp-studio simulate {MILL} step --axis X --set move.distance=50 -o trace.csv",
     ),
+    "picture": (
+        f"amp-studio picture {MILL}",
+        f"amp-studio picture {MILL} travel --part X,Y -o travel.svg",
+    ),
     "demo": ("amp-studio demo --terminal",),
     "completion": ("amp-studio completion bash",),
     "man": ("amp-studio man",),

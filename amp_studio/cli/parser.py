@@ -424,6 +424,14 @@ def _motion(verbs: Verbs) -> None:
     sub.add_argument("-o", "--output", type=path_of)
     json_option(sub)
     sub = verbs.add(
+        "picture", "picture", "draw zones, ramps, jog speeds, gears and gains of a file", writes="output"
+    )
+    sub.add_argument("path", type=path_of)
+    sub.add_argument("name", nargs="?", help="the picture; without one the pictures of the file are listed")
+    sub.add_argument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one")
+    sub.add_argument("-o", "--output", type=path_of)
+    json_option(sub)
+    sub = verbs.add(
         "demo",
         "motion",
         "the whole job on the example machine: in the desktop program, or here without a display",

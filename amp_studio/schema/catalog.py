@@ -20,6 +20,7 @@ from .model import (
     Guide,
     Messages,
     Parameter,
+    PictureRoles,
     Rule,
     Table,
 )
@@ -36,6 +37,8 @@ class Schema:
     errata: dict[str, Erratum]
     tables: dict[str, Table]
     guides: tuple[Guide, ...]
+    pictures: PictureRoles
+    """What each picture is drawn from."""
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
     message_lists: tuple[Messages, ...] = ()
@@ -155,6 +158,7 @@ def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
         message_lists=compiled.messages,
         guides=compiled.guides,
         commissioning=compiled.commissioning,
+        pictures=compiled.pictures,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},
         description=description,

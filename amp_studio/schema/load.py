@@ -30,6 +30,7 @@ from .model import (
     Guides,
     Messages,
     Model,
+    PictureRoles,
     Rule,
     Rules,
     Table,
@@ -74,6 +75,7 @@ class Compiled(Model):
     guides: tuple[Guide, ...] = ()
     messages: tuple[Messages, ...] = ()
     commissioning: Commissioning | None = None
+    pictures: PictureRoles = PictureRoles()
 
 
 def family_ids() -> tuple[str, ...]:
@@ -124,6 +126,11 @@ def compile_family(folder: Path) -> Compiled:
     commissioning = _read(order, Commissioning) if order.is_file() else None
     if commissioning and (wrong := next(iter(faults_of_order(commissioning, groups)), None)):
         raise DatabaseError(order, _parsed(order).line(wrong[0]), wrong[1])
+    drawn = folder / "pictures.yaml"
+    pictures = _read(drawn, PictureRoles) if drawn.exists() else PictureRoles()
+    ids = {p.id for group in groups for p in group.parameters}
+    if missing := next((each for each in pictures.params if each not in ids), None):
+        raise DatabaseError(drawn, 1, f"there is no parameter {quoted(missing)}")
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
@@ -143,6 +150,7 @@ def compile_family(folder: Path) -> Compiled:
         guides=guides,
         messages=tuple(messages.values()),
         commissioning=commissioning,
+        pictures=pictures,
     )
 
 

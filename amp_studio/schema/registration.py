@@ -31,6 +31,7 @@ class Registration:
     ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where nobody has named their family
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
+    ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room pictures)
     ``describe``  description of a control -> its schema (``described``), for a family whose controls describe themselves
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
@@ -44,6 +45,7 @@ class Registration:
     recognised: str = ""
     law: str = ""
     sheet: str = ""
+    curve: str = ""
     describe: str = ""
     facts: Path | None = None
 

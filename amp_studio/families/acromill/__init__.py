@@ -22,4 +22,5 @@ REGISTRATION = Registration(
         "terminal": "amp_studio.families.acromill.emulated.card:emulate_terminal",
     },
     law="amp_studio.families.acromill.law:LAW",
+    curve="amp_studio.families.acromill.curve:CURVE",
 )

@@ -113,6 +113,7 @@ class _Maker:
             rules=tuple(r for r in self.known.rules if r.id != AXES_RULE),
             tables=(), guides=self.known.guides, messages=tuple(self._messages()),
             commissioning=self.known.commissioning,
+            pictures=self.known.pictures,
         )  # fmt: skip
         return made_of(compiled, description)
 

@@ -1,0 +1,27 @@
+"""Pictures of a machine's values that can be edited: a scene of shapes in world units with handles, and its drawing as SVG.
+
+Which parameters a picture is drawn from are facts of the family (``pictures.yaml``). A picture draws what is set; what is not
+set, inactive or out of range becomes a note, and nothing is guessed.
+"""
+
+from .draw import FilePicture, draw, pictures_of
+from .record import scene_json
+from .scene import Area, Dot, Drag, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
+from .svg import scene_svg
+
+__all__ = [
+    "Area",
+    "Dot",
+    "Drag",
+    "FilePicture",
+    "Handle",
+    "PictureNote",
+    "Polyline",
+    "Scene",
+    "ShapeSort",
+    "Text",
+    "draw",
+    "pictures_of",
+    "scene_json",
+    "scene_svg",
+]

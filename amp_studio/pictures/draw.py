@@ -1,0 +1,136 @@
+"""Which pictures a file has, and the one of a name and a part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import axis_name
+from amp_studio.schema.model import ParameterId, RampRoles
+
+from .gain import draw_gain
+from .gears import draw_gears, spindles
+from .jog import draw_jog
+from .parts import axes_with, every_axis, pairs
+from .scene import PictureNote, Scene
+from .table import draw_table
+from .travel import draw_travel
+
+PartNames = tuple[tuple[str, str], ...]
+"""Key of a part (axes, a spindle) -> what a person calls it; "" where there is only one."""
+
+
+@dataclass(frozen=True)
+class FilePicture:
+    """One picture that a file has, in each of its parts."""
+
+    file: ParameterFile
+    name: str
+    title: str
+    parts: PartNames
+    drawn: Callable[[str, Scene | None], Scene]
+    axes: int = 0
+    """How many axes make a part."""
+
+    def scene(self, part: str = "", like: Scene | None = None) -> Scene:
+        """Draw a part, the first one by default; raises KeyError for one that there is not.
+
+        ``like`` is what was drawn before a drag began: its scales stay.
+        """
+        scene = self.drawn(self.key(part), like)
+        if scene.handles or scene.notes:
+            return scene
+        return replace(scene, notes=(PictureNote("No parameter of this picture is active on this machine"),))
+
+    def key(self, part: str) -> str:
+        """Return the key of the part that a person calls so, the first one by default; raises KeyError.
+
+        Axes on which nothing is set are drawn when they are asked for.
+        """
+        wanted = part.replace("+", " ").replace(",", " ").upper().split()
+        if not wanted:
+            return self.parts[0][0]
+        for key, name in self.parts:
+            if wanted in (key.upper().split("+"), name.upper().split()):
+                return key
+        letters = {name.upper(): axis for axis, name in _named(self.file, every_axis(self.file))}
+        own = [letters.get(each, each) for each in wanted]
+        if self.axes == len(own) == len(set(own)) and set(own) <= set(letters.values()):
+            return "+".join(own)
+        raise KeyError(
+            f"There is no part '{part}': {', '.join(name or 'one alone' for _, name in self.parts)}"
+        )
+
+
+def pictures_of(file: ParameterFile) -> tuple[FilePicture, ...]:
+    """Return the pictures of a file, those of its family."""
+    return tuple(_pictures(file))
+
+
+def _pictures(file: ParameterFile) -> Iterator[FilePicture]:
+    roles = file.schema.pictures
+    if travel := roles.travel:
+        ends = [p for span in (*travel.spans, *travel.zones) for p in (span.low, span.high)]
+        found = pairs(file, [*ends, *([travel.reach.length] if travel.reach else [])])
+        parts = tuple(("+".join(axes), " ".join(name for _, name in _named(file, axes))) for axes in found)
+        yield FilePicture(file, "travel", "Travel", parts, partial(_travel, file), 2)
+    if ramps := roles.ramps:
+        yield FilePicture(
+            file, "ramps", "Ramps", _own(file, _of_ramps(ramps)), partial(_ramps, file, ramps), 1
+        )
+    if gears := roles.gears:
+        own = tuple((each, each) for each in spindles(file, gears))
+        yield FilePicture(file, "gears", "Gears", own, partial(draw_gears, file, gears))
+    if jog := roles.jog:
+        alone = (("", ""),)
+        yield FilePicture(file, "jog", "Jog", alone, lambda _, like: draw_jog(file, jog, "jog", like))
+        if jog.increments:
+            yield FilePicture(
+                file,
+                "increments",
+                "Increments",
+                alone,
+                lambda _, like: draw_jog(file, jog, "increments", like),
+            )
+    if error := roles.error:
+        own = _own(file, (error.gain, *error.limits))
+        yield FilePicture(file, "error", "Error limits", own, partial(draw_gain, file, error), 1)
+    for table in roles.tables:
+        own = _own(file, (table.param,))
+        yield FilePicture(file, "calibration", "Calibration", own, partial(draw_table, file, table), 1)
+
+
+def _travel(file: ParameterFile, part: str, like: Scene | None) -> Scene:
+    assert file.schema.pictures.travel is not None
+    return draw_travel(file, file.schema.pictures.travel, tuple(part.split("+")), like)
+
+
+def _ramps(file: ParameterFile, roles: RampRoles, part: str, like: Scene | None) -> Scene:
+    from .ramps import draw_ramps  # numpy is loaded when a ramp is drawn
+
+    return draw_ramps(file, roles, part, like)
+
+
+def _of_ramps(roles: RampRoles) -> list[ParameterId]:
+    kinds = [p for kind in roles.kinds for p in (kind.acceleration, *kind.rise) if p]
+    return [roles.feedrate, *kinds]
+
+
+def _own(file: ParameterFile, parameters: Iterable[ParameterId]) -> PartNames:
+    return _named(file, axes_with(file, parameters))
+
+
+def _named(file: ParameterFile, axes: Iterable[str]) -> PartNames:
+    return tuple((axis, axis_name(file.evaluation, axis) or axis) for axis in axes)
+
+
+def draw(file: ParameterFile, name: str, part: str = "") -> Scene:
+    """Draw one picture of a file; raises KeyError for a name or a part that it does not have."""
+    pictures = pictures_of(file)
+    picture = next((each for each in pictures if each.name == name), None)
+    if picture is None:
+        known = ", ".join(each.name for each in pictures) or "none"
+        raise KeyError(f"{file.schema.family.name} has no picture '{name}'. Pictures: {known}")
+    return picture.scene(part)

@@ -1,0 +1,193 @@
+"""Gears of a spindle on a line of speed, with what the control puts out."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema.model import GearRoles
+
+from .figures import DrawnValue, ValueReader
+from .scene import Area, Handle, Polyline, Scale, Scene, Text
+
+
+def spindles(file: ParameterFile, roles: GearRoles) -> tuple[str, ...]:
+    """Return the spindles that have a gear with a value; the first one where none has."""
+    parameter = roles.high or roles.scaling or ""
+    instances = file.machine_schema.instances(file.schema.parameters[parameter])
+    found = dict.fromkeys(i.partition(".")[0] for i in instances if _has_gear(file, parameter, i))
+    return tuple(found) or tuple(dict.fromkeys(i.partition(".")[0] for i in instances))[:1]
+
+
+def _has_gear(file: ParameterFile, parameter: str, instance: str) -> bool:
+    value = file.get((parameter, instance))
+    return value is not None and value.value != 0 and file.evaluation.state((parameter, instance)).is_active
+
+
+def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene | None = None) -> Scene:
+    """Return the picture of one spindle's gears."""
+    figures = ValueReader(file)
+    drawn = (
+        [_scaled(figures, roles)]
+        if roles.scaling
+        else [_gear(figures, roles, i) for i in _gears(figures, roles, spindle)]
+    )
+    found = [gear for gear in drawn if gear is not None]
+    speeds = [gear.high for gear in found]
+    outputs = [gear.output for gear in found]
+    x = like.x if like else Scale("", "rpm", 0.0, 1.12 * max(speeds, default=1000.0))
+    low, high = min([0.0, *outputs]), max([0.0, *outputs]) or (0.0 if outputs else 10.0)
+    y = like.y if like else Scale("", roles.unit, 1.2 * low, 1.2 * high or 1.0)
+    areas = [Area(b.low, y.low, a.high, y.high, "overlap", "") for a, b in pairwise(found) if b.low < a.high]
+    for a, b in pairwise(found):
+        if b.low > a.high:
+            figures.note(
+                f"No gear has the speeds from {a.high:g} to {b.low:g} rpm",
+                b.figures[0].address if b.figures[0] else None,
+            )
+    lines: list[Polyline] = []
+    texts: list[Text] = []
+    handles: list[Handle] = []
+    for n, gear in enumerate(found):
+        wrong = any(f is not None and f.wrong for f in gear.figures)
+        lines.append(Polyline(((0.0, gear.rest), (gear.low, gear.output_low)), "dim", dashed=True))
+        lines.append(
+            Polyline(
+                ((gear.low, gear.output_low), (gear.high, gear.output)),
+                "error" if wrong else "now" if n == 0 else "ink",
+            )
+        )
+        texts.append(
+            Text(
+                (gear.high, gear.output),
+                gear.name,
+                f"{gear.high:g}",
+                "above",
+                gear.figures[1].address if gear.figures[1] else None,
+            )
+        )
+        handles += _handles(figures, roles, gear, x.high, y.high)
+    return Scene(
+        "gears", spindle, "Spindle gears", f"{'volts' if roles.unit == 'V' else roles.unit} over speed", x, y,
+        areas=tuple(areas), lines=tuple(lines), texts=tuple(texts), handles=tuple(handles),
+        notes=tuple(figures.notes.values()), drawn_from=tuple(figures.read),
+    )  # fmt: skip
+
+
+def _gears(figures: ValueReader, roles: GearRoles, spindle: str) -> list[str]:
+    """Return the instances of the gears that are used."""
+    assert roles.high is not None
+    file = figures.file
+    every = [
+        i
+        for i in file.machine_schema.instances(file.schema.parameters[roles.high])
+        if i.partition(".")[0] == spindle
+    ]
+    if roles.count is None:
+        return [i for i in every if len(every) == 1 or _has_gear(file, roles.high, i)] or every[:1]
+    count = figures.figure(roles.count, spindle)
+    if count is None or count.number is None:
+        return []
+    return every[: int(count.number)]
+
+
+class _Gear:
+    """One gear: speeds in rpm and the output at them."""
+
+    def __init__(
+        self,
+        name: str,
+        low: float,
+        high: float,
+        output: float,
+        output_low: float,
+        figures: tuple[DrawnValue | None, ...],
+        rest: float = 0.0,
+    ) -> None:
+        self.name, self.low, self.high, self.output, self.output_low = name, low, high, output, output_low
+        self.figures, self.rest = figures, rest
+        """Low, high, output, output at low, limit; what is put out at rest."""
+
+
+def _gear(figures: ValueReader, roles: GearRoles, instance: str) -> _Gear | None:
+    def number(parameter: str | None, at: str = instance) -> DrawnValue | None:
+        return figures.figure(parameter, at) if parameter else None
+
+    low, high, output, output_low = (
+        number(roles.low),
+        number(roles.high),
+        number(roles.output),
+        number(roles.output_low),
+    )
+    limit = figures.figure(roles.limit, _beside(figures, roles, instance)) if roles.limit else None
+    if high is None or high.number is None or (roles.output and (output is None or output.number is None)):
+        return None
+    lowest = low.number if low and low.number is not None else None
+    if lowest is None:
+        return None
+    top = output.number if output and output.number is not None else roles.full
+    if top is None:
+        return None
+    share = lowest / high.number if high.number else 0.0
+    bottom = output_low.number if output_low and output_low.number is not None else top * share
+    if limit and limit.number:
+        figures.note(f"{limit.label}: {limit.shown}", limit.address)
+    name = f"gear {instance.partition('.')[2]}" if "." in instance else "spindle"
+    rest = bottom if roles.output_low else 0.0
+    return _Gear(name, lowest, high.number, top, bottom, (low, high, output, output_low, limit), rest)
+
+
+def _beside(figures: ValueReader, roles: GearRoles, instance: str) -> str:
+    """Return the instance of the limit of the same gear: the one at the same place in the list."""
+    assert roles.high is not None
+    assert roles.limit is not None
+    parameters, machine = figures.file.schema.parameters, figures.file.machine_schema
+    own, others = machine.instances(parameters[roles.high]), machine.instances(parameters[roles.limit])
+    return others[own.index(instance)] if len(others) == len(own) else instance
+
+
+def _scaled(figures: ValueReader, roles: GearRoles) -> _Gear | None:
+    """Return the line of a scaling: output for a unit of speed."""
+    assert roles.scaling is not None
+    found = figures.figure(roles.scaling, "")
+    if found is None or found.number is None or roles.full is None:
+        return None
+    if found.number <= 0.0:
+        figures.note(f"{found.label}: {found.shown} puts nothing out at any speed", found.address)
+        return None
+    return _Gear(
+        "full output", 0.0, roles.full / found.number, roles.full, 0.0, (None, found, None, None, None)
+    )
+
+
+def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float, top: float) -> list[Handle]:
+    low, high, output, output_low, _ = gear.figures
+    found: list[Handle] = []
+    if roles.scaling and high is not None:
+        full = roles.full or 10.0
+        drag = figures.drag(
+            high, "x", 2.0 * (high.number or 1.0), lambda at: full / at if at > 0.0 else None, rises=False
+        )
+        return [figures.handle(high, (gear.high, gear.output), drag)]
+    if high is not None:
+        found.append(figures.handle(high, (gear.high, gear.output), figures.drag(high, "x", across)))
+    if low is not None:
+        found.append(figures.handle(low, (gear.low, gear.output_low), figures.drag(low, "x", across)))
+    if output is not None and output_low is None and gear.high:
+        middle = 0.5 * (gear.low + gear.high)
+        share = middle / gear.high or 1.0
+        at = (middle, gear.output * share)
+        found.append(
+            figures.handle(
+                output, at, figures.drag(output, "y", top, lambda level: level / share), second=True
+            )
+        )
+    elif output is not None and output_low is not None:
+        for figure, share in ((output, 0.8), (output_low, 0.2)):
+            place = gear.low + share * (gear.high - gear.low)
+            level = gear.output_low + share * (gear.output - gear.output_low)
+            other = gear.output_low if figure is output else gear.output
+            weight = share if figure is output else 1.0 - share
+            drag = figures.drag(figure, "y", top, lambda y, o=other, w=weight: o + (y - o) / w)  # type: ignore[misc]
+            found.append(figures.handle(figure, (place, level), drag, second=True))
+    return found

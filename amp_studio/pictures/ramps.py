@@ -1,0 +1,356 @@
+"""The ramps of an axis as speed over time: pieces as the simulator's moves have them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import UnitError, convert
+from amp_studio.schema.model import RampKind, RampRoles, TimeOf
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.events import Ramp
+from amp_studio.sim.pieces import Piece, change, length
+from amp_studio.sim.ramps import exponential_pieces, leg
+
+from .figures import DrawnValue, ValueReader, nice
+from .scene import Handle, Point, Polyline, Scale, Scene, Text
+
+HOLD = 1.8
+"""A move is about so many times as long as its ramps."""
+SAMPLES = 24
+"""Points of a curved piece."""
+FADED = 1e-3
+"""An exponential ramp is drawn until so much of the move is left."""
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """One kind of ramp with the figures it is made of; lengths in the unit of the axis, times in s."""
+
+    role: RampKind
+    ramp: Ramp
+    acceleration: DrawnValue | None = None
+    deceleration: DrawnValue | None = None
+    jerk: DrawnValue | None = None
+    time: DrawnValue | None = None
+    factor: float = 1.0
+    """s for a unit of ``time``."""
+    rise: DrawnValue | None = None
+
+
+def ramp_of(file: ParameterFile, role: RampKind, axis: str, feedrate: float, base: str) -> Ramp | None:
+    """Return one kind of ramp of an axis as the simulator takes it: in ``base`` (mm, in, deg, counts) and s; None where it is not set."""
+    found = _drawn(ValueReader(file), role, axis, feedrate, base)
+    return found.ramp if found else None
+
+
+def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | None = None) -> Scene:
+    """Return the picture of a move of one axis from rest to rest, for each kind of ramp that is set."""
+    figures = ValueReader(file)
+    feed = figures.figure(roles.feedrate, axis)
+    if feed is None or feed.number is None or feed.number <= 0.0:
+        if feed is not None and feed.number is not None:
+            figures.note(f"{feed.label}: {feed.shown} is no speed to ramp to", feed.address, wrong=True)
+        return _scene(figures, axis, Scale("", "s", 0.0, 1.0), Scale("", feed.unit if feed else "", 0.0, 1.0))
+    base = feed.unit.split("/")[0]
+    try:
+        speed = convert(feed.number, feed.unit, f"{base}/s")
+    except (KeyError, UnitError):
+        speed = feed.number
+    kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
+    ways = [_way(each.ramp, speed) for each in kinds]
+    distance = (
+        like.fixed
+        if like and like.fixed
+        else nice(HOLD * max((way for way in ways if way > 0.0), default=speed))
+    )
+    lines: list[Polyline] = []
+    handles: list[Handle] = []
+    texts: list[Text] = []
+    scale = feed.number / speed
+    longest = 0.0
+    for n, each in enumerate(kinds):
+        try:
+            pieces = _pieces(each.ramp, speed, distance)
+        except SimulationError as error:
+            figures.note(f"{each.role.name}: {error}", wrong=True)
+            continue
+        curve = [(t, v * scale) for t, v in sampled(pieces)]
+        longest = max(longest, curve[-1][0])
+        lines.append(Polyline(tuple(curve), "now" if not lines else "second"))
+        handles += _handles(figures, each, speed, scale, distance, pieces)
+        place = 0.25 + 0.12 * n
+        texts.append(
+            Text(
+                (0.45 * curve[-1][0], place * feed.number),
+                each.role.name,
+                _told(each, pieces),
+                "left",
+                each.acceleration.address if each.acceleration else each.time.address if each.time else None,
+                "now" if len(lines) == 1 else "second",
+            )
+        )
+        if each.role.note:
+            figures.note(each.role.note)
+    longest = longest or distance / speed
+    x = like.x if like else Scale("", "s", 0.0, 1.08 * longest)
+    limits = [
+        other
+        for p in roles.limits
+        if (other := figures.figure(p, axis, feed.unit)) and other.number is not None
+    ]
+    top = max([feed.number, *(each.number or 0.0 for each in limits)])
+    y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * top)
+    for bound in (feed, *limits):
+        level = bound.number or 0.0
+        lines.append(
+            Polyline(((x.low, level), (x.high, level)), "error" if bound.wrong else "limit", dashed=True)
+        )
+        texts.append(Text((x.high, level), bound.label, bound.shown, "right", bound.address, "dim"))
+    handles.append(
+        figures.handle(feed, (0.97 * x.high, feed.number), figures.drag(feed, "y", y.high), second=True)
+    )
+    return _scene(figures, axis, x, y, lines, texts, handles, distance, base)
+
+
+def _scene(
+    figures: ValueReader, axis: str, x: Scale, y: Scale, lines: Sequence[Polyline] = (), texts: Sequence[Text] = (),
+    handles: Sequence[Handle] = (), distance: float | None = None, base: str = "",
+) -> Scene:  # fmt: skip
+    way = f", speed over time, {distance:g} {base}" if distance else ""
+    return Scene(
+        "ramps", axis, "Ramps", f"{figures.axis(axis)}{way}", x, y,
+        lines=tuple(lines), texts=tuple(texts), handles=tuple(handles), notes=tuple(figures.notes.values()),
+        drawn_from=tuple(figures.read), fixed=distance,
+    )  # fmt: skip
+
+
+# -- the ramps ---------------------------------------------------------------------
+
+
+def _drawn(figures: ValueReader, role: RampKind, axis: str, speed: float, base: str) -> _Drawn | None:
+    """Return a kind of ramp with its figures; None where one that it needs is not set or impossible."""
+
+    def number(parameter: str | None, unit: str) -> DrawnValue | None:
+        return figures.figure(parameter, axis, unit) if parameter else None
+
+    step_figure = number(role.step, f"{base}/s")
+    step = step_figure.number if step_figure and step_figure.number else 0.0
+    if role.rise:
+        return _by_rise(figures, role, axis, speed)
+    time, factor = _time(figures, role.time, axis)
+    if role.kind == "exponential":
+        if time is None or time.number is None or time.number * factor <= 0.0:
+            return None
+        return _Drawn(role, Ramp("exponential", time=time.number * factor), time=time, factor=factor)
+    up, down, jerk = (
+        number(role.acceleration, f"{base}/s2"),
+        number(role.deceleration, f"{base}/s2"),
+        number(role.jerk, f"{base}/s3"),
+    )
+    if up is None or up.number is None or (role.jerk and (jerk is None or not jerk.number)):
+        return None
+    if up.number <= 0.0:
+        figures.note(f"{up.label}: {up.shown} is no ramp", up.address, wrong=up.wrong)
+        return None
+    used = jerk.number if jerk and jerk.number else 0.0
+    if role.jerk_scans and jerk and used:
+        used = _within_scans(figures, role, axis, up.number, jerk, used)
+    slower = down.number if down and down.number else 0.0
+    if slower < 0.0:
+        return None
+    least = time.number * factor if time and time.number else 0.0
+    ramp = Ramp(role.kind, up.number, slower or up.number, used, least, step)
+    return _Drawn(
+        role,
+        ramp,
+        up,
+        down if slower else None,
+        jerk if used == (jerk.number if jerk else None) else None,
+        time,
+        factor,
+    )
+
+
+def _by_rise(figures: ValueReader, role: RampKind, axis: str, speed: float) -> _Drawn | None:
+    """Return a ramp that is given by the time in ms in which it reaches the feedrate."""
+    own = [figures.figure(parameter, axis, quiet=True) for parameter in role.rise]
+    found = next((each for each in own if each is not None and each.number is not None), None)
+    if found is None or not found.number or found.number <= 0.0:
+        named = found or own[0]
+        if named is not None:
+            figures.note(
+                f"{named.label}: {named.problem or f'{named.shown} is no time'}",
+                named.address,
+                wrong=found is not None,
+            )
+        return None
+    slope = speed / (found.number / 1000.0)
+    return _Drawn(role, Ramp(role.kind, slope, slope), rise=found, factor=0.001)
+
+
+def _time(figures: ValueReader, role: TimeOf | None, axis: str) -> tuple[DrawnValue | None, float]:
+    """Return the number to drag and the s that one of it is; None where a needed one is not set."""
+    if role is None:
+        return None, 1.0
+    found = [(p, figures.figure(p, axis, quiet=p not in role.needed)) for p in role.params]
+    if any(p in role.needed and (each is None or each.number is None) for p, each in found):
+        return None, 1.0
+    factor = 0.001 if role.unit == "ms" else 1.0
+    for _, each in found[1:]:
+        factor *= each.number if each is not None and each.number is not None else 1.0
+    return found[0][1], factor
+
+
+def _within_scans(
+    figures: ValueReader, role: RampKind, axis: str, up: float, jerk: DrawnValue, given: float
+) -> float:
+    """Return the jerk that the control uses: a ramp of acceleration has its bounds in scans."""
+    assert role.jerk_scans is not None
+    first, factor = _time(figures, role.jerk_scans.scan, axis)
+    if first is None or not first.number:
+        return given
+    scan = first.number * factor
+    used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
+    if used != given:
+        figures.note(
+            f"{jerk.label}: {jerk.shown} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g} scans, drawn with {used:.6g} {jerk.unit}",
+            jerk.address,
+            wrong=True,
+        )
+    return used
+
+
+def _pieces(ramp: Ramp, speed: float, distance: float) -> list[Piece]:
+    if ramp.kind == "exponential":
+        return exponential_pieces(distance, [(0.0, speed)], ramp, FADED * distance)
+    return leg(distance, speed, ramp)
+
+
+def _way(ramp: Ramp, speed: float) -> float:
+    """Return how far the axis goes while its speed changes."""
+    if ramp.kind == "exponential":
+        return 5.0 * ramp.time * speed
+    return length(change(ramp, 0.0, speed)) + length(change(ramp, speed, 0.0))
+
+
+def sampled(pieces: Sequence[Piece]) -> list[Point]:
+    """Return (time, velocity) along pieces, from rest to rest."""
+    found: list[Point] = [(0.0, 0.0)]
+    start = 0.0
+    for piece in pieces:
+        straight = piece.kind == 0.0 and piece.jerk == 0.0
+        count = 1 if straight else SAMPLES
+        found += [
+            (start + piece.duration * k / count, piece.velocity_after(piece.duration * k / count))
+            for k in range(count + 1)
+        ]
+        start += piece.duration
+    return [*found, (start, 0.0)]
+
+
+# -- the handles ---------------------------------------------------------------------
+
+
+def _told(each: _Drawn, pieces: Sequence[Piece]) -> str:
+    figures = [f for f in (each.rise, each.acceleration, each.jerk, each.time) if f is not None and f.number]
+    return f"{', '.join(f.shown for f in figures[:2])}; {_rise_time(each, pieces):.3g} s"
+
+
+def _rise_time(each: _Drawn, pieces: Sequence[Piece]) -> float:
+    """Return the time to the greatest speed; of an exponential ramp, its time constant."""
+    if each.ramp.kind == "exponential":
+        return each.ramp.time
+    top = max((piece.end for piece in pieces), default=0.0)
+    passed = 0.0
+    for piece in pieces:
+        if piece.velocity >= top * (1.0 - 1e-9):
+            break
+        passed += piece.duration
+    return passed
+
+
+def _handles(
+    figures: ValueReader, each: _Drawn, speed: float, scale: float, distance: float, pieces: Sequence[Piece]
+) -> list[Handle]:
+    """Return the handles of a ramp: each lies where its figure shows, and follows the pointer in time."""
+    ramp = each.ramp
+    top = max((piece.end for piece in pieces), default=0.0)
+    risen, end = _rise_time(each, pieces), math.fsum(piece.duration for piece in pieces)
+    short = top < speed * (1.0 - 1e-9)
+    found: list[Handle] = []
+
+    def put(
+        figure: DrawnValue,
+        at: Point,
+        inverse: Callable[[float], float | None],
+        span: float,
+        *,
+        rises: bool = False,
+        second: bool = False,
+    ) -> None:
+        drag = figures.drag(figure, "x", span, inverse, rises=rises)
+        found.append(figures.handle(figure, (at[0], at[1] * scale), drag, second=second))
+
+    if each.time is not None and each.time.number and ramp.kind == "exponential":
+        put(
+            each.time,
+            (ramp.time, speed * -math.expm1(-1.0)),
+            lambda t: t / each.factor,
+            end / each.factor,
+            rises=True,
+            second=True,
+        )
+        return found
+    if each.rise is not None:
+        put(each.rise, (risen, top), lambda t: t / each.factor, end / each.factor, rises=True)
+        return found
+    if each.acceleration is None or ramp.acceleration <= 0.0:
+        return found
+    put(
+        each.acceleration,
+        (risen, top),
+        _acceleration_at(ramp, top),
+        2.0 * ramp.acceleration,
+        second=ramp.kind == "s-curve",
+    )
+    if each.deceleration is not None and ramp.kind == "linear" and not short:
+        rest = distance / speed + 0.5 * risen
+        put(
+            each.deceleration,
+            (end, 0.0),
+            lambda t: speed / (2.0 * (t - rest)) if t > rest else None,
+            2.0 * ramp.deceleration,
+        )
+    if each.jerk is not None and ramp.kind == "s-curve":
+        slope = min(ramp.acceleration / ramp.jerk, math.sqrt(top / ramp.jerk))
+        put(
+            each.jerk,
+            (slope, 0.5 * ramp.jerk * slope**2),
+            lambda t: ramp.acceleration / t if t > 0.0 else None,
+            2.0 * ramp.jerk,
+            second=True,
+        )
+    return found
+
+
+def _acceleration_at(ramp: Ramp, top: float) -> Callable[[float], float | None]:
+    """Return time to speed -> acceleration, for one kind of ramp."""
+
+    def straight(t: float) -> float | None:
+        return top / t if t > 0.0 else None
+
+    def sine(t: float) -> float | None:
+        return 2.0 * top / t if t > 0.0 else None
+
+    def curved(t: float) -> float | None:
+        square = (ramp.jerk * t) ** 2 - 4.0 * top * ramp.jerk
+        return (
+            0.5 * (ramp.jerk * t - math.sqrt(square))
+            if square > 0.0 and t > 0.0
+            else math.sqrt(top * ramp.jerk)
+        )
+
+    return {"sine-squared": sine, "s-curve": curved}.get(ramp.kind, straight)

@@ -1,0 +1,180 @@
+"""A scene as SVG, as reports print it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+from .frame import BOTTOM, Placement
+from .scene import Area, Dot, Point, Polyline, Scene, ShapeSort, Text
+
+WIDTH, HEIGHT = 720.0, 480.0
+HEAD, NOTE = 34.0, 15.0
+"""Height of the title and of a line of notes, in points."""
+INKS: dict[ShapeSort, str] = {
+    "ink": "#1a1e23", "dim": "#58606b", "limit": "#58606b", "now": "#1d5bcb", "second": "#7f8792", "error": "#b3261e",
+    "forbidden": "#7f8792", "either": "#1d5bcb", "outside": "#0a6a72", "travel": "#1a1e23", "rail": "#7f8792", "overlap": "#c5cad2",
+}  # fmt: skip
+GRID, BASE, TEXT, DIM = "#e8eaee", "#ffffff", "#1a1e23", "#58606b"
+FILLS: dict[ShapeSort, str] = {
+    "forbidden": "url(#hatch)",
+    "either": "url(#either)",
+    "outside": "none",
+    "error": "url(#wrong)",
+    "overlap": "#e8eaee",
+}
+WRAP = 118
+"""Letters in a line of notes."""
+
+
+def scene_svg(scene: Scene) -> str:
+    """Return the SVG text of a scene, with its notes under it."""
+    notes = [line for note in scene.notes for line in _wrapped(("! " if note.wrong else "") + note.text)]
+    height = HEAD + HEIGHT + NOTE * len(notes) + (8.0 if notes else 0.0)
+    frame = Placement.within(scene, WIDTH, HEIGHT)
+    parts = [
+        _opened(height),
+        _patterns(),
+        f'<rect width="{WIDTH:g}" height="{height:g}" fill="{BASE}"/>',
+        _title(scene),
+        f'<g transform="translate(0 {HEAD:g})">',
+        *_grid(frame),
+        *(_area(frame, area) for area in scene.areas),
+        *(_line(frame, line) for line in scene.lines),
+        *(_dot(frame, dot) for dot in scene.dots),
+        *(
+            _handle_dot(frame.at(handle.at))
+            for handle in scene.handles
+            if handle.second and len(handle.drags) == 1
+        ),
+        *(_text(frame, text) for text in scene.texts),
+        "</g>",
+        *(
+            f'<text x="16" y="{HEAD + HEIGHT + NOTE * (n + 0.7):g}" fill="{INKS["error"] if line.startswith("! ") else DIM}">{escape(line.removeprefix("! "))}</text>'
+            for n, line in enumerate(notes)
+        ),
+        "</svg>",
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _opened(height: float) -> str:
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {height:g}" width="{WIDTH:g}"'
+        f' height="{height:g}" font-family="Inter, Helvetica, Arial, DejaVu Sans, sans-serif" font-size="11">'
+    )
+
+
+def _title(scene: Scene) -> str:
+    return (
+        f'<text x="16" y="22" fill="{TEXT}" font-size="15" font-weight="600">{escape(scene.title)}'
+        f'<tspan fill="{DIM}" font-size="11" font-weight="400">\u2003{escape(scene.subtitle)}</tspan></text>'
+    )
+
+
+def _wrapped(text: str) -> Iterator[str]:
+    line = ""
+    for word in text.split():
+        if len(line) + len(word) > WRAP:
+            yield line.rstrip()
+            line = "! " if text.startswith("! ") else ""
+        line += word + " "
+    yield line.rstrip()
+
+
+def _patterns() -> str:
+    hatches = (("hatch", INKS["forbidden"]), ("either", INKS["either"]), ("wrong", INKS["error"]))
+    made = "".join(
+        f'<pattern id="{name}" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
+        f'<line x1="0" y1="0" x2="0" y2="7" stroke="{ink}" stroke-opacity="0.45"/></pattern>'
+        for name, ink in hatches
+    )
+    return f"<defs>{made}</defs>"
+
+
+def _grid(frame: Placement) -> Iterator[str]:
+    scene = frame.scene
+    right, bottom = frame.left + frame.width, frame.top + frame.height
+    for x, text in frame.ticks("x"):
+        yield f'<path d="M{x:.1f} {frame.top:.1f}V{bottom:.1f}" stroke="{GRID}"/>'
+        yield f'<text x="{x:.1f}" y="{bottom + 15:.1f}" fill="{DIM}" text-anchor="middle">{escape(text)}</text>'
+    for y, text in frame.ticks("y"):
+        yield f'<path d="M{frame.left:.1f} {y:.1f}H{right:.1f}" stroke="{GRID}"/>'
+        yield f'<text x="{frame.left - 8:.1f}" y="{y + 4:.1f}" fill="{DIM}" text-anchor="end">{escape(text)}</text>'
+    for at, _, unit in scene.y.rows:
+        yield f'<text x="{right + 10:.1f}" y="{frame.at((scene.x.low, at))[1] + 4:.1f}" fill="{DIM}">{escape(unit)}</text>'
+    yield f'<text x="{right:.1f}" y="{bottom + BOTTOM - 5:.1f}" fill="{DIM}" text-anchor="end">{escape(axis_text(scene, "x"))}</text>'
+    yield f'<text x="{frame.left - 8:.1f}" y="{frame.top - 10:.1f}" fill="{DIM}" text-anchor="end">{escape(axis_text(scene, "y"))}</text>'
+
+
+def axis_text(scene: Scene, axis: str) -> str:
+    """Return what is measured along an axis: ``X, mm``."""
+    scale = scene.x if axis == "x" else scene.y
+    return ", ".join(part for part in (scale.label, scale.unit) if part) if not scale.rows else ""
+
+
+def _area(frame: Placement, area: Area) -> str:
+    left, top = frame.at((area.left, area.top))
+    right, bottom = frame.at((area.right, area.bottom))
+    stroke = "none" if area.sort == "overlap" else INKS[area.sort]
+    return f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}" fill="{FILLS.get(area.sort, "none")}" stroke="{stroke}"/>'
+
+
+def _line(frame: Placement, line: Polyline) -> str:
+    points = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(frame.at, line.points))
+    dash = ' stroke-dasharray="5 4"' if line.dashed else ""
+    width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.2
+    return f'<polyline points="{points}" fill="none" stroke="{INKS[line.sort]}" stroke-width="{width:g}" stroke-opacity="{0.5 if line.sort == "rail" else 1:g}"{dash}/>'
+
+
+def _handle_dot(at: Point) -> str:
+    return f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="3" fill="{BASE}" stroke="{INKS["ink"]}"/>'
+
+
+def _dot(frame: Placement, dot: Dot) -> str:
+    x, y = frame.at(dot.at)
+    ink = INKS[dot.sort]
+    if dot.kind == "home":
+        return f'<path d="M{x - 10:.1f} {y:.1f}h20M{x:.1f} {y - 10:.1f}v20" stroke="{ink}" stroke-width="1.5"/><circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="none" stroke="{ink}" stroke-width="1.5"/>'
+    if dot.kind == "switch":
+        return f'<rect x="{x - 6:.1f}" y="{y - 6:.1f}" width="12" height="12" rx="2" fill="{ink}"/>'
+    if dot.kind in ARROWS:
+        return f'<path d="{_arrow(x, y, dot.kind)}" fill="none" stroke="{ink}" stroke-width="1.5"/>'
+    if dot.kind in ("marker", "end"):
+        return f'<path d="M{x:.1f} {y - 8:.1f}v16" stroke="{INKS["now"] if dot.kind == "marker" else ink}" stroke-width="2"/>'
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{BASE}" stroke="{ink}" stroke-width="1.5"/>'
+
+
+ARROWS = {"right": (1, 0), "left": (-1, 0), "up": (0, -1), "down": (0, 1)}
+"""Where an arrow points, y downwards."""
+
+
+def _arrow(x: float, y: float, kind: str) -> str:
+    dx, dy = ARROWS[kind]
+    x, y = x + 14.0 * abs(dy), y - 14.0 * abs(dx)
+    tip = x + 11.0 * dx, y + 11.0 * dy
+    sides = [(tip[0] - 5.0 * dx - 4.0 * s * dy, tip[1] - 5.0 * dy - 4.0 * s * dx) for s in (1, -1)]
+    shaft = f"M{x - 11.0 * dx:.1f} {y - 11.0 * dy:.1f}L{tip[0]:.1f} {tip[1]:.1f}"
+    return shaft + "".join(f"M{tip[0]:.1f} {tip[1]:.1f}L{a:.1f} {b:.1f}" for a, b in sides)
+
+
+ANCHORS = {
+    "left": ("start", 6.0, -6.0),
+    "inside": ("start", 6.0, 15.0),
+    "corner": ("end", -12.0, 22.0),
+    "right": ("end", -6.0, -6.0),
+    "middle": ("middle", 0.0, 4.0),
+    "above": ("middle", 0.0, -10.0),
+    "below": ("middle", 0.0, 20.0),
+}
+"""Anchor -> that of SVG, and how far a text lies from its point."""
+
+
+def _text(frame: Placement, text: Text) -> str:
+    x, y = frame.at(text.at)
+    anchor, dx, dy = ANCHORS[text.anchor]
+    if text.anchor == "above" and text.value:
+        anchor = "start"
+    value = f'<tspan fill="{DIM}" font-weight="400">\u2002{escape(text.value)}</tspan>' if text.value else ""
+    weight = ' font-weight="600"' if text.value else ""
+    return f'<text x="{x + dx:.1f}" y="{y + dy:.1f}" fill="{INKS[text.sort]}" text-anchor="{anchor}"{weight}>{escape(text.text)}{value}</text>'

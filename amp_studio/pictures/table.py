@@ -1,0 +1,115 @@
+"""A compensation over the position, whose points are dragged, put in and taken out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Value
+from amp_studio.schema.model import TableRoles
+from amp_studio.schema.registration import load_part, registration_of
+
+from .figures import STEPS, ValueReader, multiple, nice
+from .scene import Drag, Handle, Point, Polyline, Scale, Scene, Text
+
+Points = Sequence[Point]
+
+
+@dataclass(frozen=True)
+class CurveText:
+    """How a family writes a table of (position, compensation) in one text (``curve="module:NAME"`` of its record).
+
+    ``read``    letter of the axis, text -> the points; raises ValueError for a text that is no table
+    ``write``   letter of the axis, points -> the text; raises ValueError for points it cannot be written of
+    ``put_in``  points, position -> the points with one more; raises ValueError where none can be
+    ``take_out``  points, index -> the points without it; raises ValueError where it cannot be missing
+    ``grain``   the smallest compensation
+    """
+
+    read: Callable[[str, str], list[Point]]
+    write: Callable[[str, Points], str]
+    put_in: Callable[[Points, Point], list[Point]]
+    take_out: Callable[[Points, int], list[Point]]
+    grain: float
+
+
+def curve_text(file: ParameterFile) -> CurveText | None:
+    """Return how the family of a file writes its tables; None where it has none."""
+    place = registration_of(file.schema.family.family).curve
+    found = load_part(place) if place else None
+    return found if isinstance(found, CurveText) else None
+
+
+def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | None = None) -> Scene:
+    """Return the curve of one table."""
+    figures, form = ValueReader(file), curve_text(file)
+    address = (roles.param, axis)
+    figures.read[address] = None
+    value, letter, label = file.get(address), figures.axis(axis), figures.label(address)
+    points: list[Point] = []
+    unit_at = figures.address(roles.unit_from, axis)
+    unit = figures.unit(unit_at) if unit_at else ""
+    if value is None or form is None:
+        figures.note(f"{label}: not set", address)
+    else:
+        try:
+            points = form.read(letter, str(value.value))
+        except ValueError as error:
+            figures.note(f"{label}: {error}", address, wrong=True)
+    low, high = (f([y for _, y in points] or [0.0]) for f in (min, max))
+    margin = 0.25 * (high - low) or abs(high) or 0.01
+    x = (
+        like.x
+        if like
+        else Scale(
+            "position",
+            unit,
+            0.0 if not points else points[0][0] - 0.02 * _span(points),
+            1.0 if not points else points[-1][0] + 0.08 * _span(points),
+        )
+    )
+    y = like.y if like else Scale("compensation", unit, min(low - margin, 0.0), max(high + margin, 0.0))
+    handles = (
+        [_handle(form, address, letter, label, points, n, y) for n in range(len(points))] if form else []
+    )
+    lines = [Polyline(((x.low, 0.0), (x.high, 0.0)), "dim", dashed=True)]
+    if points:
+        lines.append(Polyline(tuple(points), "now"))
+
+    def with_point(at: Point) -> tuple[Address, Value] | None:
+        if form is None or (value is not None and not points):
+            return None
+        return address, Value(form.write(letter, form.put_in(points, (at[0], multiple(at[1], form.grain)))))
+
+    return Scene(
+        "calibration", axis, roles.name, f"{letter}, {len(points)} points", x, y,
+        lines=tuple(lines), texts=(Text((x.low, y.high), label, "", "left", address, "dim"),), handles=tuple(handles),
+        notes=tuple(figures.notes.values()), drawn_from=tuple(figures.read), with_point=with_point,
+    )  # fmt: skip
+
+
+def _span(points: Points) -> float:
+    return points[-1][0] - points[0][0] or 1.0
+
+
+def _handle(
+    form: CurveText, address: Address, letter: str, label: str, points: Points, n: int, y: Scale
+) -> Handle:
+    """Return the handle of one point: its compensation follows, its position stays."""
+    step = max(form.grain, nice((y.high - y.low) / STEPS))
+
+    def value_at(level: float) -> Value | None:
+        changed = [*points[:n], (points[n][0], multiple(level, step)), *points[n + 1 :]]
+        try:
+            return Value(form.write(letter, changed))
+        except ValueError:
+            return None
+
+    try:
+        without = address, Value(form.write(letter, form.take_out(points, n)))
+    except ValueError:
+        without = None
+    at = points[n]
+    drag = Drag(address, "y", value_at, step)
+    return Handle(at, (drag,), f"{label}, at {at[0]:g}", f"{at[1]:g}", second=True, without=without)

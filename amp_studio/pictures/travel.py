@@ -1,0 +1,297 @@
+"""Travel and zones of two axes, with home, switch and marker."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema.model import ReachRole, SpanRole, TravelRoles, ZoneRole
+
+from .figures import DrawnValue, ValueReader
+from .homing import MARGIN, Drawing, Home, draw_home, draw_rail, letters, read_home
+from .parts import part_name
+from .scene import Area, Drag, Handle, Polyline, Scale, Scene, ShapeSort, Text
+
+SAYS = {
+    "inside": "entry not allowed",
+    "either": "no entry from outside, no exit from inside",
+    "outside": "exit not allowed",
+}
+SORTS: dict[str, ShapeSort] = {"inside": "forbidden", "either": "either", "outside": "outside"}
+
+
+@dataclass
+class _Ends:
+    """Two ends on one axis; a figure for each end that a parameter sets."""
+
+    low: float
+    high: float
+    figures: tuple[DrawnValue | None, DrawnValue | None] = (None, None)
+    turned: float = 0.0
+    """For a length from the switch: the direction of the switch, 0 for ends that are coordinates."""
+
+    @property
+    def wrong(self) -> bool:
+        return any(each is not None and each.wrong for each in self.figures)
+
+
+def draw_travel(
+    file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None = None
+) -> Scene:
+    """Return the picture of a pair of axes (or of one); ``like`` gives the view that stays while a handle is dragged."""
+    figures, drawing = ValueReader(file), Drawing()
+    travels = [[_span(figures, span, axis) for axis in axes] for span in roles.spans]
+    if roles.reach:
+        travels.append([_reach(figures, roles, axis, file) for axis in axes])
+    travel = [_inner([row[n] for row in travels]) for n in range(len(axes))]
+    zones = [(zone, box) for zone in roles.zones for box in _boxes(figures, zone, axes, travel)]
+    homes = [read_home(figures, roles, axis, file) for axis in axes]
+    units = [_unit(figures, roles, axis) for axis in axes]
+    scales = [
+        _scale(figures, axis, units[n], [*travels, *(box for _, box in zones)], homes[n], n)
+        for n, axis in enumerate(axes)
+    ]
+    scales += [Scale("", "", -1.0, 1.0, rows=((0.0, "", ""),))] * (2 - len(axes))
+    if like is not None:
+        scales = [like.x, like.y]
+    ranges = [scale.high - scale.low for scale in scales]
+    equal = (
+        len(axes) == 2
+        and units[0] == units[1]
+        and max(ranges) < 20.0 * min(ranges)
+        and not any(s.rows for s in scales)
+    )
+    views = [(scale.low, scale.high) for scale in scales]
+    for zone, box in zones:
+        _draw_zone(figures, drawing, zone, box, views, len(axes))
+    names: list[SpanRole | ReachRole] = [*roles.spans, *([roles.reach] if roles.reach else [])]
+    for role, row in zip(names, travels, strict=True):
+        _draw_box(figures, drawing, row, views, "travel")
+        _name_travel(figures, drawing, role.name, row, axes, views)
+    for n, home in enumerate(homes):
+        draw_rail(figures, drawing, n, travel[n], home, views)
+    draw_home(figures, drawing, homes, views)
+    count = len(figures.read)
+    return Scene(
+        "travel", "+".join(axes), "Travel and zones", f"{part_name(figures, axes)}, drawn from {count} parameters",
+        scales[0], scales[1], equal,
+        tuple(drawing.areas), tuple(drawing.lines), tuple(drawing.dots), tuple(drawing.texts), tuple(drawing.handles),
+        tuple(figures.notes.values()), tuple(figures.read),
+    )  # fmt: skip
+
+
+def _unit(figures: ValueReader, roles: TravelRoles, axis: str) -> str:
+    parameter = roles.spans[0].low if roles.spans else roles.reach.length if roles.reach else ""
+    address = figures.address(parameter, axis) if parameter else None
+    return figures.unit(address) if address else ""
+
+
+# -- what is read ----------------------------------------------------------------
+
+
+def _span(figures: ValueReader, span: SpanRole, axis: str) -> _Ends:
+    """Return the ends of a span; infinite where one cannot be drawn, or is the value for none."""
+    found = [figures.figure(parameter, axis) for parameter in (span.low, span.high)]
+    ends = []
+    for n, figure in enumerate(found):
+        none = (-math.inf, math.inf)[n]
+        value = figures.file.get(figure.address) if figure else None
+        if figure is not None and value is not None and span.none is not None and value.value == span.none[n]:
+            figures.note(f"{figure.label}: {figure.shown} is no limit", figure.address)
+            found[n] = None
+            ends.append(none)
+        else:
+            ends.append(none if figure is None or figure.number is None else figure.number)
+    return _Ends(ends[0], ends[1], (found[0], found[1]))
+
+
+def _reach(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterFile) -> _Ends:
+    """Return the travel from the switch at 0 to the other end."""
+    assert roles.reach is not None
+    found = figures.figure(roles.reach.length, axis)
+    sign = figures.direction(roles.home.towards if roles.home else None, axis, letters(file))
+    if found is None or found.number is None or not sign:
+        return _Ends(-math.inf, math.inf)
+    far = -sign * found.number
+    figures.note("Coordinates are counted from the home switch.")
+    return _Ends(far, 0.0, (found, None), sign) if far <= 0.0 else _Ends(0.0, far, (None, found), sign)
+
+
+def _inner(ends: list[_Ends]) -> tuple[float, float]:
+    """Return what all spans of an axis leave."""
+    return max((e.low for e in ends), default=-math.inf), min((e.high for e in ends), default=math.inf)
+
+
+def _boxes(
+    figures: ValueReader, zone: ZoneRole, axes: tuple[str, ...], travel: list[tuple[float, float]]
+) -> list[list[_Ends]]:
+    """Return the bodies that a zone is: one for each group of axes, over the whole travel of an axis that is not in it."""
+    groups: dict[object, list[str]] = {}
+    for axis in axes:
+        address = figures.address(zone.group, axis) if zone.group else None
+        value = figures.file.get(address) if address else None
+        if address:
+            figures.read[address] = None
+        if zone.group is None or (value is not None and value.value != zone.group_none):
+            groups.setdefault(value.value if value else "", []).append(axis)
+    if not groups:
+        figures.note(f"{zone.name}: no axis of this picture belongs to a group")
+    boxes = []
+    for members in groups.values():
+        if all(_is_unset(figures, zone, axis) for axis in members):
+            figures.note(f"{zone.name} is not set", figures.address(zone.low, members[0]))
+            continue
+        box = [
+            _span(figures, zone, axis) if axis in members else _Ends(*travel[n])
+            for n, axis in enumerate(axes)
+        ]
+        drawn = [ends for ends, axis in zip(box, axes, strict=True) if axis in members]
+        if all(math.isfinite(edge) for ends in drawn for edge in (ends.low, ends.high)):
+            boxes.append(box)
+    return boxes
+
+
+def _is_unset(figures: ValueReader, zone: ZoneRole, axis: str) -> bool:
+    found = [figures.figure(parameter, axis, quiet=True) for parameter in (zone.low, zone.high)]
+    return all(each is None or each.problem == "not set" for each in found)
+
+
+def _scale(figures: ValueReader, axis: str, unit: str, rows: list[list[_Ends]], home: Home, n: int) -> Scale:
+    """Return the scale of an axis over all that is drawn on it."""
+    numbers = [edge for row in rows for edge in (row[n].low, row[n].high) if math.isfinite(edge)]
+    numbers += [
+        each
+        for each in (home.place, home.marker, home.switch.number if home.switch else None)
+        if each is not None
+    ]
+    if roles_reach := any(row[n].turned for row in rows):
+        numbers.append(0.0)
+    if not numbers or (max(numbers) == min(numbers) == 0.0 and not roles_reach):
+        return Scale(figures.axis(axis), unit, -1.0, 1.0, rows=((0.0, figures.axis(axis), ""),))
+    low, high = min(numbers), max(numbers)
+    margin = MARGIN * (high - low) or abs(high) * MARGIN or 1.0
+    return Scale(figures.axis(axis), unit, low - 2.0 * margin, high + margin)
+
+
+# -- what is drawn ---------------------------------------------------------------
+
+
+def _shown_edges(ends: _Ends, view: tuple[float, float]) -> tuple[float, float]:
+    return max(ends.low, view[0]), min(ends.high, view[1])
+
+
+def _draw_box(
+    figures: ValueReader,
+    drawing: Drawing,
+    row: list[_Ends],
+    views: list[tuple[float, float]],
+    sort: ShapeSort,
+) -> None:
+    """Draw the finite edges of a box, and the handles on them and at its corners."""
+    full = [*row, *(_Ends(-math.inf, math.inf) for _ in range(2 - len(row)))]
+    sides = [_shown_edges(ends, view) for ends, view in zip(full, views, strict=True)]
+    middles = [0.5 * (low + high) for low, high in sides]
+    paint: ShapeSort = "error" if any(ends.wrong for ends in row) else "ink" if sort == "travel" else "second"
+    drags: dict[tuple[int, int], tuple[float, Drag]] = {}
+    for n, ends in enumerate(row):
+        for k, edge in enumerate((ends.low, ends.high)):
+            if not math.isfinite(edge):
+                continue
+            across = sides[1 - n]
+            line = (
+                ((edge, across[0]), (edge, across[1])) if n == 0 else ((across[0], edge), (across[1], edge))
+            )
+            drawing.lines.append(Polyline(line, paint))
+            figure = ends.figures[k]
+            if figure is None:
+                continue
+            drag = _edge_drag(figures, figure, ends, n, views[n])
+            drags[n, k] = edge, drag
+            at = (edge, middles[1]) if n == 0 else (middles[0], edge)
+            drawing.handles.append(figures.handle(figure, at, drag))
+    for k in (0, 1):
+        for m in (0, 1):
+            if (0, k) in drags and (1, m) in drags:
+                (x, along_x), (y, along_y) = drags[0, k], drags[1, m]
+                pair = [row[0].figures[k], row[1].figures[m]]
+                label, shown = (", ".join(getattr(f, name) for f in pair if f) for name in ("label", "shown"))
+                drawing.handles.append(Handle((x, y), (along_x, along_y), label, shown, second=True))
+
+
+def _edge_drag(
+    figures: ValueReader, figure: DrawnValue, ends: _Ends, n: int, view: tuple[float, float]
+) -> Drag:
+    along: Literal["x", "y"] = "x" if n == 0 else "y"
+    if ends.turned:
+        sign = -ends.turned
+        return figures.drag(
+            figure, along, view[1] - view[0], lambda at: max(sign * at, 0.0), rises=sign > 0.0
+        )
+    return figures.drag(figure, along, view[1] - view[0])
+
+
+def _draw_zone(
+    figures: ValueReader,
+    drawing: Drawing,
+    zone: ZoneRole,
+    box: list[_Ends],
+    views: list[tuple[float, float]],
+    count: int,
+) -> None:
+    """Draw a body with what it forbids."""
+    side = zone.forbidden or _side(figures, zone)
+    (left, right), *more = [_shown_edges(ends, view) for ends, view in zip(box, views, strict=False)]
+    bottom, top = more[0] if more else views[1]
+    left, right, bottom, top = min(left, right), max(left, right), min(bottom, top), max(bottom, top)
+    sort: ShapeSort = "error" if any(ends.wrong for ends in box) else SORTS.get(side, "dim")
+    drawing.areas.append(Area(left, bottom, right, top, sort, zone.name))
+    drawing.texts.append(
+        Text(
+            (left, top),
+            zone.name,
+            SAYS.get(side, "which side is forbidden is not set"),
+            "inside",
+            box[0].figures[0].address if box[0].figures[0] else None,
+        )
+    )
+    _draw_box(figures, drawing, box[:count], views, sort)
+
+
+def _side(figures: ValueReader, zone: ZoneRole) -> str:
+    role = zone.forbidden_by
+    address = figures.address(role.param, "", "global") if role else None
+    if role is None or address is None:
+        return ""
+    figures.read[address] = None
+    value = figures.file.get(address)
+    if value is not None and value.value in role.inside:
+        return "inside"
+    if value is not None and value.value in role.outside:
+        return "outside"
+    figures.note(
+        f"{figures.label(address)}: not set, so {zone.name} is drawn without what it forbids", address
+    )
+    return ""
+
+
+def _name_travel(
+    figures: ValueReader,
+    drawing: Drawing,
+    name: str,
+    row: list[_Ends],
+    axes: tuple[str, ...],
+    views: list[tuple[float, float]],
+) -> None:
+    parts = []
+    for ends, axis in zip(row, axes, strict=True):
+        shown = [figure.shown for figure in ends.figures if figure is not None and figure.number is not None]
+        if shown:
+            parts.append(f"{figures.axis(axis)} {' to '.join(shown)}")
+    if not parts:
+        return
+    left = _shown_edges(row[0], views[0])[0]
+    top = _shown_edges(row[1], views[1])[1] if len(row) > 1 else views[1][1]
+    first = next((f for ends in row for f in ends.figures if f is not None), None)
+    drawing.texts.append(Text((left, top), name, ", ".join(parts), "above", first.address if first else None))
