@@ -6,14 +6,14 @@ set, inactive or out of range becomes a note, and nothing is guessed.
 
 from .draw import FilePicture, draw, pictures_of
 from .record import scene_json
-from .scene import Area, Dot, Drag, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
+from .scene import Dot, Drag, FilledArea, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
 from .svg import scene_svg
 
 __all__ = [
-    "Area",
     "Dot",
     "Drag",
     "FilePicture",
+    "FilledArea",
     "Handle",
     "PictureNote",
     "Polyline",

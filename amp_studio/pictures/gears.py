@@ -8,7 +8,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema.model import GearRoles
 
 from .figures import DrawnValue, ValueReader
-from .scene import Area, Handle, Polyline, Scale, Scene, Text
+from .scene import FilledArea, Handle, Polyline, Scale, Scene, Text
 
 
 def spindles(file: ParameterFile, roles: GearRoles) -> tuple[str, ...]:
@@ -38,7 +38,9 @@ def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene 
     x = like.x if like else Scale("", "rpm", 0.0, 1.12 * max(speeds, default=1000.0))
     low, high = min([0.0, *outputs]), max([0.0, *outputs]) or (0.0 if outputs else 10.0)
     y = like.y if like else Scale("", roles.unit, 1.2 * low, 1.2 * high or 1.0)
-    areas = [Area(b.low, y.low, a.high, y.high, "overlap", "") for a, b in pairwise(found) if b.low < a.high]
+    areas = [
+        FilledArea(b.low, y.low, a.high, y.high, "overlap", "") for a, b in pairwise(found) if b.low < a.high
+    ]
     for a, b in pairwise(found):
         if b.low > a.high:
             figures.note(

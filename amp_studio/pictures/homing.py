@@ -10,7 +10,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema.model import HomePlace, TravelRoles
 
 from .figures import DrawnValue, ValueReader
-from .scene import Area, Dot, Handle, Point, Polyline, Text
+from .scene import Dot, FilledArea, Handle, Point, Polyline, Text
 
 MARGIN = 0.08
 """Share of the length of the drawing that is left free at each side."""
@@ -23,7 +23,7 @@ ALONG: tuple[Literal["x", "y"], ...] = ("x", "y")
 class Drawing:
     """The shapes of a picture while it is drawn."""
 
-    areas: list[Area] = field(default_factory=list)
+    areas: list[FilledArea] = field(default_factory=list)
     lines: list[Polyline] = field(default_factory=list)
     dots: list[Dot] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)

@@ -42,7 +42,7 @@ class Polyline:
 
 
 @dataclass(frozen=True)
-class Area:
+class FilledArea:
     """A rectangle; infinite sides end at the edge of the picture."""
 
     left: float
@@ -148,7 +148,7 @@ class Scene:
     y: Scale
     equal: bool = False
     """Whether both axes have one scale."""
-    areas: tuple[Area, ...] = ()
+    areas: tuple[FilledArea, ...] = ()
     lines: tuple[Polyline, ...] = ()
     dots: tuple[Dot, ...] = ()
     texts: tuple[Text, ...] = ()

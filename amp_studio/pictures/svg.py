@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from html import escape
 
 from .frame import BOTTOM, Placement
-from .scene import Area, Dot, Point, Polyline, Scene, ShapeSort, Text
+from .scene import Dot, FilledArea, Point, Polyline, Scene, ShapeSort, Text
 
 WIDTH, HEIGHT = 720.0, 480.0
 HEAD, NOTE = 34.0, 15.0
@@ -113,7 +113,7 @@ def axis_text(scene: Scene, axis: str) -> str:
     return ", ".join(part for part in (scale.label, scale.unit) if part) if not scale.rows else ""
 
 
-def _area(frame: Placement, area: Area) -> str:
+def _area(frame: Placement, area: FilledArea) -> str:
     left, top = frame.at((area.left, area.top))
     right, bottom = frame.at((area.right, area.bottom))
     stroke = "none" if area.sort == "overlap" else INKS[area.sort]

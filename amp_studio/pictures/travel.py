@@ -12,7 +12,7 @@ from amp_studio.schema.model import ReachRole, SpanRole, TravelRoles, ZoneRole
 from .figures import DrawnValue, ValueReader
 from .homing import MARGIN, Drawing, Home, draw_home, draw_rail, letters, read_home
 from .parts import part_name
-from .scene import Area, Drag, Handle, Polyline, Scale, Scene, ShapeSort, Text
+from .scene import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 
 SAYS = {
     "inside": "entry not allowed",
@@ -246,7 +246,7 @@ def _draw_zone(
     bottom, top = more[0] if more else views[1]
     left, right, bottom, top = min(left, right), max(left, right), min(bottom, top), max(bottom, top)
     sort: ShapeSort = "error" if any(ends.wrong for ends in box) else SORTS.get(side, "dim")
-    drawing.areas.append(Area(left, bottom, right, top, sort, zone.name))
+    drawing.areas.append(FilledArea(left, bottom, right, top, sort, zone.name))
     drawing.texts.append(
         Text(
             (left, top),

@@ -43,7 +43,7 @@ class ReachRole(Model):
     page: Page
 
 
-class Side(Model):
+class ForbiddenSide(Model):
     """A choice of the forbidden side of a zone."""
 
     param: ParameterId
@@ -56,7 +56,7 @@ class ZoneRole(SpanRole):
 
     forbidden: Literal["inside", "outside", "either"] | None = None
     """``either``: an axis that is outside may not enter, one that is inside may not leave."""
-    forbidden_by: Side | None = None
+    forbidden_by: ForbiddenSide | None = None
     group: ParameterId | None = None
     """Axes with the same choice bound one body; a direction whose axis is not among them reaches over the whole travel."""
     group_none: Key | None = None
