@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import cold
 import exchange
+import find
 import machine
 import rules
 import screen
@@ -50,6 +51,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from cold.measures(folder, full, example, max(1, times // 2))
     yield from warm.measures(folder, full, example, times)
     yield from rules.measures(folder, full, times)
+    yield from find.measures(full, times)
     yield from sim.measures(folder, times)
     yield from sim_laws.measures(times)
     yield from screen.measures(folder, full, times)

@@ -133,7 +133,7 @@ def _taken(sub: argparse.ArgumentParser, words: Sequence[str]) -> tuple[argparse
 def _values(action: argparse.Action, values: Sequence[str], current: str) -> Iterable[str]:
     if action.choices is not None:
         return [str(choice) for choice in action.choices]
-    if action.dest == "family":
+    if action.dest == "family" or (action.dest == "words" and not values):
         return families()
     if action.dest == "scenario":
         return scenario_names()

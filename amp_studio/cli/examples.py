@@ -10,6 +10,11 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "schema": ('amp-studio schema 9pc --group "Home Parameters"', "amp-studio schema num --json"),
     "show": ("amp-studio show 9pc 1300", "amp-studio show num P21", "amp-studio show syntec Pr61"),
     "tables": ("amp-studio tables 9pc", "amp-studio tables 9pc accdec-codes"),
+    "find": (
+        'amp-studio find 9pc "exess error"',
+        'amp-studio find "SERVO AMP FE LIMITS"',
+        f"amp-studio find {MILL} 12.7 mm --json",
+    ),
     "calculate": (
         "amp-studio calculate 9pc",
         "amp-studio calculate 9pc acceleration_time_s milliseconds=125",

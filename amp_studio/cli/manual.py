@@ -20,7 +20,7 @@ EXIT_CODES = (
     "3  something was changed before it failed; the message describes the present state",
     "4  it is not known whether the control changed; the message explains how to find out",
 )
-_FAMILY = ("schema", "show", "tables", "calculate", "new", "import", "emulate")
+_FAMILY = ("schema", "show", "tables", "find", "calculate", "new", "import", "emulate")
 _PARAM = ("show", "set", "get", "fix", "simulate")
 _ADDRESS = ("diff", "emulate", "identify", "download", "verify", "upload", "restore", "send", "receive")
 _PARAMETERS = (

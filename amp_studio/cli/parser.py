@@ -78,6 +78,17 @@ def _facts(verbs: Verbs) -> None:
     sub.add_argument("family")
     sub.add_argument("table", nargs="?")
     json_option(sub)
+    sub = verbs.add(
+        "find",
+        "find",
+        "find parameters, values, choices and messages of the control by what one remembers of them; typing errors are forgiven",
+    )
+    sub.add_argument(
+        "words", nargs="+", metavar="FAMILY|FILE WORDS", help="where to look (every family), and what for"
+    )
+    sub.add_argument("--family", help="look in this family")
+    sub.add_argument("--limit", type=count, metavar="N", default=20, help="most hits (default: 20)")
+    json_option(sub)
     sub = verbs.add("calculate", "facts", "calculate a published formula of a family; without one, list them")
     sub.add_argument("family")
     sub.add_argument("formula", nargs="?")

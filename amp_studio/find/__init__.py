@@ -1,0 +1,20 @@
+"""Find anything by what a person remembers of it: numbers, names, values, choices, messages of the control.
+
+Typing errors are forgiven, each hit has its reason, and the words of a family are indexed once.
+"""
+
+from .entries import Entry, HitKind
+from .finder import Finder, Hit, index_of
+from .message_page import LinkedParameter, LinkedRule, MessagePage, message_page
+
+__all__ = [
+    "Entry",
+    "Finder",
+    "Hit",
+    "HitKind",
+    "LinkedParameter",
+    "LinkedRule",
+    "MessagePage",
+    "index_of",
+    "message_page",
+]

@@ -1,0 +1,81 @@
+"""The values of a file, to be found by what a person reads: a number with or without a unit, a choice, a text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    UnitError,
+    convert,
+    dimension,
+    read_number,
+    unit_named,
+)
+
+from .entries import Entry
+from .words import words_of
+
+
+class Number(NamedTuple):
+    """A number as it is asked for; ``unit`` is None where none was written."""
+
+    value: float
+    unit: str | None
+
+
+def asked_number(query: str) -> Number | None:
+    """Return the number that a question is: ``12.7``, ``12.7 mm``; None where it is something else."""
+    try:
+        value, rest = read_number(query.strip())
+        return Number(value, unit_named(rest) if rest.strip() else None)
+    except (InvalidValueError, UnitError):
+        return None
+
+
+class FileValues:
+    """The values of a file at one moment. A secret is not among them."""
+
+    def __init__(self, file: ParameterFile, notes: Mapping[Address, str]) -> None:
+        self._numbers: dict[tuple[float, str], list[Address]] = {}
+        """Number and unit -> the addresses with this value."""
+        self.choices: dict[tuple[str, str], list[Address]] = {}
+        """Parameter and key of a choice -> the addresses that have it."""
+        self._texts: list[tuple[Address, str]] = []
+        self._notes = notes
+        parameters = file.schema.parameters
+        for address, value in file.values.items():
+            parameter = parameters[address[0]]
+            if parameter.secret:
+                continue
+            if isinstance(value.value, str) and parameter.choices:
+                self.choices.setdefault((address[0], value.value), []).append(address)
+            elif isinstance(value.value, str):
+                self._texts.append((address, value.value))
+            elif not isinstance(value.value, bool):
+                self._numbers.setdefault((float(value.value), value.unit), []).append(address)
+
+    def having(self, number: Number) -> list[Address]:
+        """Return the addresses with a number in the unit it was entered in, or with the same length, time, … in another."""
+        found: list[Address] = []
+        for (value, unit), addresses in self._numbers.items():
+            wanted = number.value
+            if number.unit is not None and unit != number.unit:
+                if dimension(unit) != dimension(number.unit):
+                    continue
+                wanted = convert(number.value, number.unit, unit)
+            if abs(value - wanted) <= 1e-9 * abs(wanted):
+                found += addresses
+        return found
+
+    def entries(self, file: ParameterFile) -> Iterator[Entry]:
+        """Yield texts of the file and notes on its values, to be searched by word."""
+        for address, text in self._texts:
+            if words_of(text):
+                yield Entry("value", text, address[0], (("value", text),), address[1])
+        for address, note in self._notes.items():
+            if not file.schema.parameters[address[0]].secret:
+                yield Entry("note", note, address[0], (("note", note),), address[1])

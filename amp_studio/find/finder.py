@@ -1,0 +1,231 @@
+"""One question over everything that a family and a file contain, and what each hit leads to."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import (
+    Address,
+    Schema,
+    UnknownParameterError,
+    axis_meant,
+    axis_name,
+    show_value,
+)
+
+from .entries import Entry, HitKind, Where, entries_of
+from .file_values import FileValues, asked_number
+from .index import Index, Match
+from .words import words_of
+
+_EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
+"""Scores of what is no matter of words: a whole number, a value, a value that is the printed default."""
+_TAIL = 0.2
+"""Part of the best score below which a hit only buries the others."""
+_MOST_VALUES = 40
+"""Parameters with the same value that are worth showing."""
+_LONGEST = 200
+"""Letters of a question; more is a text that was pasted by mistake."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """Something that was found, why, and where it leads."""
+
+    kind: HitKind
+    title: str
+    """What is read first: number and name, the text of a message, the value."""
+    detail: str
+    """What is read second: group and page, the parameter of a choice."""
+    why: str
+    """What of the question it has: ``number``, ``name``, ``help: …``."""
+    key: str
+    """Id of the parameter or message, key of the group or command."""
+    score: float
+    address: Address | None = None
+    """The value it leads to, where it leads to one."""
+    others: tuple[Address, ...] = ()
+    """Further values with the same choice or number."""
+
+
+@lru_cache(maxsize=16)
+def index_of(schema: Schema, machine: str) -> Index:
+    """Return the index of a family on a machine type: made once, in 0.1 s, and safe to be made in a thread."""
+    return Index(entries_of(schema, machine))
+
+
+class Finder:
+    """Answers questions about a family, and a file of it where there is one."""
+
+    def __init__(
+        self, schema: Schema, machine: str, file: ParameterFile | None = None, commands: Iterable[Entry] = ()
+    ) -> None:
+        self.schema, self.machine, self.file = schema, machine, file
+        self._here = schema.on(machine)
+        self._commands = Index(commands)
+        self._notes: Mapping[Address, str] = {}
+        self._values: FileValues | None = None
+        self._texts = Index(())
+
+    def forget_values(self, notes: Mapping[Address, str] | None = None) -> None:
+        """Read the values of the file again at the next question, after an edit."""
+        self._values = None
+        if notes is not None:
+            self._notes = notes
+
+    def find(self, query: str, most: int = 40) -> list[Hit]:
+        """Return the best hits, the best first."""
+        query = " ".join(query.split())[:_LONGEST]
+        query, axis = self._axis(query)
+        hits = self._numbered(query) + self._valued(query)
+        for index in (index_of(self.schema, self.machine), self._texts, self._commands):
+            hits += [self._hit(match) for match in index.search(query, most)]
+        best: dict[tuple[str, str, str], Hit] = {}
+        for hit in sorted(hits, key=lambda hit: -hit.score):
+            best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)
+        least = _TAIL * max((hit.score for hit in best.values() if hit.score < _EXACT - 1), default=0.0)
+        return [self._of_axis(hit, axis) for hit in best.values() if hit.score >= least][:most]
+
+    def nearest(self, query: str) -> str:
+        """Return the nearest question that has words which are known; empty where there is none."""
+        return index_of(self.schema, self.machine).nearest(query[:_LONGEST])
+
+    # -- what is no matter of words -------------------------------------------------
+
+    def _axis(self, query: str) -> tuple[str, str]:
+        """Part the letter of an axis from the end of a question: ``excess error Y``, ``1750@X``."""
+        head, _, last = re.sub("@", " ", query).rpartition(" ")
+        if self.file is None or not head or not re.fullmatch("[A-Za-z][0-9]?", last):
+            return query, ""
+        axes = self.schema.family.scopes.get("axis")
+        try:
+            return head, axis_meant(self.file.evaluation, axes.instances, last) if axes else ""
+        except UnknownParameterError:
+            return query, ""
+
+    def _of_axis(self, hit: Hit, axis: str) -> Hit:
+        """Return a hit on the axis that was named, where its parameter has one."""
+        if not axis or hit.kind not in ("parameter", "choice"):
+            return hit
+        parameter = self.schema.parameters[hit.key]
+        is_of_axes = self._here.kin(self._here.scopes[hit.key], "axis")
+        if not is_of_axes or axis not in self._here.instances(parameter):
+            return hit
+        address = (hit.key, axis)
+        return replace(
+            hit, address=address, title=self._label(address) if hit.kind == "parameter" else hit.title
+        )
+
+    def _numbered(self, query: str) -> list[Hit]:
+        """Return the parameters of a whole number: ``1300``, ``P21N3``, ``Pr61``, or all words of ``P21``."""
+        claims = self._here.addressed_by(query) or self._here.words(query)
+        found: dict[str, Hit] = {}
+        for n, address in enumerate(claims):
+            detail = f"{self.schema.group_of[address[0]].name}, page {self.schema.page(address)}"
+            hit = Hit(
+                "parameter", self._label(address), detail, "number", address[0], _EXACT - n / 100, address
+            )
+            found.setdefault(address[0], hit)
+        return list(found.values())
+
+    def _valued(self, query: str) -> list[Hit]:
+        """Return the values of the file that are the number asked for, one hit a parameter."""
+        file = self.file
+        if file is None:
+            return []
+        if self._values is None:
+            self._values = FileValues(file, self._notes)
+            self._texts = Index(self._values.entries(file))
+        number = asked_number(query)
+        found: dict[str, list[Address]] = {}
+        for address in self._values.having(number) if number is not None else ():
+            if file.evaluation.state(address).state != "hidden":
+                found.setdefault(address[0], []).append(address)
+            if len(found) > _MOST_VALUES:
+                break
+        return [self._value_hit(addresses, "value") for addresses in found.values()]
+
+    def _value_hit(self, addresses: list[Address], why: str) -> Hit:
+        assert self.file is not None
+        file, first = self.file, addresses[0]
+        own = [a for a in addresses if not file.is_default(a)]
+        ordered = own + [a for a in addresses if a not in own]
+        parameter = file.schema.parameters[first[0]]
+        title = show_value(parameter, file.get(first))
+        detail = f"{parameter.name} {', '.join(self._place(a) for a in ordered)}".rstrip()
+        score = _VALUE if own else _DEFAULT
+        return Hit("value", title, detail, why, first[0], score, ordered[0], tuple(ordered[1:]))
+
+    # -- words --------------------------------------------------------------------------
+
+    def _hit(self, match: Match) -> Hit:
+        entry = match.entry
+        why = self._why(match)
+        if entry.kind == "parameter":
+            return replace(
+                Hit("parameter", entry.title, entry.detail, why, entry.key, match.score),
+                title=self._label((entry.key, ""), span=True),
+            )
+        if entry.kind == "choice":
+            return self._choice_hit(match, why)
+        if entry.kind in ("value", "note"):
+            address = (entry.key, entry.detail)
+            return Hit(entry.kind, entry.title, self._label(address), why, entry.key, match.score, address)
+        detail = self._of_span(match) or entry.detail
+        return Hit(entry.kind, entry.title, detail, why, entry.key, match.score)
+
+    def _of_span(self, match: Match) -> str:
+        """Return which axis the number of a message means, where it counts them."""
+        message = self.schema.messages.get(match.entry.key) if match.entry.kind == "message" else None
+        numbers = [int(word) for word in match.words if word.isdigit()]
+        if message is None or message.span is None or not numbers:
+            return ""
+        return f"axis of address {numbers[0] - message.span[0]}, {match.entry.detail}"
+
+    def _choice_hit(self, match: Match, why: str) -> Hit:
+        """Return a choice; a value of the file where it has it somewhere."""
+        entry = match.entry
+        parameter = self.schema.parameters[entry.key]
+        key = next((c.key for c in parameter.choices or () if c.label == entry.title), "")
+        addresses = self._values.choices.get((entry.key, key), []) if self._values and key else []
+        if addresses:
+            return replace(self._value_hit(addresses, why), score=match.score * 1.1)
+        return Hit(
+            "choice", entry.title, self._label((entry.key, ""), span=True), why, entry.key, match.score
+        )
+
+    def _why(self, match: Match) -> str:
+        parts = [_snippet(match, w) if w in ("help", "meaning") else w for w in match.where]
+        parts += [f"'{typed}' as '{found}'" for typed, found in match.typed if not found.startswith(typed)]
+        return ", ".join(parts)
+
+    def _label(self, address: Address, span: bool = False) -> str:
+        """Return number and name; with ``span`` of the first instance, as a parameter with many is known by that."""
+        parameter = self.schema.parameters[address[0]]
+        if span:
+            numbers = (self._here.number((address[0], i)) for i in self._here.instances(parameter))
+            return f"{next(filter(None, numbers), '')} {parameter.name}".lstrip()
+        place = self._place(address)
+        label = self._here.label(address)
+        return f"{label} {place}" if place and self._here.number(address) else label
+
+    def _place(self, address: Address) -> str:
+        """Return the letter of the axis, or what else an instance is called."""
+        if address[1] and self.file is not None and self._here.kin(self._here.scopes[address[0]], "axis"):
+            name = axis_name(self.file.evaluation, address[1])
+            if name:
+                return name
+        return self._here.instance_label(address)
+
+
+def _snippet(match: Match, where: Where) -> str:
+    """Return the sentence of a help or a meaning that has most of the words."""
+    text = next(text for place, text in match.entry.texts if place == where)
+    found = set(match.words)
+    sentences = re.split(r"(?<=[.;:])\s+", " ".join(text.split()))
+    best = max(sentences, key=lambda sentence: len(found & set(words_of(sentence))))
+    return f"{where}: {best[:100]}{'…' if len(best) > 100 else ''}"

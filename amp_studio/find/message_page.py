@@ -1,0 +1,77 @@
+"""A message of the control in the light of a file: its parameters with their values, and which of its rules are broken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Rule, Schema, show_value
+from amp_studio.schema.model import ControlMessage
+from amp_studio.validate import Finding
+
+
+@dataclass(frozen=True, slots=True)
+class LinkedParameter:
+    """A parameter that a message points to."""
+
+    id: str
+    name: str
+    number: str
+    """Of its first instance; empty where it has none."""
+    values: tuple[tuple[Address, str], ...]
+    """Active values of the file as a person reads them; empty without a file."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkedRule:
+    """A rule that finds what brings a message about."""
+
+    rule: Rule
+    findings: tuple[Finding, ...]
+    """Its findings in the file now."""
+
+
+@dataclass(frozen=True, slots=True)
+class MessagePage:
+    """What there is to know about a message."""
+
+    message: ControlMessage
+    parameters: tuple[LinkedParameter, ...]
+    rules: tuple[LinkedRule, ...]
+
+    @property
+    def broken(self) -> tuple[LinkedRule, ...]:
+        """The rules that are broken in the file now."""
+        return tuple(linked for linked in self.rules if linked.findings)
+
+
+def message_page(
+    schema: Schema,
+    machine: str,
+    message: ControlMessage,
+    file: ParameterFile | None = None,
+    findings: Iterable[Finding] = (),
+) -> MessagePage:
+    """Return the page of a message; what a described control or another machine type does not have is left out."""
+    here = schema.on(machine)
+    rules = {rule.id: rule for rule in schema.rules}
+    told: dict[str, list[Finding]] = {}
+    for finding in findings:
+        told.setdefault(finding.rule, []).append(finding)
+    linked = []
+    for name in message.params:
+        parameter = schema.parameters.get(name)
+        instances = here.instances(parameter) if parameter is not None else ()
+        if parameter is None or not instances:
+            continue
+        values = []
+        for instance in instances if file is not None and parameter.access != "read" else ():
+            address = (name, instance)
+            if file is not None and file.evaluation.state(address).state == "in-force":
+                values.append((address, show_value(parameter, file.get(address))))
+        linked.append(
+            LinkedParameter(name, parameter.name, here.number((name, instances[0])) or "", tuple(values))
+        )
+    found = (LinkedRule(rules[name], tuple(told.get(name, ()))) for name in message.rules if name in rules)
+    return MessagePage(message, tuple(linked), tuple(found))

@@ -1,0 +1,70 @@
+"""The verb ``find``: from what a person remembers, or what the control shows, to the parameters."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+
+
+@pytest.fixture
+def mill(tmp_path: Path) -> Path:
+    """Return the path of a copy of the example."""
+    return Path(shutil.copy(EXAMPLE, tmp_path))
+
+
+def test_a_message_without_a_family_is_found_in_the_one_that_has_it(amp) -> None:
+    said = amp("find", "SERVO AMP FE LIMITS")
+    lines = said.out.splitlines()
+    assert (said.code, lines[0]) == (0, "9pc      SERVO AMP FE LIMITS CORRECTED")
+    assert "    - 1750 Excess Error" in lines
+    assert "  Page 7-20, 7-21, 7-22, 7-24" in lines
+
+
+def test_a_slip_in_a_family_is_forgiven_and_named(amp) -> None:
+    lines = amp("find", "9pc", "exess", "error").out.splitlines()
+    assert lines[0] == "1750 Excess Error: Servo Parameters, page 7-20 (name, 'exess' as 'excess')"
+    assert amp("find", "--family", "9pc", "exess error").out.splitlines()[0] == lines[0]
+
+
+def test_a_file_shows_the_values_of_the_message_and_the_rules_it_breaks(amp, mill: Path) -> None:
+    assert amp("set", mill, "1740=20", "1750=10").code == 0
+    data = amp("find", mill, "SERVO AMP FE LIMITS", "--json").json
+    message = data["hits"][0]
+    assert (message["kind"], message["id"], message["source"]) == (
+        "message",
+        "following-error-limits-corrected",
+        "7-20",
+    )
+    excess = next(p for p in message["params"] if p["id"] == "servo.excess_error")
+    assert {"param": "servo.excess_error@1", "value": "10 mm"} in excess["values"]
+    broken = [rule["rule"] for rule in message["rules"] if rule["broken"]]
+    assert "9pc.servo.suppression-within-excess" in broken
+    assert "Broken in this file: " in amp("find", mill, "SERVO AMP FE LIMITS").out
+
+
+def test_a_value_leads_to_the_number_of_its_parameter(amp, mill: Path) -> None:
+    assert amp("set", mill, "2750=17.125").code == 0
+    hit = amp("find", mill, "17.125", "mm", "--json").json["hits"][0]
+    assert (hit["kind"], hit["param"], hit["instance"], hit["title"]) == ("value", "2750", "2", "17.125 mm")
+
+
+def test_where_nothing_is_found_the_nearest_is_offered(amp) -> None:
+    assert amp("find", "num", "ssaamplingg").out == "Nothing found for 'ssaamplingg'. Nearest: sampling\n"
+    assert amp("find", "num", "qxqxqxq", "--json").json == {"query": "qxqxqxq", "hits": [], "nearest": ""}
+
+
+def test_the_number_of_hits_is_bounded(amp) -> None:
+    assert len(amp("find", "9pc", "servo", "--limit", "3").out.splitlines()) == 3
+    assert len(amp("find", "9pc", "servo", "--json").json["hits"]) == 20
+
+
+def test_what_cannot_be_searched_is_refused(amp, tmp_path: Path) -> None:
+    assert amp("find", "9pc").err == (
+        "amp-studio: Nothing to find: give a number, a word, a value or a message of the control\n"
+    )
+    assert amp("find", "--family", "9pcc", "x").code == 2
+    assert amp("find", tmp_path / "no.amp", "x").code == 2
