@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .build import build_report
+    from .by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
     from .describe import definition
     from .finding_lines import finding_json, finding_text, suppressed_text
     from .findings import alike, same_finding_text
@@ -24,6 +25,11 @@ if TYPE_CHECKING:
 _PLACES = {
     "Contents": "model",
     "FORMATS": "write",
+    "FindingGroup": "by_rule",
+    "finding_axes": "by_rule",
+    "finding_groups": "by_rule",
+    "fix_lines": "by_rule",
+    "fix_text": "by_rule",
     "Report": "model",
     "SORTS": "model",
     "Sort": "model",
@@ -65,6 +71,7 @@ __all__ = [
     "SORTS",
     "UNIT_CHOICES",
     "Contents",
+    "FindingGroup",
     "Report",
     "Sort",
     "UnitChoice",
@@ -74,8 +81,12 @@ __all__ = [
     "counted",
     "definition",
     "facts",
+    "finding_axes",
+    "finding_groups",
     "finding_json",
     "finding_text",
+    "fix_lines",
+    "fix_text",
     "formula_lines",
     "help_parts",
     "one_line",

@@ -216,6 +216,8 @@ class Docks:
             stack.show()
             head.show()
         self.chooser.setVisible(into is not None)
+        for title in self._heads["Findings"].findChildren(QLabel, "title"):
+            title.setVisible(into is None)  # the chooser has the word
         self.chooser.show_choice("Findings")
         self._turn_bottom("Findings")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QMessageBox
 from amp_studio.files import RangeError, alike_axes, describe, fitted_axes, real_path
 from amp_studio.files.lock import now, user
 from amp_studio.schema import Address, InvalidValueError, Value
-from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, calculators, suppress
+from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, apply_fixes, calculators, suppress
 
 from .file_page import FilePage
 from .questions import ask, show_message
@@ -39,7 +40,8 @@ class EditActions:
         find = act("&Find Parameter", self._find, keys.Find, "file")
         fix = act("F&ix Selected Finding", self._fix, "F8", "edit")
         why = act("S&how Explanation of Finding", self._why, "Shift+F1", "file")
-        safe = act("Apply All &Safe Fixes", self.fix_safe, "Shift+F8", "edit")
+        several = act("Fix Se&veral…", self.fix_several, "Shift+F8", "edit", "magic-wand")
+        safe = act("Apply All &Safe Fixes", self.fix_safe, None, "edit")
         for action in (copy, paste, clear):  # a text field has its own
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
         self.of_a_cell: list[QAction] = [edit, copy, paste, default, clear, every]
@@ -48,7 +50,7 @@ class EditActions:
             (self.undo, self.redo),
             self.of_a_cell,
             (quick, calculator, tables, find),
-            (fix, safe, why),
+            (fix, several, safe, why),
         ):
             menu.addActions(list(actions))
             menu.addSeparator()
@@ -191,12 +193,13 @@ class EditActions:
     # -- findings ---------------------------------------------------------------
 
     def _fix(self) -> None:
-        finding = self.window.findings.current() if self.window.findings else None
-        if finding is None or not finding.fix:
+        findings = self.window.findings.current_findings() if self.window.findings else ()
+        able = tuple(finding for finding in findings if finding.fix)
+        if not able:
             raise ValueError(
                 "The selected finding has no suggested fix. Show it to see the parameters to check."
             )
-        self.fix(finding)
+        self.fix_all(able)
 
     def _why(self) -> None:
         finding = self.window.findings.current() if self.window.findings else None
@@ -237,6 +240,30 @@ class EditActions:
                 "This finding has changed or no longer exists. Select it again in the list of findings."
             )
         self._workspace().edit("Fix", {r.address: r.value for r in finding.fix})
+
+    def fix_all(self, findings: Sequence[Finding]) -> None:
+        """Apply the suggested fixes of several findings as one step, each in the light of those before it."""
+        if len(findings) == 1:
+            self.fix(findings[0])
+            return
+        workspace, keys = self._workspace(), {finding.key for finding in findings}
+        wanted = partial(apply_fixes, workspace.validator, lambda finding: finding.key in keys)
+        if not workspace.do("Fix several", wanted):
+            raise ValueError(
+                "These findings have changed or no longer exist. Select them again in the list of findings."
+            )
+
+    def fix_several(self) -> None:
+        """List every suggested fix, and apply the checked ones as one step."""
+        from .finding_dialogs import FixSeveralDialog
+
+        workspace = self._workspace()
+        if not any(finding.fix for finding in workspace.findings):
+            raise ValueError("No finding has a suggested fix.")
+        dialog = FixSeveralDialog(workspace, workspace.findings, self.window)
+        if dialog.exec() and (chosen := dialog.chosen()):
+            self.fix_all(chosen)
+        dialog.deleteLater()
 
     def fix_safe(self) -> None:
         """Apply every suggested fix that cannot change motion, as one step."""

@@ -9,10 +9,10 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from amp_studio.files import describe
+from amp_studio.files import axis_letter, describe
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Parameter
-from amp_studio.validate import Finding
+from amp_studio.validate import Finding, not_set
 
 from .detail_panel import DetailPanel
 from .findings_panel import FindingsPanel
@@ -68,6 +68,9 @@ class FilePage(QWidget):
         self.table.modelReset.connect(self._update_title)
         self.detail.linked.connect(self.follow)
         self.findings.activated.connect(self._show_finding)
+        self.findings.not_set_requested.connect(self.show_not_set)
+        self.table.modelReset.connect(self._tell_findings)
+        self.table_view.selected.connect(self._tell_findings)
         workspace.changed.connect(self._tell)
         workspace.saved.connect(self._tell)
         workspace.undo_stack.indexChanged.connect(self._tell)  # a step is on the stack only after it was made
@@ -94,6 +97,19 @@ class FilePage(QWidget):
             self._update_title()
         else:
             self.table.show_parameters(parameters)
+
+    def show_not_set(self) -> None:
+        """Show the active parameters that are not set."""
+        self.front_wanted.emit(self)
+        ids = dict.fromkeys(address[0] for address in not_set(self.workspace.findings))
+        self._show_parameters(self.tr("Not set"), [self.workspace.file.schema.parameters[i] for i in ids])
+
+    def _tell_findings(self, *_: object) -> None:
+        """Let the findings know what the table shows, and the axis of its current cell."""
+        address, file = self.table_view.address(), self.workspace.file
+        is_of_axis = address is not None and file.evaluation.scope(address) == "axis"
+        axis = axis_letter(file, address[1]) or address[1] if address is not None and is_of_axis else ""
+        self.findings.follow(frozenset(parameter.id for parameter in self.table.asked), axis)
 
     def _update_title(self) -> None:
         count, hidden = len(self.table.rows), self.table.hidden_rows

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtWidgets import (
@@ -14,15 +14,17 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QTextBrowser,
+    QTreeWidget,
+    QTreeWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
-from amp_studio.report import why_parts
+from amp_studio.report import FindingGroup, finding_groups, fix_lines, why_parts
 from amp_studio.schema import Address, written
 from amp_studio.validate import Finding, explain
 
-from .theme import severity_ink
+from .theme import severity_icon, severity_ink
 from .workspace import Workspace
 
 
@@ -106,3 +108,54 @@ class SuppressDialog(QDialog):
     def params(self) -> tuple[str, ...]:
         """Return the parameters of the suppression; empty for all instances."""
         return () if self.everywhere.isChecked() else tuple(map(written, self._finding.addresses))
+
+
+class FixSeveralDialog(QDialog):
+    """Lists every suggested fix with a check; those that cannot change motion are checked."""
+
+    def __init__(self, workspace: Workspace, findings: Iterable[Finding], parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Fix Several"))
+        self.resize(760, 480)
+        self._leaves: list[tuple[QTreeWidgetItem, Finding]] = []
+        self.list = QTreeWidget()
+        self.list.setHeaderHidden(True)
+        self.list.setAccessibleName(self.tr("Suggested fixes"))
+        self.list.setWordWrap(True)
+        for group in finding_groups(workspace.validator, findings):
+            if group.fixable:
+                self._add(workspace, group)
+        self.list.itemChanged.connect(self._count)
+        note = QLabel(
+            self.tr("Checked at first: fixes that cannot change motion. All of them are one step of Undo.")
+        )
+        note.setWordWrap(True)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
+        self.ok = buttons.addButton("", QDialogButtonBox.ButtonRole.AcceptRole)
+        self.ok.setDefault(True)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        for widget in (note, self.list, buttons):
+            layout.addWidget(widget)
+        self._count()
+
+    def _add(self, workspace: Workspace, group: FindingGroup) -> None:
+        top = QTreeWidgetItem(self.list, [group.message])
+        top.setIcon(0, severity_icon(group.severity))
+        top.setFlags(top.flags() | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsAutoTristate)
+        for finding in group.fixable:
+            leaf = QTreeWidgetItem(top, ["; ".join(fix_lines(workspace.file, finding))])
+            leaf.setFlags(leaf.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+            leaf.setCheckState(0, Qt.CheckState.Checked if finding.safe else Qt.CheckState.Unchecked)
+            self._leaves.append((leaf, finding))
+        top.setExpanded(True)
+
+    def chosen(self) -> tuple[Finding, ...]:
+        """Return the findings whose fixes are checked."""
+        return tuple(finding for leaf, finding in self._leaves if leaf.checkState(0) == Qt.CheckState.Checked)
+
+    def _count(self, *_: object) -> None:
+        number = len(self.chosen())
+        self.ok.setText(self.tr("Apply {number} &Fixes").format(number=number))
+        self.ok.setEnabled(number > 0)

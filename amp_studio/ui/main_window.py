@@ -45,6 +45,7 @@ class MainWindow(StudioWindow):
         self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
         self.status = StatusLine(self.statusBar())
         self.status.findings_wanted.connect(lambda: self.show_panel("Findings"))
+        self.status.not_set_wanted.connect(lambda: self.page.show_not_set() if self.page else None)
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
         self.files = FileActions(self, self.show_workspace)
         self.edits = EditActions(self)
@@ -105,6 +106,7 @@ class MainWindow(StudioWindow):
         page.selected.connect(self._show_value)
         page.noted.connect(self.show_status)
         page.findings.fix_requested.connect(self._fix)
+        page.findings.several_requested.connect(lambda: self.guarded(self.edits.fix_several, "Fix Several"))
         page.findings.explanation_requested.connect(self._why)
         page.findings.suppression_requested.connect(self._suppress)
         DiskWatch(page, self.files.compare_with_disk, self.files.reload)
@@ -140,8 +142,8 @@ class MainWindow(StudioWindow):
     def _suppress(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.suppress(finding), "Suppress")
 
-    def _fix(self, finding: Finding) -> None:
-        self.guarded(lambda: self.edits.fix(finding), "Fix")
+    def _fix(self, findings: tuple[Finding, ...]) -> None:
+        self.guarded(lambda: self.edits.fix_all(findings), "Fix")
 
     def _update(self, page: FilePage) -> None:
         """Follow a change of a file, in front or not."""

@@ -9,7 +9,7 @@ from amp_studio.files import fitted_axes
 from amp_studio.report.wording import severity_name
 from amp_studio.validate import SEVERITIES, not_set
 
-from .theme import SMALL_ICON, STATUS, font, icon, severity_icon
+from .theme import GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
 from .workspace import Workspace
 
 
@@ -18,11 +18,14 @@ class StatusLine(QObject):
 
     findings_wanted = Signal()
     """A count was clicked."""
+    not_set_wanted = Signal()
+    """The count of the values that are not set was clicked."""
 
     def __init__(self, bar: QStatusBar) -> None:
         super().__init__(bar)
         bar.setMinimumHeight(STATUS)
         bar.setSizeGripEnabled(False)
+        bar.setContentsMargins(GAP3, 0, GAP3, 0)
         self.value, self.file, self.changes, self.control = QLabel(), QLabel(), QLabel(), QLabel()
         self.value.setAccessibleName(self.tr("Selected values"))
         self.file.setAccessibleName(self.tr("File"))
@@ -32,6 +35,8 @@ class StatusLine(QObject):
         self.counts = {severity: self._count(icon_of) for severity, icon_of in
                        [(s, severity_icon(s)) for s in SEVERITIES]}  # fmt: skip
         self.not_set = self._count(icon("circle-dashed", "dim"))
+        self.not_set.clicked.disconnect(self.findings_wanted)
+        self.not_set.clicked.connect(self.not_set_wanted)
         for widget in (*self.counts.values(), self.not_set, self.changes, self.file, self.control):
             widget.setFont(font("small"))
             bar.addPermanentWidget(widget)

@@ -15,7 +15,7 @@ from .validator import Validator
 
 if TYPE_CHECKING:
     from .calculator import Argument, Calculator, calculate, calculators, shown_result
-    from .explanation import Explanation, SeenValue, explain
+    from .explanation import Explanation, SeenValue, explain, rule_title
     from .fixes import Fixed, apply_all_safe, apply_fixes
     from .rule_file import read_builder_rules, suppress
 
@@ -31,6 +31,7 @@ _PLACES = {
     "calculators": "calculator",
     "explain": "explanation",
     "read_builder_rules": "rule_file",
+    "rule_title": "explanation",
     "shown_result": "calculator",
     "suppress": "rule_file",
 }
@@ -68,6 +69,7 @@ __all__ = [
     "formulas",
     "not_set",
     "read_builder_rules",
+    "rule_title",
     "rules_beside",
     "shown_result",
     "suppress",

@@ -18,6 +18,13 @@ from .validator import Validator
 _NAME = re.compile(r"'[^']*'|(?<![\w.])[a-z][a-z0-9_]*(?!\w*\()")
 _COMPARISON = re.compile(r"<=|>=|==|!=|<|>")
 _LONG_LIST = 8
+_TITLES = {
+    "schema.range": "A value outside its range",
+    "schema.choice": "A value that is no choice",
+    "schema.unset": "Values that are not set",
+    "schema.unknown": "An entry that the schema does not know",
+}
+_OWN_RULES = "The builder's own rules"
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +81,12 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
     )
 
 
+def rule_title(validator: Validator, finding: Finding) -> str:
+    """Return the name of the rule that one of the validator's findings is of."""
+    check = validator.check_of(finding)
+    return check.rule.title if check else _TITLES.get(finding.rule, _OWN_RULES)
+
+
 def _source(validator: Validator, finding: Finding) -> str:
     if finding.is_own:
         return "; ".join(filter(None, (finding.page, validator.own.places.get(finding.rule, ""))))
@@ -88,14 +101,8 @@ def _of_a_value(validator: Validator, finding: Finding) -> Explanation:
         hung_on += evaluation.bound_sources(address)
     every = dict.fromkeys(addresses[:_LONG_LIST] + hung_on)
     seen = tuple(_seen(validator, a, "") for a in every if not _is_hidden(validator, a))
-    titles = {
-        "schema.range": "A value outside its range",
-        "schema.choice": "A value that is no choice",
-        "schema.unset": "Values that are not set",
-        "schema.unknown": "An entry that the schema does not know",
-    }
     return Explanation(
-        titles.get(finding.rule, "The builder's own rules"),
+        _TITLES.get(finding.rule, _OWN_RULES),
         "",
         "",
         "",

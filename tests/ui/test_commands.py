@@ -122,7 +122,7 @@ def test_the_palette_is_driven_from_its_search_field(window: MainWindow) -> None
 def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> None:
     for name, part in (
         ("Groups", window.groups.tree),
-        ("Findings", window.findings.view),
+        ("Findings", window.findings.focusProxy()),
         ("Table", window.table_view),
     ):
         action(window, name).trigger()

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt, QUrl
+from PySide6.QtCore import QPoint, Qt, QUrl
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QDialogButtonBox
+from PySide6.QtWidgets import QApplication, QDialogButtonBox
 
+from amp_studio.files import content_of, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.finding_dialogs import SuppressDialog, WhyDialog
+from amp_studio.ui.finding_dialogs import FixSeveralDialog, SuppressDialog, WhyDialog
+from amp_studio.ui.findings_panel import FindingsPanel
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.workspace import Workspace
-
-from .conftest import WAIT_MS
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -28,38 +28,37 @@ def wrong(window: MainWindow) -> MainWindow:
 
 def test_errors_come_first_and_are_counted(wrong: MainWindow) -> None:
     model = wrong.findings.model
-    assert model.index(0, 0).data() == "error"
+    assert model.index(0, 0).data().startswith("error: ")
     errors = wrong.workspace.count("error")
     assert errors >= 3
-    assert wrong.findings.counts.text().startswith(f"{errors} errors, ")
+    assert wrong.findings.chips["error"].text() == str(errors)
     assert wrong.status.counts["error"].text() == str(errors)
-    assert not model.index(0, 0).data(Qt.ItemDataRole.DecorationRole).isNull()
 
 
 def test_the_selected_finding_stays_selected(wrong: MainWindow) -> None:
     finding = next(f for f in wrong.workspace.findings if f.addresses[0] == ("servo.excess_error", "3"))
-    wrong.findings.view.selectRow(wrong.workspace.findings.index(finding))
+    wrong.findings.select(finding)
 
     wrong.workspace.edit("mend", {EXCESS: Value(11.0, "mm")})
 
     assert wrong.findings.current().addresses == finding.addresses
 
 
-def test_when_a_finding_has_ended_the_next_one_is_selected(path, bare: bytes, open_window) -> None:
+def test_when_a_rule_is_met_again_the_next_row_is_selected(path, bare: bytes, open_window) -> None:
     path.write_bytes(bare)
     panel = open_window(path).findings
-    place = next(n for n, f in enumerate(panel.model.findings) if f.fix and n)
-    panel.view.selectRow(place)
-    ended = panel.model.findings[place]
+    place = next(n for n, group in enumerate(panel.model.groups) if group.fixable and n)
+    panel.view.setCurrentIndex(panel.model.index(place, 0))
+    ended = panel.model.groups[place].key
     panel.fix()
-    left = panel.model.findings
+    left = [group.key for group in panel.model.groups]
     assert ended not in left
     assert panel.view.currentIndex().row() == min(place, len(left) - 1) > 0
 
 
 def test_enter_shows_the_parameter_of_a_finding(wrong: MainWindow) -> None:
     finding = next(f for f in wrong.workspace.findings if f.addresses[0] == ("servo.excess_error", "2"))
-    wrong.findings.view.selectRow(wrong.workspace.findings.index(finding))
+    wrong.findings.select(finding)
     wrong.show_panel("Findings")
     assert wrong.findings.view.hasFocus()
 
@@ -69,41 +68,156 @@ def test_enter_shows_the_parameter_of_a_finding(wrong: MainWindow) -> None:
     assert wrong.table_view.hasFocus()
 
 
-def test_the_fix_button_fixes_and_only_where_there_is_a_fix(path, bare: bytes, open_window) -> None:
+def click(panel: FindingsPanel, part: str, row: int, child: int | None = None) -> None:
+    """Click a button or a link that is painted in a row."""
+    index = panel.model.index(row, 0)
+    index = index if child is None else panel.model.index(child, 0, index)
+    panel.view.setExpanded(index.parent(), True)
+    panel.view.scrollTo(index)
+    place = panel.view.visualRect(index)
+    spot = next(QPoint(x, place.top() + 12) for x in range(place.left(), place.right())
+                if panel._delegate.part_at(index, QPoint(x, place.top() + 12)) == part)  # fmt: skip
+    QTest.mouseClick(panel.view.viewport(), Qt.MouseButton.LeftButton, pos=spot)
+
+
+def test_a_row_is_a_rule_with_the_axes_it_is_broken_on(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    model = open_window(path).findings.model
+    first = model.index(0, 0)
+    assert model.group(first).title == "Servo hardware of a fitted axis"
+    assert model.text_of(first).startswith("The axis is fitted but its Servo Hardware Type is None")
+    assert model.axes_of(first) == ("X", "Y", "Z", "B", "S")
+    assert model.fix_of(first) == "Set Servo Hardware Type to SERCOS Interface"
+    assert [model.axes_of(model.index(n, 0, first)) for n in range(model.rowCount(first))] == [
+        ("X",), ("Y",), ("Z",), ("B",), ("S",),
+    ]  # fmt: skip
+
+
+def test_the_button_of_a_rule_fixes_it_on_every_axis_as_one_step(path, bare: bytes, open_window) -> None:
     path.write_bytes(bare)
     wrong = open_window(path)
-    findings = wrong.workspace.findings
-    able = next(n for n, f in enumerate(findings) if f.fix)
-    unable = next(n for n, f in enumerate(findings) if not f.fix)
-    wrong.findings.view.selectRow(unable)
-    assert not wrong.findings.fix_button.isEnabled()
+    steps = wrong.workspace.undo_stack.count()
+    click(wrong.findings, "fix", 0)
+    types = [wrong.workspace.file.get(("servo.hardware_type", axis)).value for axis in "12345"]
+    assert types == ["sercos"] * 5
+    assert wrong.workspace.undo_stack.count() == steps + 1
+    wrong.edits.undo.trigger()
+    assert wrong.workspace.file.get(("servo.hardware_type", "5")).value == "none"
 
-    wrong.findings.view.selectRow(able)
-    assert wrong.findings.fix_button.isEnabled()
-    setting = findings[able].fix[0]
-    wrong.findings.fix_button.click()
-    assert wrong.workspace.file.get(setting.address) == setting.value
+
+def test_a_finding_below_its_rule_is_fixed_alone(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    wrong = open_window(path)
+    panel = wrong.findings
+    panel.view.setExpanded(panel.model.index(0, 0), True)
+    panel.view.setCurrentIndex(panel.model.index(2, 0, panel.model.index(0, 0)))
+    wrong.edits._fix()
+    types = [wrong.workspace.file.get(("servo.hardware_type", axis)).value for axis in "1234"]
+    assert types == ["none", "none", "sercos", "none"]
+    assert panel.view.isExpanded(panel.model.index(0, 0)), "the list keeps its place"
+    assert panel.view.currentIndex().parent().row() == 0
+
+
+def test_a_link_goes_to_the_value_of_a_finding(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    wrong = open_window(path)
+    click(wrong.findings, "go", 0, 3)
+    assert wrong.selected() == ("servo.hardware_type", "4")
 
 
 def test_a_finding_without_a_fix_says_so(path, bare: bytes, open_window, person) -> None:
     path.write_bytes(bare)
     wrong = open_window(path)
-    unable = next(n for n, f in enumerate(wrong.workspace.findings) if not f.fix)
-    wrong.findings.view.selectRow(unable)
+    panel = wrong.findings
+    unable = next(n for n, group in enumerate(panel.model.groups) if not group.fixable)
+    panel.view.setCurrentIndex(panel.model.index(unable, 0))
     wrong.guarded(wrong.edits._fix)
     assert "has no suggested fix" in person.reads()
 
 
-def test_rows_are_as_high_as_their_words_need(wrong: MainWindow, qtbot) -> None:
+def test_findings_are_filtered_to_the_axis_and_the_group_in_front(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    wrong = open_window(path)
+    panel = wrong.findings
+    wrong.go_to(("servo.loop_type", "5"))
+    panel.scope.buttons["axis"].click()
+    assert panel.scope.buttons["axis"].text() == "Axis S"
+    assert {group.axes for group in panel.model.groups} == {("S",)}
+    wrong.go_to(("accdec.jerk", "1"))
+    panel.scope.buttons["shown"].click()
+    assert {group.findings[0].causes[0][0] for group in panel.model.groups} == {
+        "accdec.jerk",
+        "accdec.min_jerk",
+    }
+    panel.scope.buttons["file"].click()
+    assert len(panel.model.groups) > 4
+
+
+def test_a_severity_is_left_out_and_listed_again(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    panel = open_window(path).findings
+    for severity in ("error", "warning", "advice"):
+        panel.chips[severity].click()
+    assert panel.model.groups == ()
+    assert "filters" in panel.empty.text()
+    panel._follow("all")
+    assert {group.severity for group in panel.model.groups} == {"error", "warning", "advice"}
+
+
+def test_what_is_held_back_is_counted_and_not_listed(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    panel = open_window(path).findings
+    panel.hold_back(lambda finding: finding.rule.startswith("9pc.accdec."))
+    assert not any("accdec" in group.key for group in panel.model.groups)
+    assert panel.note.text() == "8 of later steps left out"
+    assert not panel.chips["warning"].isVisible()
+
+
+def test_an_empty_list_leads_to_what_is_not_set(path, open_window) -> None:
+    path.write_bytes(content_of(new_file("num", "cnc", [], "bare")))
+    window = open_window(path)
+    assert window.findings.empty.isVisible()
+    assert "921 active parameters are not set." in window.findings.empty.text()
+    window.findings._follow("unset")
+    assert window.page.list_title.text().startswith("<b>Not set</b>")
+
+
+def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(
+    path, bare: bytes, open_window, accept
+) -> None:
+    path.write_bytes(bare)
+    wrong = open_window(path)
+    before, steps = dict(wrong.workspace.file.values), wrong.workspace.undo_stack.count()
+
+    def choose(dialog: FixSeveralDialog) -> None:
+        assert dialog.chosen() == (), "nothing that can change motion is chosen by itself"
+        assert not dialog.ok.isEnabled()
+        for top, leaf in ((0, 0), (0, 1), (1, 2)):
+            dialog.list.topLevelItem(top).child(leaf).setCheckState(0, Qt.CheckState.Checked)
+        assert dialog.ok.text() == "Apply 3 &Fixes"
+
+    accept(FixSeveralDialog, choose)
+    wrong.findings.several.click()
+
+    changed = {a for a, value in wrong.workspace.file.values.items() if before.get(a) != value}
+    assert changed == {("servo.hardware_type", "1"), ("servo.hardware_type", "2"), ("accdec.jerk", "3")}
+    assert wrong.workspace.undo_stack.count() == steps + 1
+    wrong.edits.undo.trigger()
+    assert wrong.workspace.file.values == before
+
+
+def test_rows_are_as_high_as_their_words_need(path, bare: bytes, open_window, qtbot) -> None:
     """Also when the window becomes narrower."""
-    view = wrong.findings.view
-    rows = range(len(wrong.workspace.findings))
-    for width in (1700, 900, 1300):
+    path.write_bytes(bare)
+    wrong = open_window(path)
+    view, model = wrong.findings.view, wrong.findings.model
+    longest = max(range(len(model.groups)), key=lambda n: len(model.groups[n].message))
+    heights = []
+    for width in (1900, 700):
         wrong.resize(width, 900)
-        qtbot.waitUntil(
-            lambda: [view.rowHeight(n) for n in rows] == [view.sizeHintForRow(n) for n in rows],
-            timeout=WAIT_MS,
-        )
+        QApplication.processEvents()
+        heights.append(view.visualRect(model.index(longest, 0)).height())
+    assert heights[1] > heights[0]
 
 
 def test_a_hidden_parameter_of_a_finding_can_be_shown(window: MainWindow, workspace: Workspace) -> None:
@@ -124,10 +238,9 @@ def test_why_shows_the_rule_and_leads_to_its_parameters(wrong: MainWindow) -> No
     wrong.workspace.edit("speed", {("home.g28_speed", "1"): Value(10160.0, "mm/min")})
     wrong.workspace.edit("rapid", {("feedrate.rapid", "1"): Value(9000.0, "mm/min")})
     rule = "9pc.home.g28-speed-above-rapid"
-    row = next(n for n, f in enumerate(wrong.workspace.findings) if f.rule == rule)
-    wrong.findings.view.selectRow(row)
+    wrong.findings.select(next(f for f in wrong.workspace.findings if f.rule == rule))
 
-    wrong.findings.why_button.click()
+    wrong.findings.explain()
 
     dialog = wrong.findChild(WhyDialog)
     text = dialog.page.toPlainText()
@@ -139,7 +252,7 @@ def test_why_shows_the_rule_and_leads_to_its_parameters(wrong: MainWindow) -> No
 
 def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, path, monkeypatch) -> None:
     finding = next(f for f in wrong.workspace.findings if f.addresses[0] == EXCESS)
-    wrong.findings.view.selectRow(wrong.workspace.findings.index(finding))
+    wrong.findings.select(finding)
 
     def fill(dialog: SuppressDialog) -> bool:
         dialog.reason.setText("measured on the machine")
@@ -151,11 +264,19 @@ def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, 
         return True
 
     monkeypatch.setattr(SuppressDialog, "exec", fill)
-    wrong.findings.suppress_button.click()
+    wrong.findings.suppress()
 
     assert all(EXCESS not in f.addresses or f.rule != finding.rule for f in wrong.workspace.findings)
     assert [s.suppression.by for s in wrong.workspace.validator.suppressed] == ["J. Doe"]
-    assert "1 suppressed" in wrong.findings.counts.text()
+    chip = wrong.findings.suppressed
+    assert chip.text() == "1 suppressed"
+    assert not any("J. Doe" in group.message for group in wrong.findings.model.groups)
+    chip.click()
+    assert any(
+        "Suppressed by J. Doe: measured on the machine" in f.message
+        for g in wrong.findings.model.groups
+        for f in g.findings
+    )
     assert "measured on the machine" in path.with_name("rules.yaml").read_text()
 
 
