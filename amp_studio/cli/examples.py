@@ -84,6 +84,12 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio picture {MILL}",
         f"amp-studio picture {MILL} travel --part X,Y -o travel.svg",
     ),
+    "calibrate": (
+        f"amp-studio calibrate {MILL} --axis X",
+        f"amp-studio calibrate {MILL} --axis X --from laser.csv --dry-run",
+        f"amp-studio calibrate {MILL} --axis X --from laser.csv --sign measured-target",
+        f"amp-studio calibrate {MILL} --axis X --compensation on --from laser.csv --sign measured-target --json --dry-run",
+    ),
     "demo": ("amp-studio demo --terminal",),
     "completion": ("amp-studio completion bash",),
     "man": ("amp-studio man",),

@@ -18,6 +18,7 @@ from .arguments import (
     seconds,
     secrets_option,
 )
+from .calibration_options import calibrate_options
 
 SENDING = ("xmodem", "xmodem-1k", "ymodem", "raw")
 RECEIVING = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
@@ -48,6 +49,7 @@ def parser(asked: str = "") -> argparse.ArgumentParser:
         _exchanges,
         _plain_files,
         _motion,
+        calibrate_options,
         _of_the_shell,
     ):
         some(verbs)

@@ -32,6 +32,7 @@ class Registration:
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
     ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room pictures)
+    ``compensation``  what it has against the errors of an axis, and what is tuned at the machine (``Compensation``)
     ``describe``  description of a control -> its schema (``described``), for a family whose controls describe themselves
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
@@ -46,6 +47,7 @@ class Registration:
     law: str = ""
     sheet: str = ""
     curve: str = ""
+    compensation: str = ""
     describe: str = ""
     facts: Path | None = None
 

@@ -42,6 +42,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copy(EXAMPLE, MILL)
     shutil.copy(EXAMPLE, "other.amp")
     assert cli.run(["set", "other.amp", "1300=2"]) == 0
+    Path("laser.csv").write_text("position [mm],error [um]\n0,0\n100,4\n200,7\n200,9\n100,6\n0,2\n")
     assert cli.run(["export", MILL, "-o", "values.csv"]) == 0
     return tmp_path
 

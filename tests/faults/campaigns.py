@@ -26,6 +26,7 @@ from tests.ui.killed import kill_editor
 from . import (
     descriptions,
     grbl_lines,
+    measured_points,
     own_contents,
     own_protocols,
     persons,
@@ -216,6 +217,7 @@ CAMPAIGNS = (
     ),
     Campaign("damaged copies of a control", partial(_damaged_in, stored.fuzz_copies), MANY, 50, 5_000),
     Campaign("damaged lists of a control's screen", partial(_damaged, sheets.fuzz_screens), MANY, 100, 5_000),
+    Campaign("damaged points of a laser", partial(_damaged, measured_points.fuzz_points), MANY, 150, 5_000),
     Campaign("damaged ticks of a sheet", partial(_damaged_in, sheets.fuzz_ticks), MANY, 100, 5_000),
     Campaign("damaged backups", partial(_damaged_in, stored.fuzz_backups), MANY, 50, 5_000),
     Campaign("damaged cache", partial(_damaged_in, stored.fuzz_caches), MANY, 200, 5_000),

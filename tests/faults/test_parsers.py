@@ -23,6 +23,8 @@ CALLS = {
 NAMES = {"stdin", "argv", "environ"}
 
 READERS = {
+    "calibration/cells.py": "damaged points of a laser",
+    "calibration/reading.py": "damaged points of a laser",
     "cli/checks.py": "damaged parameter file",
     "cli/console.py": "odd values",
     "cli/control.py": "damaged control image",

@@ -21,6 +21,7 @@ REGISTRATION = Registration(
         "house": "amp_studio.transfer.emulated.family_control:emulate_house",
         "terminal": "amp_studio.families.acromill.emulated.card:emulate_terminal",
     },
+    compensation="amp_studio.families.acromill.compensation:COMPENSATION",
     law="amp_studio.families.acromill.law:LAW",
     curve="amp_studio.families.acromill.curve:CURVE",
 )

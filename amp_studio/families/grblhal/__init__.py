@@ -12,5 +12,6 @@ REGISTRATION = Registration(
     contents={"grblHAL settings 1": "amp_studio.families.grblhal.kind:GrblContentKind"},
     emulators={"grbl": "amp_studio.families.grblhal.emulated.control:emulate_grbl"},
     recognised="amp_studio.families.grblhal.line:RECOGNISED",
+    compensation="amp_studio.families.grblhal.compensation:COMPENSATION",
     describe="amp_studio.families.grblhal.described:schema_of",
 )

@@ -10,5 +10,6 @@ REGISTRATION = Registration(
     formats=("amp_studio.families.ninepc.formats.patch_sheet:FORMAT",),
     emulators={"house": "amp_studio.families.ninepc.emulated:emulate"},
     sheet="amp_studio.families.ninepc.sheet:KEYING",
+    compensation="amp_studio.families.ninepc.compensation:COMPENSATION",
     law="amp_studio.families.ninepc.law:LAW",
 )

@@ -19,5 +19,6 @@ REGISTRATION = Registration(
         "peripheral": "amp_studio.families.num.emulated.control:emulate_peripheral",
     },
     sheet="amp_studio.families.num.sheet:KEYING",
+    compensation="amp_studio.families.num.compensation:COMPENSATION",
     law="amp_studio.families.num.law:LAW",
 )

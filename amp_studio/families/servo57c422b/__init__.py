@@ -15,6 +15,7 @@ REGISTRATION = Registration(
         "house": "amp_studio.transfer.emulated.family_control:emulate_house",
         "registers": "amp_studio.families.servo57c422b.emulated.rack:emulate_registers",
     },
+    compensation="amp_studio.families.servo57c422b.compensation:COMPENSATION",
     law="amp_studio.families.servo57c422b.law:LAW",
     formulas="amp_studio.families.servo57c422b.formulas:FORMULAS",
     formats=(

@@ -1,0 +1,68 @@
+"""Errors over the positions of an axis: straight lines from point to point, constant beyond the first and the last."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from .measurement import Measurement, Points
+
+
+@dataclass(frozen=True)
+class ErrorCurve:
+    """Points of one unit with rising positions; an empty curve is zero everywhere."""
+
+    points: Points
+
+    @cached_property
+    def _positions(self) -> list[Fraction]:
+        return [at for at, _ in self.points]
+
+    def at(self, position: Fraction) -> Fraction:
+        """Return the value at a position."""
+        n = bisect_left(self._positions, position)
+        if not self.points:
+            return Fraction(0)
+        if n == 0 or n == len(self.points):
+            return self.points[min(n, len(self.points) - 1)][1]
+        (low, before), (high, after) = self.points[n - 1], self.points[n]
+        return before + (after - before) * (position - low) / (high - low)
+
+    def less(self, other: ErrorCurve, positions: Iterable[Fraction] = ()) -> ErrorCurve:
+        """Return this curve less another, at all points of both and at ``positions``."""
+        at = sorted({*self._positions, *(p for p, _ in other.points), *positions})
+        return ErrorCurve(tuple((p, self.at(p) - other.at(p)) for p in at))
+
+    def shifted(self, by: Fraction) -> ErrorCurve:
+        """Return this curve with ``by`` added to every value."""
+        return ErrorCurve(tuple((at, value + by) for at, value in self.points))
+
+    @property
+    def span(self) -> Fraction:
+        """Largest value less smallest one."""
+        values = [value for _, value in self.points]
+        return max(values) - min(values) if values else Fraction(0)
+
+
+def mean_curve(measurement: Measurement, rising: bool | None = None) -> ErrorCurve:
+    """Return the mean error at each target: of one direction, or of both with the same weight (ISO 230-2, 3.12).
+
+    Targets that were not reached from every direction of the measurement are left out of the mean of both.
+    """
+    sides = [measurement.errors(rising=side) for side in (True, False)] if rising is None else []
+    if rising is not None:
+        sides = [measurement.errors(rising=rising)]
+    sides = [side for side in sides if side]
+    common = set.intersection(*(set(side) for side in sides)) if sides else set()
+    return ErrorCurve(
+        tuple(
+            (at, sum((_mean(side[at]) for side in sides), Fraction(0)) / len(sides)) for at in sorted(common)
+        )
+    )
+
+
+def _mean(values: list[Fraction]) -> Fraction:
+    return sum(values, Fraction(0)) / len(values)

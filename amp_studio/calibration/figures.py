@@ -1,0 +1,139 @@
+"""Figures of a linear or rotary axis by ISO 230-2: mean errors, reversal, repeatability and accuracy.
+
+For target i, of n runs in a direction: mean error x_i, estimator of the standard deviation s_i with n - 1. Both directions
+give the mean (x_i+ + x_i-)/2 and the reversal value B_i = x_i+ - x_i-. Everything is in the unit of the measurement.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from .measurement import Measurement
+
+
+@dataclass(frozen=True)
+class TargetFigures:
+    """One target; what needs another direction or more runs is None."""
+
+    position: float
+    mean_rising: float | None
+    mean_falling: float | None
+    spread_rising: float | None
+    """Estimator of the standard deviation."""
+    spread_falling: float | None
+
+    @property
+    def mean(self) -> float | None:
+        """Mean of both directions."""
+        if self.mean_rising is None or self.mean_falling is None:
+            return None
+        return (self.mean_rising + self.mean_falling) / 2
+
+    @property
+    def reversal(self) -> float | None:
+        """B_i: rising less falling; negative where motion is lost."""
+        if self.mean_rising is None or self.mean_falling is None:
+            return None
+        return self.mean_rising - self.mean_falling
+
+
+@dataclass(frozen=True)
+class AxisFigures:
+    """Figures of an axis; None for what the runs do not give (one direction, or one run of each).
+
+    ``reversal``        B, the largest |B_i|; ``mean_reversal`` the mean of B_i
+    ``repeatability_*`` R: of a direction 4 s, of both the largest of 2 s+ + 2 s- + |B|, R+ and R-
+    ``systematic_*``    E: range of the means; ``mean_range`` M: that of the means of both directions
+    ``accuracy_*``      A: range of mean + 2 s and mean - 2 s
+    """
+
+    targets: tuple[TargetFigures, ...]
+    runs_rising: int
+    runs_falling: int
+    reversal: float | None
+    mean_reversal: float | None
+    mean_range: float | None
+    systematic_rising: float | None
+    systematic_falling: float | None
+    systematic: float | None
+    repeatability_rising: float | None
+    repeatability_falling: float | None
+    repeatability: float | None
+    accuracy_rising: float | None
+    accuracy_falling: float | None
+    accuracy: float | None
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there are the five runs of each direction that the standard asks for."""
+        return min(self.runs_rising, self.runs_falling) >= 5
+
+
+def figures(measurement: Measurement) -> AxisFigures:
+    """Return the figures of a measurement."""
+    rising, falling = (
+        {at: [float(v) for v in values] for at, values in measurement.errors(rising=side).items()}
+        for side in (True, False)
+    )
+    targets = tuple(
+        TargetFigures(
+            float(at), _mean(rising.get(at)), _mean(falling.get(at)), _spread(rising.get(at)), _spread(falling.get(at))
+        )
+        for at in measurement.targets
+    )  # fmt: skip
+    reversals = [t.reversal for t in targets if t.reversal is not None]
+    up = [(t.mean_rising, t.spread_rising) for t in targets if t.mean_rising is not None]
+    down = [(t.mean_falling, t.spread_falling) for t in targets if t.mean_falling is not None]
+    both = [*up, *down] if up and down else []
+    return AxisFigures(
+        targets,
+        sum(run.rising for run in measurement.runs),
+        sum(not run.rising for run in measurement.runs),
+        max(map(abs, reversals), default=None),
+        math.fsum(reversals) / len(reversals) if reversals else None,
+        _range([t.mean for t in targets if t.mean is not None]),
+        _range([mean for mean, _ in up]),
+        _range([mean for mean, _ in down]),
+        _range([mean for mean, _ in both]),
+        _largest(None if s is None else 4 * s for _, s in up),
+        _largest(None if s is None else 4 * s for _, s in down),
+        _largest(_repeatability(t) for t in targets) if both else None,
+        _accuracy(up),
+        _accuracy(down),
+        _accuracy(both),
+    )
+
+
+def _mean(values: list[float] | None) -> float | None:
+    return math.fsum(values) / len(values) if values else None
+
+
+def _spread(values: list[float] | None) -> float | None:
+    return statistics.stdev(values) if values and len(values) > 1 else None
+
+
+def _range(values: list[float]) -> float | None:
+    return max(values) - min(values) if values else None
+
+
+def _largest(values: Iterable[float | None]) -> float | None:
+    """Return the largest; None where one of them is not known."""
+    known = list(values)
+    return max((v for v in known if v is not None), default=None) if None not in known else None
+
+
+def _repeatability(target: TargetFigures) -> float | None:
+    up, down, reversal = target.spread_rising, target.spread_falling, target.reversal
+    if up is None or down is None or reversal is None:
+        return None
+    return max(2 * up + 2 * down + abs(reversal), 4 * up, 4 * down)
+
+
+def _accuracy(side: list[tuple[float, float | None]]) -> float | None:
+    bands = [(mean - 2 * s, mean + 2 * s) for mean, s in side if s is not None]
+    if not bands or len(bands) < len(side):
+        return None
+    return max(high for _, high in bands) - min(low for low, _ in bands)

@@ -1,0 +1,283 @@
+"""From measured points to what is set in a file: calibration table, reversal error, and what error is expected to remain.
+
+Motion that is lost at a reversal leaves a rising run behind by half of it and a falling run ahead by the other half; the
+mean of both directions is what the table takes away. Points measured with compensation on are what it has left over, so
+what it takes away already is added again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Value, canonical, dimension, fault, real_value, shown
+from amp_studio.schema.scales import size_of
+from amp_studio.schema.units import UNITS
+
+from .compensation import CalibrationTable, Compensation, compensation_of
+from .curve import ErrorCurve, mean_curve
+from .errors import CalibrationError
+from .figures import AxisFigures, figures
+from .measurement import Measurement
+
+_USUAL_DECIMALS = 5
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is to be made of measured points.
+
+    ``was_on``  whether the axis was measured with its compensation on; None for not answered
+    ``input``, ``start``  as the control's screen asks them, "" for what the present table has, else the usual one
+    """
+
+    was_on: bool | None = None
+    input: str = ""
+    start: str = ""
+    table: bool = True
+    reversal: bool = True
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """What is proposed for an axis; nothing is changed yet. Errors are in ``unit``: mm, deg or counts.
+
+    ``settings``  the values to set
+    ``before``    mean errors as measured, ``after`` as expected; ``True`` for the rising direction
+    ``reversal``  lost motion that is compensated now and that is proposed; None where there is nothing to propose
+    """
+
+    axis: str
+    unit: str
+    settings: Mapping[Address, Value]
+    table: CalibrationTable | None
+    reversal: tuple[Fraction, Fraction] | None
+    figures: AxisFigures
+    before: Mapping[bool, ErrorCurve]
+    after: Mapping[bool, ErrorCurve]
+    notes: tuple[str, ...]
+
+    @property
+    def span_before(self) -> Fraction:
+        """Largest less smallest mean error of both directions as measured: E of ISO 230-2."""
+        return _span(self.before)
+
+    @property
+    def span_after(self) -> Fraction:
+        """The same as expected with what is proposed."""
+        return _span(self.after)
+
+
+def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish) -> Proposal:
+    """Return what measured points make of an axis (its instance); raises CalibrationError for what is to be answered first."""
+    offered = compensation_of(file.schema.family.family)
+    if not offered.reversal and offered.table is None:
+        raise CalibrationError(
+            f"{file.schema.family.name} has neither a calibration table nor a reversal error"
+        )
+    check_unit(file, offered, axis, measurement.unit)
+    present = present_table(file, offered, axis)
+    old = lost_motion(file, offered, axis)
+    if wish.was_on is None and (present is not None or old):
+        raise CalibrationError(
+            "the axis is compensated already: name whether it was measured with compensation on or off"
+        )
+    was_on = bool(wish.was_on)
+    notes = [*measurement.notes]
+    sides = {side: mean_curve(measurement, side) for side in (True, False)}
+    sides = {side: curve for side, curve in sides.items() if curve.points}
+    raw = mean_curve(measurement)
+    if not raw.points:
+        raise CalibrationError("no target was reached from both directions")
+    if was_on and present is not None:
+        raw = _plus(raw, present.curve)
+    settings: dict[Address, Value] = {}
+    table = _table(file, offered, axis, raw, wish, present, settings, notes) if wish.table else None
+    reversal = (
+        _reversal(file, offered, axis, measurement, old if was_on else Fraction(0), settings, notes)
+        if wish.reversal
+        else None
+    )
+    taken = table.curve if table else present.curve if present else ErrorCurve(())
+    lost = (reversal[1] if reversal else old) - (old if was_on else Fraction(0))
+    added = present.curve if was_on and present is not None else ErrorCurve(())
+    after = {
+        side: ErrorCurve(
+            tuple(
+                (at, e + added.at(at) - taken.at(at) + (lost if side else -lost) / 2)
+                for at, e in curve.points
+            )
+        )
+        for side, curve in sides.items()
+    }
+    if len(sides) == 1:
+        notes.append("measured in one direction only: the lost motion is not known")
+        after = {side: curve.shifted((-lost if side else lost) / 2) for side, curve in after.items()}
+    return Proposal(
+        axis, measurement.unit, settings, table, reversal, figures(measurement), sides, after, tuple(notes)
+    )
+
+
+def _plus(curve: ErrorCurve, other: ErrorCurve) -> ErrorCurve:
+    return ErrorCurve(tuple((at, value + other.at(at)) for at, value in curve.points))
+
+
+def _span(sides: Mapping[bool, ErrorCurve]) -> Fraction:
+    values = [value for curve in sides.values() for _, value in curve.points]
+    return max(values) - min(values) if values else Fraction(0)
+
+
+def axes_of(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes that have a table or a reversal error, those that the file does not hide."""
+    offered = compensation_of(file.schema.family.family)
+    name = offered.table.parameter if offered.table else offered.reversal
+    if not name:
+        return ()
+    instances = file.machine_schema.instances(file.schema.parameters[name])
+    return tuple(axis for axis in instances if file.evaluation.state((name, axis)).state != "hidden")
+
+
+def base_unit(file: ParameterFile, offered: Compensation, axis: str) -> str:
+    """Return the unit in which an axis is measured: mm, deg, or counts where its parameters know no other."""
+    address = (offered.table.parameter if offered.table else offered.reversal, axis)
+    if file.evaluation.turns(address):
+        return "deg"
+    return "counts" if file.schema.parameters[address[0]].quantity == "counts" else "mm"
+
+
+def check_unit(file: ParameterFile, offered: Compensation, axis: str, unit: str) -> None:
+    """Raise CalibrationError where positions have no unit of this axis."""
+    wanted = base_unit(file, offered, axis)
+    if unit != wanted:
+        name = {"mm": "a length (mm, in, um)", "deg": "degrees", "counts": "counts"}
+        raise CalibrationError(f"the axis is measured in {name[wanted]}, and the points are in {unit}")
+
+
+def present_table(file: ParameterFile, offered: Compensation, axis: str) -> CalibrationTable | None:
+    """Return the table that an axis has; None where it has none. Raises CalibrationError for one that cannot be read."""
+    if offered.table is None:
+        return None
+    value = file.get((offered.table.parameter, axis))
+    if value is None or not str(value.value).strip():
+        return None
+    return offered.table.read(file, axis, str(value.value))
+
+
+def lost_motion(file: ParameterFile, offered: Compensation, axis: str) -> Fraction:
+    """Return the lost motion that an axis compensates now, in its base unit; positive unless its sign has a meaning."""
+    if not offered.reversal:
+        return Fraction(0)
+    address = (offered.reversal, axis)
+    own = file.get(address)
+    if own is None or isinstance(own.value, (str, bool)):
+        return Fraction(0)
+    scaled = real_value(file.evaluation, address, own)
+    value = (
+        file.evaluation.canonical(address) if scaled is None else canonical(float(scaled.value), scaled.unit)
+    )
+    amount = Fraction(repr(float(value)))  # type: ignore[arg-type]
+    return amount if offered.is_signed else abs(amount)
+
+
+def _table(
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    raw: ErrorCurve,
+    wish: Wish,
+    present: CalibrationTable | None,
+    settings: dict[Address, Value],
+    notes: list[str],
+) -> CalibrationTable | None:
+    form = offered.table
+    if form is None:
+        notes.append("the control has no calibration table of an axis; only the reversal error is proposed")
+        return None
+    address = (form.parameter, axis)
+    state = file.evaluation.state(address)
+    if not state.is_active:
+        raise CalibrationError(f"the calibration table of this axis is not used: {state.why}")
+    if present and (
+        (wish.input or present.input) != present.input or (wish.start or present.start) != present.start
+    ):
+        notes.append("input and start can be chosen again because all points are replaced")
+    input_ = wish.input or (present.input if present else "")
+    start = wish.start or (present.start if present else "")
+    fitted = form.fit(file, axis, raw, input_, start)
+    notes += fitted.notes
+    settings[address] = Value(form.write(file, axis, fitted.table))
+    return fitted.table
+
+
+def _reversal(
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    measurement: Measurement,
+    on: Fraction,
+    settings: dict[Address, Value],
+    notes: list[str],
+) -> tuple[Fraction, Fraction] | None:
+    """Return the lost motion that is compensated now and the one proposed; None where nothing is proposed."""
+    up, down = measurement.errors(rising=True), measurement.errors(rising=False)
+    common = [at for at in up if at in down]
+    if not common or not offered.reversal:
+        return None
+    address = (offered.reversal, axis)
+    lost = [_mean(down[at]) - _mean(up[at]) for at in common]
+    total = _mean(lost) + on
+    if _mean(lost) < 0 and not on:
+        notes.append(
+            "rising runs are ahead of falling ones, which lost motion cannot do: check the sign of the errors"
+        )
+    state = file.evaluation.state(address)
+    if not state.is_active:
+        notes.append(f"no reversal error is proposed: {state.why}")
+        return None
+    if total < 0 and not offered.is_signed:
+        if on:
+            total = Fraction(0)
+            notes.append("more is compensated than motion is lost: the reversal error becomes 0")
+        else:
+            return None
+    low = min(lost) + on
+    if low < total:
+        notes.append(
+            f"lost motion differs over the travel: the least is {float(low):.5f} {measurement.unit}, and the manuals "
+            "warn of a value above it"
+        )
+    value, made = rounded(file, address, total)
+    present = file.get(address)
+    if not offered.is_signed and present is not None and not isinstance(present.value, (str, bool)):
+        value = Value(-value.value if present.value < 0 and value.value else value.value, value.unit)  # type: ignore[operator]
+    if message := fault(file.evaluation, address, value):
+        notes.append(f"no reversal error is proposed: {message}")
+        return None
+    settings[address] = value
+    return lost_motion(file, offered, axis), made
+
+
+def rounded(file: ParameterFile, address: Address, amount: Fraction) -> tuple[Value, Fraction]:
+    """Return an amount (mm, deg, counts) as a value in the unit of entry, rounded towards zero, and what it is then."""
+    parameter = file.schema.parameters[address[0]]
+    unit = file.evaluation.unit(address, file.header.units)
+    size = size_of(file.evaluation, address, unit)
+    if size is None and dimension(unit) not in ("length", "angle", "") and unit != "counts":
+        raise CalibrationError(
+            f"the size of {shown(unit)} is not set, so no value of {parameter.name} can be worked out"
+        )
+    factor = size.number * UNITS[size.unit][1] if size is not None else UNITS[unit][1]
+    decimals = parameter.decimals
+    if decimals is None:
+        decimals = (parameter.storage.decimals if parameter.storage else None) or _USUAL_DECIMALS
+    step = Fraction(1) if parameter.type == "integer" else Fraction(1, 10**decimals)
+    steps = int(amount / factor / step)  # towards zero
+    number = steps * step
+    whole = parameter.type == "integer"
+    return Value(int(number) if whole else float(number), unit), number * factor
+
+
+def _mean(values: list[Fraction]) -> Fraction:
+    return sum(values, Fraction(0)) / len(values)

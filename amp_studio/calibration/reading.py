@@ -1,0 +1,296 @@
+"""Measured points from a text: plain columns of a spreadsheet or a laser's own file, in one or several runs.
+
+Nothing is guessed that could turn or scale an error: units, sign and decimal comma come from the heads of the columns or
+from a person, and what nobody has answered is listed in ``Measurement.assumed``. Docs: docs/tuning.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from amp_studio.files import text_of_name
+from amp_studio.schema.regular_file import read_file
+
+from . import renishaw
+from .cells import is_number, lines_of, number_of, separator_of, split
+from .errors import MeasurementError
+from .heads import Head, direction_of, read_head
+from .measurement import (
+    DECIMALS,
+    ERROR_UNITS,
+    POSITION_UNITS,
+    SIGNS,
+    MeasuredRun,
+    Measurement,
+    MeasurementAnswers,
+)
+from .raw import RawRun, RawTable
+
+_SIZES = {
+    "mm": Fraction(1), "in": Fraction("25.4"), "um": Fraction(1, 1000), "deg": Fraction(1),
+    "arcsec": Fraction(1, 3600), "counts": Fraction(1),
+}  # fmt: skip
+_BASE = {"mm": "mm", "in": "mm", "um": "mm", "deg": "deg", "arcsec": "deg", "counts": "counts"}
+
+
+def read_measured_file(path: Path, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
+    """Read a file of measured points; raises MeasurementError with its name, and OSError where it cannot be read."""
+    content = read_file(path)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = content.decode("cp1252", errors="replace")  # a degree sign of an older program
+    try:
+        return read_measurement(text, answers, usual_unit)
+    except MeasurementError as error:
+        raise MeasurementError(f"{text_of_name(str(path))}: {error}") from None
+
+
+def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
+    """Read measured points; ``usual_unit`` is that of the axis, assumed where nobody names one. Raises MeasurementError."""
+    _check(answers)
+    if "\0" in text:
+        raise MeasurementError("this is no text with measured points")
+    raw = renishaw.read(text, usual_unit) if renishaw.recognises(text) else _read_columns(text, answers)
+    assumed = []
+    unit = answers.unit or raw.unit
+    if not unit:
+        unit = usual_unit
+        assumed.append("unit")
+    error_unit = answers.error_unit or raw.error_unit or (unit if raw.kind == "measured" else "")
+    if not error_unit:
+        error_unit = unit
+        assumed.append("error_unit")
+    sign = answers.sign
+    if raw.kind != "error":
+        known = "target-measured" if raw.kind == "correction" else "measured-target"
+        if sign and sign != known:
+            raise MeasurementError(
+                f"the heads of the columns name {raw.kind} figures, which are {known}, not {sign}"
+            )
+        sign = known
+    if not sign:
+        sign = SIGNS[0]
+        assumed.append("sign")
+    if _BASE[unit] != _BASE[error_unit]:
+        raise MeasurementError(f"positions in {unit} and errors in {error_unit} do not belong together")
+    used = MeasurementAnswers(unit, error_unit, sign, answers.decimal or DECIMALS[0])
+    runs = tuple(_in_base(run, raw.kind, used) for run in _with_directions(raw.runs))
+    return Measurement(runs, _BASE[unit], used, tuple(assumed), raw.notes)
+
+
+def _check(answers: MeasurementAnswers) -> None:
+    for what, given, known in (
+        ("unit", answers.unit, POSITION_UNITS),
+        ("unit of errors", answers.error_unit, ERROR_UNITS),
+        ("sign", answers.sign, SIGNS),
+        ("decimal sign", answers.decimal, DECIMALS),
+    ):
+        if given and given not in known:
+            raise MeasurementError(f"'{given[:40]}' is no {what} of measured points: {', '.join(known)}")
+
+
+def _in_base(run: MeasuredRun, kind: str, used: MeasurementAnswers) -> MeasuredRun:
+    size, error_size = _SIZES[used.unit], _SIZES[used.error_unit]
+    turned = -1 if used.sign == SIGNS[1] else 1
+    points = (
+        (at * size, value * error_size - at * size if kind == "measured" else turned * value * error_size)
+        for at, value in run.points
+    )
+    return MeasuredRun(run.rising, tuple(points))
+
+
+# -- columns ------------------------------------------------------------------------------------
+
+
+def _read_columns(text: str, answers: MeasurementAnswers) -> RawTable:
+    lines = lines_of(text)
+    first = next((n for n, (_, line) in enumerate(lines) if _is_data(line, answers.decimal)), None)
+    if first is None:
+        raise MeasurementError("there is no line of numbers")
+    separator = separator_of(lines[first][1], answers.decimal)
+    rows = [(n, split(line, separator, n)) for n, line in lines[first:]]
+    width = len(rows[0][1])
+    heads, notes = _heads(lines[:first], separator, width)
+    for n, cells in rows:
+        if len(cells) != width:
+            raise MeasurementError(
+                f"{len(cells)} cells, and {width} in the lines before: {_hint(separator)}", n
+            )
+    return _table(rows, heads, answers.decimal, separator, notes)
+
+
+def _hint(separator: str) -> str:
+    return (
+        "if it has decimal commas, name the decimal sign"
+        if separator == ","
+        else "each line has one for a column"
+    )
+
+
+def _is_data(line: str, decimal: str) -> bool:
+    cells = split(line, separator_of(line, decimal), 0) if '"' not in line else []
+    begins = bool(cells) and (is_number(cells[0]) or direction_of(cells[0]) is not None)
+    return begins and sum(is_number(cell) for cell in cells) > 1
+
+
+def _heads(
+    before: Sequence[tuple[int, str]], separator: str, width: int
+) -> tuple[list[Head] | None, tuple[str, ...]]:
+    """Return the heads of the columns, None where there are none, and what was passed over as a title."""
+    heads, titles = None, list(before)
+    if before:
+        n, line = before[-1]
+        cells = split(line, separator, n) if separator else _words(line, width)
+        if len(cells) == width:
+            heads = [read_head(cell, column) for column, cell in enumerate(cells)]
+            titles.pop()
+    notes = (f"{len(titles)} lines before the columns were not read" if len(titles) != 1 else
+             "1 line before the columns was not read",) if titles else ()  # fmt: skip
+    return heads, notes
+
+
+def _words(line: str, width: int) -> list[str]:
+    """Part a head that is separated by blanks: by several of them, else by each."""
+    wide = [part.strip() for part in line.strip().replace("\t", "  ").split("  ") if part.strip()]
+    return wide if len(wide) == width else line.split()
+
+
+def _table(
+    rows: Sequence[tuple[int, list[str]]],
+    heads: list[Head] | None,
+    decimal: str,
+    separator: str,
+    notes: tuple[str, ...],
+) -> RawTable:
+    if heads is None:
+        if len(rows[0][1]) != 2:
+            raise MeasurementError(
+                f"{len(rows[0][1])} columns without heads: name them in a line before, as position, run 1 +, run 1 -",
+                rows[0][0],
+            )
+        heads = [Head("position", "", None), Head("error", "", None)]
+    kinds = [head.kind for head in heads]
+    values = [n for n, kind in enumerate(kinds) if kind in ("measured", "error", "correction")]
+    if kinds.count("position") != 1 or not values:
+        raise MeasurementError(
+            "the heads of the columns do not name one position and what was measured there: position, error"
+        )
+    used = {heads[n].kind for n in values}
+    if (
+        len(used) > 1
+    ):  # measured beside its error: the reading of the instrument is the one without a sign to guess
+        values = [n for n in values if kinds[n] == "measured"] or values
+        if len({kinds[n] for n in values}) > 1:
+            raise MeasurementError("columns of errors and of corrections: leave one of them")
+    units = {heads[n].unit for n in values}
+    if len(units) > 1:
+        raise MeasurementError("the columns of errors have several units")
+    at = kinds.index("position")
+
+    def cell(row: tuple[int, list[str]], column: int) -> Fraction:
+        return number_of(row[1][column], decimal, separator, row[0])
+
+    figures = [[(cell(row, at), cell(row, n)) for row in rows] for n in values]
+    if len(values) > 1:
+        runs = [RawRun(heads[n].rising, tuple(points)) for n, points in zip(values, figures, strict=True)]
+    elif "direction" in kinds or "run" in kinds:
+        runs = _grouped(rows, kinds, figures[0])
+    else:
+        runs = parted(figures[0])
+    ignored = sum(kind == "" for kind in kinds)
+    if ignored:
+        notes = (*notes, f"{ignored} columns that are neither position nor error were not read" if ignored > 1
+                 else "1 column that is neither position nor error was not read")  # fmt: skip
+    return RawTable(tuple(runs), kinds[values[0]], heads[at].unit, heads[values[0]].unit, notes)
+
+
+def _grouped(
+    rows: Sequence[tuple[int, list[str]]], kinds: Sequence[str], figures: Sequence[tuple[Fraction, Fraction]]
+) -> list[RawRun]:
+    """Return the runs of lines that name their run, their direction or both."""
+    found: dict[tuple[str, bool | None], list[tuple[Fraction, Fraction]]] = {}
+    for (n, cells), point in zip(rows, figures, strict=True):
+        rising = None
+        if "direction" in kinds:
+            rising = direction_of(cells[kinds.index("direction")])
+            if rising is None:
+                raise MeasurementError(f"'{cells[kinds.index('direction')][:40]}' is no direction: + or -", n)
+        run = cells[kinds.index("run")] if "run" in kinds else ""
+        found.setdefault((run, rising), []).append(point)
+    return [
+        RawRun(part.rising if rising is None else rising, part.points)
+        for (_, rising), points in found.items()
+        for part in (
+            parted(points) if "run" not in kinds or rising is None else [RawRun(rising, tuple(points))]
+        )
+    ]
+
+
+# -- runs ---------------------------------------------------------------------------------------
+
+
+def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
+    """Part points in the order of measuring into runs: a new one where the direction turns, or it starts over.
+
+    Several readings of one target in a row are one of each run.
+    """
+    piles: list[tuple[Fraction, list[Fraction]]] = []
+    for at, value in points:
+        if piles and piles[-1][0] == at and not _turns(piles, points, at):
+            piles[-1][1].append(value)
+        else:
+            piles.append((at, [value]))
+    runs: list[list[tuple[Fraction, list[Fraction]]]] = [[]]
+    direction: int | None = None
+    for pile in piles:
+        run = runs[-1]
+        step = 0 if not run else (pile[0] > run[-1][0]) - (pile[0] < run[-1][0])
+        if run and direction is not None and step != direction:
+            runs.append([pile])
+            direction = None
+            continue
+        if run:
+            direction = step
+        run.append(pile)
+    return [part for run in runs for part in _layers(run)]
+
+
+def _turns(
+    piles: Sequence[tuple[Fraction, list[Fraction]]],
+    points: Sequence[tuple[Fraction, Fraction]],
+    at: Fraction,
+) -> bool:
+    """Return whether a target that comes twice in a row is the turning point between two runs."""
+    done = sum(len(values) for _, values in piles)
+    later = next((p for p, _ in points[done:] if p != at), None)
+    if len(piles) < 2 or later is None or len(piles[-1][1]) > 1:
+        return False
+    return (later - at) * (at - piles[-2][0]) < 0
+
+
+def _layers(run: Sequence[tuple[Fraction, list[Fraction]]]) -> Iterable[RawRun]:
+    rising = None if len(run) < 2 else run[1][0] > run[0][0]
+    for n in range(max(len(values) for _, values in run)):
+        yield RawRun(rising, tuple((at, values[n]) for at, values in run if n < len(values)))
+
+
+def _with_directions(runs: Sequence[RawRun]) -> list[MeasuredRun]:
+    """Return runs with their directions; one that names none has that of its targets, a single target the rising one."""
+    found = []
+    for run in runs:
+        targets = [at for at, _ in run.points]
+        if len(set(targets)) != len(targets):
+            raise MeasurementError(f"a run reaches the target {_text(targets)} twice: number the runs")
+        rising = run.rising if run.rising is not None else len(targets) < 2 or targets[1] > targets[0]
+        found.append(MeasuredRun(rising, tuple(sorted(run.points))))
+    if len({at for run in found for at, _ in run.points}) < 2:
+        raise MeasurementError("points at two positions at least are needed")
+    return found
+
+
+def _text(targets: Sequence[Fraction]) -> str:
+    seen: set[Fraction] = set()
+    return next(f"{float(at):g}" for at in targets if at in seen or seen.add(at))  # type: ignore[func-returns-value]

@@ -1,0 +1,303 @@
+"""The verb about the errors of an axis: show its calibration, make it from measured points, or change it by hand."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import nullcontext
+from dataclasses import asdict
+from fractions import Fraction
+from typing import Any
+
+from amp_studio.calibration import (
+    CalibrationError,
+    CalibrationTable,
+    Compensation,
+    Measurement,
+    MeasurementAnswers,
+    Proposal,
+    Wish,
+    base_unit,
+    compensation_of,
+    present_table,
+    propose,
+    read_measured_file,
+)
+from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
+from amp_studio.files import Change, Document, ParameterFile, RangeError, describe
+from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, show_value, shown, write_value
+from amp_studio.schema.values import read_exact
+
+from .console import note, print_json
+from .errors import UsageError
+
+_STARTS = {"positive": "+", "negative": "-"}
+_OPTIONS = {"unit": "--unit", "error_unit": "--error-unit", "sign": "--sign", "decimal": "--decimal"}
+_LONGEST = 64
+"""Signs of a value that is printed whole."""
+
+
+def calibrate_verb(options: argparse.Namespace) -> int:
+    """Show or change the calibration of one axis; all or nothing."""
+    by_hand = bool(options.insert or options.replace or options.delete or options.clear)
+    if by_hand and options.measured:
+        raise UsageError(
+            "points are measured (--from) or changed by hand (--insert, --replace, --delete, --clear)"
+        )
+    writes = (by_hand or bool(options.measured)) and not options.dry_run
+    with Document.open(options.path) if writes else nullcontext(Document.view(options.path)) as document:
+        file = document.file
+        offered = compensation_of(file.schema.family.family)
+        if not offered.reversal and offered.table is None:
+            raise UsageError(
+                f"{file.schema.family.name} has neither a calibration table nor a reversal error"
+            )
+        axis = axis_meant(file.evaluation, _instances(file, offered), options.axis)
+        try:
+            found = _wanted(options, file, offered, axis, by_hand)
+            changes = file.set_many(found.settings)
+        except (CalibrationError, RangeError, InvalidValueError) as error:
+            raise UsageError(f"{error}; nothing was changed") from None
+        if writes:
+            _demand_answers(found.measurement)
+            if changes:
+                document.save("calibrate")
+    if options.json:
+        print_json(_json(options, file, offered, axis, found, changes))
+    else:
+        print("\n".join(_lines(options, file, offered, axis, found, changes)))
+    return 0
+
+
+def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:
+    name = offered.table.parameter if offered.table else offered.reversal
+    return file.machine_schema.instances(file.schema.parameters[name]) if name else ()
+
+
+class _Found:
+    """What the options come to: values to set, and what was measured where it was."""
+
+    def __init__(self, settings: dict[Address, Value | None]) -> None:
+        self.settings = settings
+        self.measurement: Measurement | None = None
+        self.proposal: Proposal | None = None
+
+
+def _wanted(
+    options: argparse.Namespace, file: ParameterFile, offered: Compensation, axis: str, by_hand: bool
+) -> _Found:
+    if by_hand:
+        return _Found(_edited(options, file, offered, axis))
+    if not options.measured:
+        return _Found({})
+    answers = MeasurementAnswers(
+        options.unit or "", options.error_unit or "", options.sign or "", options.decimal or ""
+    )
+    measurement = read_measured_file(options.measured, answers, base_unit(file, offered, axis))
+    was_on = None if options.compensation is None else options.compensation == "on"
+    wish = Wish(
+        was_on,
+        options.input or "",
+        _STARTS.get(options.start or "", ""),
+        table=options.only != "reversal",
+        reversal=options.only != "table",
+    )
+    proposal = propose(file, axis, measurement, wish)
+    found = _Found(dict(proposal.settings))
+    found.measurement, found.proposal = measurement, proposal
+    return found
+
+
+def _demand_answers(measurement: Measurement | None) -> None:
+    """Refuse to write what rests on an assumption; the dry run shows it."""
+    if measurement is not None and measurement.assumed:
+        used = asdict(measurement.answers)
+        asked = ", ".join(f"{_OPTIONS[name]} {used[name]}" for name in measurement.assumed)
+        raise UsageError(
+            f"the points do not name everything: look at it with --dry-run and confirm with {asked}, or give what is true; "
+            "nothing was changed"
+        )
+
+
+def _edited(
+    options: argparse.Namespace, file: ParameterFile, offered: Compensation, axis: str
+) -> dict[Address, Value | None]:
+    form = offered.table
+    if form is None:
+        raise UsageError(f"{file.schema.family.name} has no calibration table of an axis")
+    start = _STARTS.get(options.start or "", "")
+    table = present_table(file, offered, axis)
+    if options.clear:
+        table = None
+    if table is None:
+        table = form.empty(file, axis, options.input or "", start)
+    else:
+        table = rechosen(table, options.input or table.input, start or table.start)
+    for text in options.delete or ():
+        table = deleted(table, _number(text))
+    for text in options.replace or ():
+        at, figure = _pair(text)
+        table = replaced(table, at, form.error(table, at, figure))
+    for text in options.insert or ():
+        at, figure = _pair(text)
+        if form.is_even:
+            raise UsageError("the positions of this table are fixed: --replace changes a figure")
+        table = inserted(table, at, form.error(table, at, figure))
+    text = "" if options.clear and not (options.insert or options.replace) else form.write(file, axis, table)
+    return {(form.parameter, axis): Value(text) if text else None}
+
+
+def _pair(text: str) -> tuple[Fraction, Fraction]:
+    at, sign, figure = text.partition("=")
+    if not sign:
+        raise UsageError(f"{text[:40]} is not POSITION=FIGURE")
+    return _number(at), _number(figure)
+
+
+def _number(text: str) -> Fraction:
+    number, rest = read_exact(text)
+    if rest.strip():
+        raise UsageError(f"{text[:40]} is no bare number: positions and figures are in the unit of the table")
+    return number
+
+
+# -- what is printed ----------------------------------------------------------------------------
+
+
+def _lines(
+    options: argparse.Namespace,
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    found: _Found,
+    changes: list[Change],
+) -> Iterator[str]:
+    proposal = found.proposal
+    if proposal is not None and found.measurement is not None:
+        yield from _measured(found.measurement, proposal)
+    yield from _table_lines(file, offered, axis, present_table(file, offered, axis))
+    would = "would be " if options.dry_run else ""
+    for change in changes:
+        parameter = file.schema.parameters[change.address[0]]
+        old, new = (_short(show_value(parameter, value)) for value in (change.old, change.new))
+        yield f"{describe(file, change.address)}: {old} -> {new}"
+    if found.settings:
+        yield f"{options.path}: {len(changes)} value{'' if len(changes) == 1 else 's'} {would}changed"
+    if found.measurement is not None and found.measurement.assumed:
+        used = asdict(found.measurement.answers)
+        for name in found.measurement.assumed:
+            note(f"assumed, because nothing names it: {_OPTIONS[name]} {used[name]}")
+
+
+def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
+    """Yield what was read, its figures, and what error is expected to remain."""
+    figures, unit = proposal.figures, shown(proposal.unit)
+    used = measurement.answers
+    yield (f"{len(measurement.targets)} targets, {figures.runs_rising} runs rising and {figures.runs_falling} falling; "
+           f"positions in {shown(used.unit)}, errors in {shown(used.error_unit)}, {used.sign}")  # fmt: skip
+    rows = (
+        ("Systematic deviation E", figures.systematic),
+        ("Range of the mean errors M", figures.mean_range),
+        ("Reversal value B", figures.reversal),
+        ("Mean reversal value", figures.mean_reversal),
+        ("Repeatability R", figures.repeatability),
+        ("Accuracy A", figures.accuracy),
+    )
+    for name, value in rows:
+        if value is not None:
+            yield f"{name}: {value:.5f} {unit}"
+    yield f"Error of both directions: {float(proposal.span_before):.5f} {unit} measured, {float(proposal.span_after):.5f} {unit} expected"
+    for text in proposal.notes:
+        note(text)
+
+
+def _table_lines(
+    file: ParameterFile, offered: Compensation, axis: str, table: CalibrationTable | None
+) -> Iterator[str]:
+    if offered.reversal:
+        value = file.get((offered.reversal, axis))
+        parameter = file.schema.parameters[offered.reversal]
+        yield f"{describe(file, (offered.reversal, axis))}: {show_value(parameter, value)}"
+    form = offered.table
+    if form is None:
+        return
+    if table is None:
+        yield "No calibration table"
+    else:
+        how = (
+            f", {table.input}, starts at the most {'negative' if table.start == '-' else 'positive'} position"
+            if table.input
+            else ""
+        )
+        yield f"Calibration table: {len(table.points)} points in {shown(table.unit)}{how}"
+        for at, by in table.points:
+            yield f"{float(at):14.5f} {float(form.figure(table, at, by)):14.5f}"
+    yield from form.limits(file, axis)
+    yield form.switching
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+
+
+def _json(
+    options: argparse.Namespace,
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    found: _Found,
+    changes: list[Change],
+) -> dict[str, Any]:
+    table = present_table(file, offered, axis)
+    form = offered.table
+    data: dict[str, Any] = {
+        "file": str(options.path),
+        "axis": axis,
+        "unit": base_unit(file, offered, axis),
+        "reversal": _value(file, (offered.reversal, axis)) if offered.reversal else None,
+        "table": None,
+        "changes": [
+            {"param": file.machine_schema.short(c.address), "old": _written(file, c.address, c.old),
+             "new": _written(file, c.address, c.new)} for c in changes
+        ],
+        "dry_run": options.dry_run,
+    }  # fmt: skip
+    if form is not None and table is not None:
+        data["table"] = {
+            "param": file.machine_schema.short((form.parameter, axis)), "unit": table.unit, "input": table.input, "start": table.start,
+            "points": [{"position": float(at), "figure": float(form.figure(table, at, by)), "error": float(by)}
+                       for at, by in table.points],
+        }  # fmt: skip
+    if form is not None:
+        data["limits"] = list(form.limits(file, axis))
+    if found.proposal is not None and found.measurement is not None:
+        data |= _proposal_json(found.measurement, found.proposal)
+    return data
+
+
+def _proposal_json(measurement: Measurement, proposal: Proposal) -> dict[str, Any]:
+    figures = asdict(proposal.figures)
+    targets = [asdict(t) | {"mean": t.mean, "reversal": t.reversal} for t in proposal.figures.targets]
+    names = {True: "rising", False: "falling"}
+    return {
+        "answers": asdict(measurement.answers),
+        "assumed": [_OPTIONS[name] for name in measurement.assumed],
+        "figures": figures | {"targets": targets},
+        "residual": {"before": float(proposal.span_before), "after": float(proposal.span_after)},
+        "curves": {
+            when: {
+                names[side]: [[float(at), float(by)] for at, by in curve.points]
+                for side, curve in sides.items()
+            }
+            for when, sides in (("before", proposal.before), ("after", proposal.after))
+        },
+        "notes": list(proposal.notes),
+    }
+
+
+def _value(file: ParameterFile, address: Address) -> dict[str, str | None]:
+    return {"param": file.machine_schema.short(address), "value": _written(file, address, file.get(address))}
+
+
+def _written(file: ParameterFile, address: Address, value: Value | None) -> str | None:
+    return None if value is None else write_value(file.schema.parameters[address[0]], value)

@@ -1,0 +1,147 @@
+"""calibrate: what an axis has, what measured points would make of it, and points changed by hand; all or nothing."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+POINTS = "position [mm],error [um]\n0,0\n100,4\n200,7\n200,13\n100,10\n0,6\n"
+
+
+@pytest.fixture
+def mill(tmp_path: Path) -> Path:
+    path = tmp_path / "mill.amp"
+    shutil.copy(MILL, path)
+    return path
+
+
+@pytest.fixture
+def laser(tmp_path: Path) -> Path:
+    path = tmp_path / "laser.csv"
+    path.write_text(POINTS)
+    return path
+
+
+def table(amp, mill: Path, axis: str = "X"):
+    return amp("calibrate", mill, "--axis", axis, "--json").json["table"]
+
+
+def test_measured_points_become_a_table_and_a_reversal_error(amp, mill: Path, laser: Path) -> None:
+    said = amp("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "measured-target", "--json")
+    assert said.code == 0
+    found = said.json
+    assert [(p["position"], p["figure"]) for p in found["table"]["points"]] == [
+        (0, 0),
+        (100, 0.004),
+        (200, 0.007),
+    ]
+    assert found["reversal"] == {"param": "1340", "value": "0.006 mm"}
+    assert found["residual"] == {"before": pytest.approx(0.013), "after": pytest.approx(0, abs=1e-9)}
+    assert found["figures"]["mean_reversal"] == pytest.approx(-0.006)
+    assert found["assumed"] == []
+    assert amp("get", mill, "1340", "--json").json["values"][0]["value"] == 0.006
+    assert mill.with_name("mill.amp.bak").read_bytes() == MILL.read_bytes()
+    assert "calibration" not in amp("validate", mill).out
+
+
+def test_what_nobody_has_answered_is_shown_and_never_written(amp, mill: Path, laser: Path) -> None:
+    dry = amp("calibrate", mill, "--axis", "X", "--from", laser, "--dry-run")
+    assert dry.code == 0
+    assert "--sign measured-target" in dry.err
+    said = amp("calibrate", mill, "--axis", "X", "--from", laser)
+    assert said.code == 2
+    assert "confirm with --sign measured-target" in said.err
+    assert mill.read_bytes() == MILL.read_bytes()
+
+
+def test_a_dry_run_changes_nothing_and_shows_what_would_be(amp, mill: Path, laser: Path) -> None:
+    arguments = ("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "target-measured", "--dry-run")
+    found = amp(*arguments, "--json").json
+    assert [p["figure"] for p in found["table"]["points"]] == [0, -0.004, -0.007]
+    assert [change["param"] for change in found["changes"]] == ["calibration.table@1"]
+    assert "would be changed" in amp(*arguments).out
+    assert any("check the sign" in note for note in found["notes"])
+    assert mill.read_bytes() == MILL.read_bytes()
+
+
+def test_a_compensated_axis_is_measured_again_only_with_an_answer(amp, mill: Path, laser: Path) -> None:
+    sign = ("--sign", "measured-target")
+    assert amp("calibrate", mill, "--axis", "X", "--from", laser, *sign).code == 0
+    again = amp("calibrate", mill, "--axis", "X", "--from", laser, *sign)
+    assert again.code == 2
+    assert "compensation on or off" in again.err
+    assert amp("calibrate", mill, "--axis", "X", "--from", laser, *sign, "--compensation", "on").code == 0
+    assert [p["figure"] for p in table(amp, mill)["points"]] == [0, 0.008, 0.014]
+
+
+def test_only_one_of_both_is_made_where_only_one_is_wanted(amp, mill: Path, laser: Path) -> None:
+    base = (
+        "calibrate",
+        mill,
+        "--axis",
+        "X",
+        "--from",
+        laser,
+        "--sign",
+        "measured-target",
+        "--dry-run",
+        "--json",
+    )
+    assert [c["param"] for c in amp(*base, "--only", "table").json["changes"]] == ["calibration.table@1"]
+    only = amp(*base, "--only", "reversal").json
+    assert [c["param"] for c in only["changes"]] == ["1340"]
+    assert only["residual"]["after"] == pytest.approx(0.007)
+
+
+def test_points_are_changed_by_hand_as_at_the_screen(amp, mill: Path) -> None:
+    first = ("--input", "deviation", "--start", "negative", "--insert", "-50=0", "--insert", "50=0.001")
+    assert amp("calibrate", mill, "--axis", "X", *first).code == 0
+    assert amp("calibrate", mill, "--axis", "X", "--insert", "0=0.0005", "--replace", "50=0.002").code == 0
+    assert [(p["position"], p["figure"]) for p in table(amp, mill)["points"]] == [
+        (-50, 0),
+        (0, 0.0005),
+        (50, 0.002),
+    ]
+    assert amp("calibrate", mill, "--axis", "X", "--delete", "0").code == 0
+    assert "deviation - mm -50:0 50:0.002" in amp("get", mill, "calibration.table@X").out
+    assert amp("calibrate", mill, "--axis", "X", "--clear").code == 0
+    assert table(amp, mill) is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["--insert", "50=0.001"], "has the deviation 0"),
+        (["--insert", "0=0", "--insert", "10=0.3", "--input", "deviation", "--start", "negative"], "PARAMETER OUT OF RANGE"),
+        (["--insert", "0"], "is not POSITION=FIGURE"),
+        (["--insert", "0 mm=0"], "bare number"),
+        (["--insert", "x=0"], "is not a number"),
+        (["--delete", "7"], "the table is empty"),
+        (["--insert", "0=0", "--from", "laser.csv"], "measured (--from) or changed by hand"),
+        (["--from", "nothing.csv"], "nothing.csv"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_done_is_refused_in_one_line(
+    amp, mill: Path, arguments: list[str], named: str
+) -> None:
+    said = amp("calibrate", mill, "--axis", "X", *arguments)
+    assert said.code == 2
+    assert named in said.err
+    assert mill.read_bytes() == MILL.read_bytes()
+
+
+def test_the_other_families_have_what_they_have(amp, tmp_path: Path, laser: Path) -> None:
+    for family, axis, named in (
+        ("acromill", "X", "backlash.amount@X"),
+        ("grblhal", "X", "$160"),
+        ("num", "0", "P18N0"),
+    ):
+        path = tmp_path / f"{family}.amp"
+        assert amp("new", family, path).code == 0
+        assert amp("calibrate", path, "--axis", axis, "--json").json["reversal"]["param"] == named
+    path = tmp_path / "syntec.amp"
+    assert amp("new", "syntec", path).code == 0
+    assert "neither a calibration table nor a reversal error" in amp("calibrate", path, "--axis", "X").err
