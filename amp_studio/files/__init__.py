@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         AxisError,
         alike_axes,
         are_alike,
+        axis_head,
         axis_instances,
         axis_kind,
         axis_letter,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
         axis_type,
         fitted_axes,
         shown_axes,
+        unlike_axes,
     )
     from .axis_abilities import (
         letters_offered,
@@ -76,6 +78,7 @@ _PLACES = {
     "add_axis": "axis_fitting",
     "alike_axes": "axes",
     "are_alike": "axes",
+    "axis_head": "axes",
     "axis_instances": "axes",
     "letters_offered": "axis_abilities",
     "places_offered": "axis_abilities",
@@ -101,6 +104,7 @@ _PLACES = {
     "why_axes_are_fixed": "axis_abilities",
     "why_letters_are_fixed": "axis_abilities",
     "why_types_are_fixed": "axis_abilities",
+    "unlike_axes": "axes",
 }
 """Name -> its module."""
 
@@ -143,6 +147,7 @@ __all__ = [
     "add_axis",
     "alike_axes",
     "are_alike",
+    "axis_head",
     "axis_instances",
     "axis_kind",
     "axis_letter",
@@ -179,6 +184,7 @@ __all__ = [
     "shown_axes",
     "swap_axes",
     "text_of_name",
+    "unlike_axes",
     "why_axes_are_fixed",
     "why_letters_are_fixed",
     "why_types_are_fixed",

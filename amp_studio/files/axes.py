@@ -5,7 +5,10 @@ A family declares where a file has this: in types of axes (``AxisProfile``), or 
 
 from __future__ import annotations
 
-from amp_studio.schema import AxisProfile, axis_group, axis_name, is_fitted
+from collections import Counter
+from collections.abc import Iterable
+
+from amp_studio.schema import Address, AxisProfile, axis_group, axis_name, is_fitted
 from amp_studio.schema.machine_schema import labelled
 
 from .parameter_file import ParameterFile
@@ -94,6 +97,40 @@ def axis_title(file: ParameterFile, axis: str) -> str:
     own_group = axis_group(file.evaluation, axis) if letter else ""
     groups = {axis_group(file.evaluation, a) for a in fitted_axes(file)} if own_group else set()
     return f"{title} {kind}".rstrip() + (f", {own_group}" if len(groups) > 1 else "")
+
+
+def axis_head(file: ParameterFile, axis: str) -> tuple[str, str]:
+    """Return the head of an axis in two parts, the letter and the rest: ``("X", "1 linear")``, ``("Z", "linear")``.
+
+    The letter is the one that the file gives it; an axis without one has a rest only, ``Axis 3``.
+    """
+    letter = axis_letter(file, axis)
+    if letter.startswith("raw:") or letter.casefold() == "none":
+        letter = ""
+    kind = other_use(file, axis) or axis_kind(file, axis)
+    if not letter:
+        return "", f"{labelled(file.schema.family.scopes['axis'].label, axis)} {kind}".rstrip()
+    return letter, " ".join(filter(None, ("" if letter == axis else axis, kind)))
+
+
+def unlike_axes(file: ParameterFile, addresses: Iterable[Address]) -> set[Address]:
+    """Return which values of one parameter are unlike those of most axes that are given in the same unit.
+
+    Where each axis has its own value none is unlike the others, and of two axes it is the second.
+    """
+    profile = file.schema.family.axes
+    by_unit: dict[str, list[Address]] = {}
+    for address in addresses:
+        if profile is None or address[0] not in (profile.name, profile.type, profile.fitted_by):
+            by_unit.setdefault(file.evaluation.unit(address, file.header.units), []).append(address)
+    found: set[Address] = set()
+    for alike in by_unit.values():
+        keys = [file.evaluation.keys[a] for a in alike]
+        counts = Counter(keys)
+        usual, count = counts.most_common(1)[0]
+        if len(counts) > 1 and (count > 1 or len(alike) == 2):
+            found.update(a for a, key in zip(alike, keys, strict=True) if key != usual)
+    return found
 
 
 def axis_profile(file: ParameterFile) -> AxisProfile:

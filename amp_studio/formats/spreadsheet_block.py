@@ -34,7 +34,7 @@ class BlockError(ValueError):
     """A content of the clipboard that is no block of cells: one sentence."""
 
 
-class Written(NamedTuple):
+class BlockCell(NamedTuple):
     """One cell to be written: its text, and the number and unit of it where it is a number."""
 
     text: str
@@ -183,7 +183,7 @@ def _span(text: str | None) -> int:
 
 
 def _meant(shown: str, number: str | None) -> str:
-    """Return what a cell means that shows a text and has a number of its own: the number, with the unit that is shown.
+    """Return what a cell means that shows a text and has a number too: the number, with the unit that is shown.
 
     A date, a time, a percentage or a truth value is a number too, but not the one that is seen: it stays a text.
     """
@@ -201,7 +201,7 @@ def _meant(shown: str, number: str | None) -> str:
 # -- writing -----------------------------------------------------------------------------------------------------------
 
 
-def block_text(rows: Sequence[Sequence[Written]]) -> str:
+def block_text(rows: Sequence[Sequence[BlockCell]]) -> str:
     """Return a block as text with tabs, which every program reads."""
     return "\n".join("\t".join(_field(text_cell(cell.text)) for cell in row) for row in rows)
 
@@ -210,7 +210,7 @@ def _field(text: str) -> str:
     return '"' + text.replace('"', '""') + '"' if re.search('[\t\r\n"]', text) else text
 
 
-def block_html(rows: Sequence[Sequence[Written]], heads: int = 0) -> str:
+def block_html(rows: Sequence[Sequence[BlockCell]], heads: int = 0) -> str:
     """Return a block as a table in HTML, in which numbers are numbers that show their unit; the first ``heads`` rows are heads."""
     lines = [
         '<html xmlns:x="urn:schemas-microsoft-com:office:excel"><head><meta charset="utf-8"></head><body><table>'
@@ -222,7 +222,7 @@ def block_html(rows: Sequence[Sequence[Written]], heads: int = 0) -> str:
     return "\n".join([*lines, "</table></body></html>"])
 
 
-def _html_cell(cell: Written, tag: str) -> str:
+def _html_cell(cell: BlockCell, tag: str) -> str:
     text = html.escape(cell.text).replace("\n", "<br>")
     figure = "" if cell.number is None else write_number(cell.number)
     if not re.fullmatch(r"-?[0-9]+(\.[0-9]+)?", figure):

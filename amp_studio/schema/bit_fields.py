@@ -50,6 +50,31 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
     return word
 
 
+def labels_of_word(parameter: Parameter, word: int) -> str:
+    """Return the labels of what is set in a word: ``Axis 1, Axis 5``; ``none`` where nothing is.
+
+    It is read back by ``word_of_labels``; a bit without a label, or with that of another, is ``bit 7``.
+    """
+    fields = parameter.bits or ()
+    named = [plain(field.label) for field in fields]
+    parts, rest = [], word
+    for field, name in zip(fields, named, strict=True):
+        mask = (1 << field.width) - 1
+        rest &= ~(mask << field.bit)
+        number = field_value(field, word)
+        if number == 0:
+            continue
+        if field.width == 1 and not field.choices:
+            parts.append(
+                field.label if named.count(name) == 1 and "," not in field.label else f"bit {field.bit}"
+            )
+        else:
+            label = next((c.label for c in field.choices or () if c.raw == number), str(number))
+            parts.append(f"{field.label}: {label}")
+    parts += [f"bit {n}" for n in range(rest.bit_length()) if rest >> n & 1]
+    return ", ".join(parts) or "none"
+
+
 def no_label(parameter: Parameter, text: str) -> str:
     """Return the message for a text that is not a bit of a word, with the nearest labels."""
     labels = {plain(b.label): b.label for b in parameter.bits or ()}

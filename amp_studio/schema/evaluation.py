@@ -169,6 +169,11 @@ class Evaluation:
         """Return every address whose value can change the range of this one."""
         return self._conditions.range_reads(address)
 
+    def decides_states(self, address: Address) -> bool:
+        """Return whether the value of an address can change the state of any parameter."""
+        machine = self.schema.family.machine_parameter
+        return address in self._conditions.decides or (machine is not None and address[0] == machine)
+
     def bound_sources(self, address: Address) -> tuple[Address, ...]:
         """Return the parameters that set a bound of this one."""
         return self._conditions.bound_sources(address)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMessageBox
 
-from amp_studio.files import RangeError, alike_axes, describe, fitted_axes, real_path
-from amp_studio.files.lock import now, user
-from amp_studio.schema import Address, InvalidValueError, Value
+from amp_studio.files import RangeError, describe, real_path
+from amp_studio.files.lock import user
+from amp_studio.schema import Address, InvalidValueError
 from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, apply_fixes, calculators, suppress
 
 from .file_page import FilePage
 from .questions import ask, show_message
+from .range_actions import RangeActions
 from .studio_window import StudioWindow
 from .workspace import Workspace
 
@@ -29,11 +29,7 @@ class EditActions:
         self.undo = act("&Undo", self._undo, keys.Undo, "edit", "arrow-u-up-left", "Undo")
         self.redo = act("&Redo", self._redo, keys.Redo, "edit", "arrow-u-up-right", "Redo")
         edit = act("&Edit Value", self._edit, "F2", "edit")
-        copy = act("&Copy Value", self._copy, keys.Copy, "file")
-        paste = act("&Paste Value", self._paste, keys.Paste, "edit")
-        default = act("Set to &Default", self.to_default, "Ctrl+D", "edit")
-        clear = act("Clear Value (&Not Set)", self.clear, keys.Delete, "edit")
-        every = act("Copy to All A&xes of the Type", self.to_all_axes, "Ctrl+Shift+A", "axes")
+        steps = act("Histor&y of Steps…", self.steps, "Ctrl+Shift+H", "file")
         quick = act("&Quick Edit by Number…", self.quick_edit, "F4", "edit")
         calculator = act("Ca&lculator…", self.calculator, "F3", "file")
         tables = act("&Tables of the Manual…", self.tables, "Shift+F3", "file")
@@ -42,12 +38,11 @@ class EditActions:
         why = act("S&how Explanation of Finding", self._why, "Shift+F1", "file")
         several = act("Fix Se&veral…", self.fix_several, "Shift+F8", "edit", "magic-wand")
         safe = act("Apply All &Safe Fixes", self.fix_safe, None, "edit")
-        for action in (copy, paste, clear):  # a text field has its own
-            action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
-        self.of_a_cell: list[QAction] = [edit, copy, paste, default, clear, every]
+        self.range = RangeActions(window)
+        self.of_a_cell: list[QAction] = [edit, *self.range.actions]
         menu = window.menuBar().addMenu("&Edit")
         for actions in (
-            (self.undo, self.redo),
+            (self.undo, self.redo, steps),
             self.of_a_cell,
             (quick, calculator, tables, find),
             (fix, several, safe, why),
@@ -91,24 +86,21 @@ class EditActions:
         """Set a value from typed text; asks before a value out of range is forced. Returns whether it was set."""
         name = describe(workspace.file, address)
         try:
-            value = workspace.read(address, text)
+            workspace.enter(address, text)
+        except RangeError as error:
+            return self._ask_force(workspace, address, text, str(error))
         except InvalidValueError as error:
             show_message(self.window, "Value not accepted", f"{name}: {error}.\n\nNothing was changed.")
             return False
-        try:
-            workspace.edit(name, {address: value})
-        except RangeError as error:
-            return self._ask_force(workspace, address, value, str(error))
         return True
 
-    def _ask_force(self, workspace: Workspace, address: Address, value: Value | None, problem: str) -> bool:
+    def _ask_force(self, workspace: Workspace, address: Address, text: str, problem: str) -> bool:
         force = "&Force and Mark"
-        text = f"{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
+        question = f"{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
         icon = QMessageBox.Icon.Warning
-        if ask(self.window, "Out of range", text, force, "Cancel", default=1, icon=icon) != force:
+        if ask(self.window, "Out of range", question, force, "Cancel", default=1, icon=icon) != force:
             return False
-        name = describe(workspace.file, address)
-        return workspace.edit(f"{name} (forced)", {address: value}, force=f"on {now()} in the studio")
+        return workspace.enter(address, text, force=True)
 
     def _undo(self) -> None:
         self._workspace().undo_stack.undo()
@@ -122,40 +114,11 @@ class EditActions:
             view.setFocus()
             view.edit(view.currentIndex())
 
-    def _copy(self) -> None:
-        workspace, address = self._workspace(), self._here()
-        if workspace.is_masked(address):
-            name = describe(workspace.file, address)
-            raise ValueError(f"{name} is secret. To copy it, first switch on Options > Show Secrets.")
-        if self.window.table is not None:
-            QGuiApplication.clipboard().setText(self.window.table.typed_value(address))
+    def steps(self) -> None:
+        """Show the steps that were made, to go back to one."""
+        from .step_list import StepList
 
-    def _paste(self) -> None:
-        text = QGuiApplication.clipboard().text().strip()
-        if text:
-            self.commit(self._here(), text)
-
-    def to_default(self) -> None:
-        """Set the selected value to its printed default."""
-        workspace, address = self._workspace(), self._here()
-        default, name = workspace.file.default(address), describe(workspace.file, address)
-        if default is None:
-            raise ValueError(f"No default is printed for {name}. Press Delete to clear the value.")
-        workspace.edit(f"{name} to its default", {address: default})
-
-    def clear(self) -> None:
-        """Clear the selected value: it is not set, and the control keeps its own."""
-        workspace, address = self._workspace(), self._here()
-        workspace.edit(f"{describe(workspace.file, address)} cleared", {address: None})
-
-    def to_all_axes(self) -> None:
-        """Copy the selected value to every fitted axis of the same type."""
-        workspace, address = self._workspace(), self._here()
-        file = workspace.file
-        if file.evaluation.scope(address) != "axis" or address[1] not in fitted_axes(file):
-            raise ValueError("Select a value of a fitted axis first.")
-        same = alike_axes(file, address[1])
-        workspace.edit("Copy to all axes of the type", {(address[0], a): file.get(address) for a in same})
+        StepList(self._workspace(), self.window).show()
 
     # -- by number, by name ----------------------------------------------------
 

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, Parameter
+from amp_studio.schema import Address, Parameter, shown, write_figure
 from amp_studio.validate import Finding, not_set
 
 from .detail_panel import DetailPanel
@@ -47,7 +47,7 @@ class FilePage(QWidget):
         self.workspace = workspace
         commit_here = partial(commit, workspace)
         self.table = ParameterTable(workspace)
-        self.table_view = ValueTable(self.table, commit_here, cell_actions)
+        self.table_view = ValueTable(self.table, cell_actions)
         self.groups = GroupList(workspace)
         self.detail = DetailPanel(workspace, commit_here)
         self.findings = FindingsPanel(workspace)
@@ -65,6 +65,7 @@ class FilePage(QWidget):
         self.groups.left.connect(self.table_view.setFocus)
         self.table_view.selected.connect(self.detail.show_address)
         self.table_view.selected.connect(self.selected)
+        self.table_view.range_changed.connect(lambda: self.selected.emit(self.table_view.address()))
         self.table.modelReset.connect(self._update_title)
         self.detail.linked.connect(self.follow)
         self.findings.activated.connect(self._show_finding)
@@ -112,7 +113,7 @@ class FilePage(QWidget):
         self.findings.follow(frozenset(parameter.id for parameter in self.table.asked), axis)
 
     def _update_title(self) -> None:
-        count, hidden = len(self.table.rows), self.table.hidden_rows
+        count, hidden = self.table.count, self.table.hidden_rows
         more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
         what = counted(count, "parameter", none="no")
         self.list_title.setText(f"<b>{self._title}</b> — {what}{more}")
@@ -131,16 +132,30 @@ class FilePage(QWidget):
         address, file = self.table_view.address(), self.workspace.file
         if address is None:
             return ""
+        if len(chosen := self.table_view.selected_addresses()) > 1:
+            return self._range_text(chosen)
         place = file.machine_schema.instance_label(address)
         return "   ".join(text for text in (describe(file, address), place, address[0]) if text)
+
+    def _range_text(self, chosen: list[Address]) -> str:
+        """Return how many cells are selected, and the least and largest number where all have one unit."""
+        values = [
+            v for a in chosen if (v := self.table.values.in_units(a, self.workspace.file.get(a))) is not None
+        ]
+        numbers = [v.value for v in values if not isinstance(v.value, (str, bool))]
+        parts = [self.tr("%n cells", "", len(chosen))]
+        if numbers and len(numbers) == len(values) and len({v.unit for v in values}) == 1:
+            unit = f" {shown(values[0].unit)}" if values[0].unit else ""
+            parts.append(self.tr("min {number}").format(number=f"{write_figure(min(numbers))}{unit}"))
+            parts.append(self.tr("max {number}").format(number=f"{write_figure(max(numbers))}{unit}"))
+        return "   ".join(parts)
 
     def go_to(self, address: Address) -> None:
         """Select an address and come to the front; shows its group when the table does not contain it."""
         self.front_wanted.emit(self)
         if not self.table.index_of(address).isValid():
             self.groups.choose_group_of(address[0])
-        hidden = self.workspace.file.evaluation.state(address).state == "hidden"
-        if hidden and not self.table.index_of(address).isValid():
+        if not self.table.values.exists(address):
             self.show_columns(self.table.all_axes, hidden_too=True)
         if not self.table.index_of(address).isValid():
             self.show_columns(True, self.table.hidden_too)

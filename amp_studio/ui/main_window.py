@@ -9,6 +9,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget
 
 from amp_studio.files import ENDING, axis_instances
+from amp_studio.schema import Address
 from amp_studio.validate import Finding
 
 from .axis_actions import AxisActions
@@ -110,6 +111,7 @@ class MainWindow(StudioWindow):
         page.findings.explanation_requested.connect(self._why)
         page.findings.suppression_requested.connect(self._suppress)
         DiskWatch(page, self.files.compare_with_disk, self.files.reload)
+        page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
         self.view.apply_options(page)
         self.tabs.add(page, instead)
@@ -135,6 +137,9 @@ class MainWindow(StudioWindow):
 
     def _show_value(self, *_: object) -> None:
         self.status.value.setText(self.page.address_text() if self.page else "")
+
+    def _fill_cells(self, pairs: dict[Address, Address]) -> None:
+        self.guarded(lambda: self.edits.range.fill_from(pairs), "Fill")
 
     def _why(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.why(finding), "Explain")

@@ -1,42 +1,35 @@
 """The model of the parameter table: one row for each parameter, one column for each axis.
 
 A parameter with several instances that are not axes (gears, macro calls, processes) has one row for each, and so have the
-points of a table of an axis.
+points of a table of an axis. Where several groups are shown each begins with a row that has its name and no values.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
-from PySide6.QtGui import QBrush, QFont
 
-from amp_studio.files import axis_title, shown_axes
+from amp_studio.files import axis_head, shown_axes
 from amp_studio.files.local_time import with_local_times
 from amp_studio.report.wording import state_name
-from amp_studio.schema import (
-    Address,
-    Parameter,
-    UnitError,
-    Value,
-    convert,
-    show_value,
-    write_value,
-)
+from amp_studio.schema import Address, Parameter, show_value
 from amp_studio.schema.address import whole_of
+from amp_studio.validate import NOT_SET
 
-from .theme import FIGURE_SPACE, severity_colour, state_colour
+from .cell_look import CellLook, ShownValues
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
 CONTROL = ""
 """The column of values that belong to no axis; every other column is an axis."""
-
-_LONG = 14  # number of characters that fit into a cell
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+_FEWEST_A_SECTION = 2
+"""Rows that a section has at least on average; a search that finds one here and one there has none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +38,15 @@ class TableRow:
 
     parameter: Parameter
     cells: dict[str, Address]
-    """Column -> address."""
+    """Column -> address; empty for the head of a section."""
     instance: str = ""
     """The instance or part; empty where the columns show it and where there is only one."""
+    section: str = ""
+    """What the rows below are, for the head of a section, which has no values."""
+
+
+RowFilter = Callable[[TableRow, list[Address]], bool]
+"""Whether a row is shown, given it and its cells in the columns that are shown."""
 
 
 class ParameterTable(QAbstractTableModel):
@@ -59,48 +58,76 @@ class ParameterTable(QAbstractTableModel):
         self.rows: list[TableRow] = []
         self.columns: list[str] = []
         self.all_axes = False
-        self.hidden_too = False
-        """Whether hidden parameters are shown too."""
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
-        family = workspace.file.schema.family
-        every = workspace.file.schema.parameters.values()
-        self._commands = any((p.effect or family.effect).level == "command" for p in every)
+        self.outlined: frozenset[Address] = frozenset()
+        """Cells of the selected finding."""
+        self.values = ShownValues(workspace)
+        self._filter: RowFilter | None = None
+        self._shows_commands = False
         self._heads: dict[int, str] = {}
         """TableRow -> its head, for the rows that are shown."""
         self._machine = ""
         self._layouts: dict[str, list[TableRow]] = {}
-        self._worst: dict[Address, str] = {}
-        self._effective: dict[Address, Value] = {}
-        self._bold, self._italic, self._both = (
-            _font(*kind) for kind in ((True, False), (False, True), (True, True))
-        )
+        self._needed: dict[str, None] | None = None
+        """The columns of the asked parameters, fitted or not."""
+        self._looks: dict[Address, CellLook] = {}
         workspace.changed.connect(self._refresh)
-        self._find_worst()
+        workspace.saved.connect(self._forget_looks)
+        self.values.find_findings()
+
+    @property
+    def hidden_too(self) -> bool:
+        """Whether hidden parameters are shown too."""
+        return self.values.hidden_too
+
+    @hidden_too.setter
+    def hidden_too(self, hidden_too: bool) -> None:
+        self.values.hidden_too = hidden_too
 
     # -- what is shown ---------------------------------------------------------
 
     def show_parameters(self, parameters: list[Parameter]) -> None:
         """Show these parameters, with the columns they need."""
-        self.beginResetModel()
-        self.asked = parameters
-        self.columns = self._columns()
-        self.rows = self._rows(self.columns)
-        self._heads.clear()
-        self.endResetModel()
+        self.asked, self._needed = parameters, None
+        self._lay_out(self._columns())
 
     def show_again(self) -> None:
         """Show the same parameters again after an option has changed."""
-        self.show_parameters(self.asked)
+        self._lay_out(self._columns())
+
+    def filter_rows(self, wanted: RowFilter | None) -> None:
+        """Show only the rows that pass; None shows all of them again."""
+        self._filter = wanted
+        self.show_again()
+
+    def outline(self, addresses: frozenset[Address]) -> None:
+        """Outline the cells of the selected finding."""
+        if addresses != self.outlined:
+            self.outlined = addresses
+            self._repaint()
+
+    @property
+    def count(self) -> int:
+        """How many rows have values."""
+        return sum(not row.section for row in self.rows)
+
+    def _lay_out(self, columns: list[str], rows: list[TableRow] | None = None) -> None:
+        self.beginResetModel()
+        self.columns = columns
+        self.rows = self._rows(columns) if rows is None else rows
+        family = self.workspace.file.schema.family
+        effects = {id(e): e for row in self.rows for e in [row.parameter.effect or family.effect]}
+        self._shows_commands = any(e.level == "command" for e in effects.values())
+        self._heads.clear()
+        self._looks.clear()
+        self.endResetModel()
 
     def _layout(self, parameter: Parameter) -> list[TableRow]:
         """Return the rows of a parameter on this machine type."""
-        schema, machine = self.workspace.file.schema, self.workspace.file.machine
-        if machine != self._machine:
-            self._machine, self._layouts = machine, {}
         found = self._layouts.get(parameter.id)
         if found is None:
-            here = schema.on(machine)
+            here = self.workspace.file.machine_schema
             layout, instances = here.layout(parameter), here.instances(parameter)
             if layout and here.kin(layout.scope, "axis"):
                 parts: dict[str, dict[str, Address]] = {}
@@ -114,35 +141,51 @@ class ParameterTable(QAbstractTableModel):
 
     def _columns(self) -> list[str]:
         file = self.workspace.file
-        needed = dict.fromkeys(column for p in self.asked for row in self._layout(p) for column in row.cells)
+        if file.machine != self._machine:
+            self._machine, self._layouts, self._needed = file.machine, {}, None
+        if self._needed is None:
+            self._needed = dict.fromkeys(c for p in self.asked for row in self._layout(p) for c in row.cells)
+        columns = list(self._needed)
         if not self.all_axes and file.schema.family.fits_axes:
             shown = set(shown_axes(file))
-            needed = {c: None for c in needed if c == CONTROL or c in shown}
-        return sorted(needed, key=lambda column: column != CONTROL)
+            columns = [c for c in columns if c == CONTROL or c in shown]
+        return sorted(columns, key=lambda column: column != CONTROL)
 
     def _rows(self, columns: list[str]) -> list[TableRow]:
-        """Return the rows with at least one value that is not hidden."""
+        """Return the rows with at least one value that is not hidden, each group under its name."""
         known = [row for p in self.asked for row in self._layout(p)]
-        if self.hidden_too:
-            shown = known
-        else:
-            here = set(columns)
-            shown = [row for row in known if any(c in here and self._exists(a) for c, a in row.cells.items())]
+        exists, here = self.values.exists, set(columns)
+        shown = known
+        if not self.hidden_too:
+            shown = [row for row in known if any(c in here and exists(a) for c, a in row.cells.items())]
         self.hidden_rows = len(known) - len(shown)
-        return shown
+        if self._filter is not None:
+            wanted = self._filter
+            shown = [row for row in shown if wanted(row, [a for c, a in row.cells.items() if c in here])]
+        return self._with_sections(shown)
 
-    def _exists(self, address: Address) -> bool:
-        return self.workspace.file.evaluation.state(address).state != "hidden"
+    def _with_sections(self, rows: list[TableRow]) -> list[TableRow]:
+        groups = self.workspace.file.schema.group_of
+        found: list[TableRow] = []
+        last, sections = None, 0
+        for row in rows:
+            group = groups[row.parameter.id]
+            if group is not last:
+                found.append(TableRow(row.parameter, {}, "", group.section or group.name))
+                last, sections = group, sections + 1
+            found.append(row)
+        return found if 1 < sections <= len(rows) / _FEWEST_A_SECTION else rows
 
     @property
     def shows_commands(self) -> bool:
         """Whether the last column shows the command that makes the control read a value."""
-        return bool(self.columns) and self._commands
+        return bool(self.columns) and self._shows_commands
 
     def command(self, row: int) -> str:
         """Return the command that makes the control read the values of a row."""
-        effect = self.rows[row].parameter.effect or self.workspace.file.schema.family.effect
-        return effect.command or "" if effect.level == "command" else ""
+        shown = self.rows[row]
+        effect = shown.parameter.effect or self.workspace.file.schema.family.effect
+        return effect.command or "" if effect.level == "command" and not shown.section else ""
 
     def address_at(self, row: int, column: int) -> Address | None:
         """Return the address a cell shows; None where the parameter has no such instance."""
@@ -153,59 +196,48 @@ class ParameterTable(QAbstractTableModel):
     def index_of(self, address: Address) -> QModelIndex:
         """Return the cell of an address, invalid when it is not shown."""
         for n, row in enumerate(self.rows):
-            for column, shown in row.cells.items():
-                if shown == address and column in self.columns:
-                    return self.index(n, self.columns.index(column))
+            if row.cells and row.parameter.id == address[0]:
+                for column, shown in row.cells.items():
+                    if shown == address and column in self.columns:
+                        return self.index(n, self.columns.index(column))
         return QModelIndex()
 
     def first_of(self, row: int) -> QModelIndex:
         """Return the first cell of a row whose value exists, invalid when none does."""
         for column in range(len(self.columns)):
             address = self.address_at(row, column)
-            if address is not None and (self.hidden_too or self._exists(address)):
+            if address is not None and self.values.exists(address):
                 return self.index(row, column)
         return QModelIndex()
 
     # -- values as they are shown ----------------------------------------------
 
-    def cell_text(self, address: Address) -> str:
-        """Return the text of a cell: the value, or a dot where it is hidden.
+    def look(self, row: int, column: int) -> CellLook | None:
+        """Return how a cell is painted; None where the parameter has no such instance."""
+        address = self.address_at(row, column)
+        if address is None:
+            return None
+        found = self._looks.get(address)
+        if found is None:
+            here = set(self.columns)
+            self._looks |= self.values.row_looks([a for c, a in self.rows[row].cells.items() if c in here])
+            found = self._looks[address]
+        return found
 
-        An effective value that differs from the value in the file follows after an arrow.
-        """
-        if not self.hidden_too and not self._exists(address):
-            return "·"
-        used = self._effective.get(address)
-        return self.shown_value(address) + ("" if used is None else f" → {self._shown(address, used)}")
+    def cell_text(self, address: Address) -> str:
+        """Return the text of a cell for a person who does not see it: ``11 mm``, ``not set``, nothing where it does not exist."""
+        if not self.values.exists(address):
+            return ""
+        used = self.values.effective.get(address)
+        return self.shown_value(address) + ("" if used is None else f" → {self.values.text(address, used)}")
 
     def shown_value(self, address: Address) -> str:
         """Return a value as the table shows it."""
-        return self._shown(address, self.workspace.file.get(address))
-
-    def _shown(self, address: Address, value: Value | None) -> str:
-        if value is None:
-            return "—"  # in a table a dash reads quicker than words
-        parameter = self.workspace.file.schema.parameters[address[0]]
-        return show_value(parameter, self._in_units(address, value), secrets=self.workspace.secrets)
+        return self.values.text(address, self.workspace.file.get(address))
 
     def typed_value(self, address: Address) -> str:
         """Return a value as text for editing; empty for a masked one."""
-        if self.workspace.is_masked(address):
-            return ""
-        parameter = self.workspace.file.schema.parameters[address[0]]
-        return write_value(parameter, self._in_units(address, self.workspace.file.get(address)))
-
-    def _in_units(self, address: Address, value: Value | None) -> Value | None:
-        """Return a value in the unit in which it is shown; a value in this unit is returned unchanged."""
-        if value is None or isinstance(value.value, (str, bool)) or not value.unit:
-            return value
-        unit = self.workspace.typed_unit(address)
-        if unit == value.unit:
-            return value
-        try:
-            return Value(float(f"{convert(float(value.value), value.unit, unit):.9g}"), unit)
-        except UnitError:
-            return value
+        return self.values.typed(address)
 
     # -- Qt --------------------------------------------------------------------
 
@@ -221,17 +253,27 @@ class ParameterTable(QAbstractTableModel):
         if orientation == Qt.Orientation.Vertical:
             return self._row_head(section, role)
         if role == Qt.ItemDataRole.DisplayRole:
-            return self.column_title(self.columns[section]) if section < len(self.columns) else "Read by"
+            return " ".join(filter(None, self.column_head(section)))
         return None
 
-    def column_title(self, column: str) -> str:
-        """Return the head of a column: ``1 X linear``, ``Control``."""
-        return "Control" if column == CONTROL else axis_title(self.workspace.file, column)
+    def column_head(self, column: int) -> tuple[str, str]:
+        """Return the head of a column, what is loud of it and what is not: ``("X", "1 linear")``, ``("", "Control")``."""
+        if column >= len(self.columns):
+            return "", self.tr("Read by")
+        name = self.columns[column]
+        if name == CONTROL:
+            return "", self.workspace.file.schema.family.scopes["global"].label
+        return axis_head(self.workspace.file, name)
+
+    @property
+    def titles(self) -> list[str]:
+        """The heads of the columns in words."""
+        return [" ".join(filter(None, self.column_head(n))) for n in range(len(self.columns))]
 
     def _row_head(self, row: int, role: int) -> Any:
         if role == Qt.ItemDataRole.DisplayRole:
             return self.head(row)
-        if role == Qt.ItemDataRole.ToolTipRole:
+        if role == Qt.ItemDataRole.ToolTipRole and not self.rows[row].section:
             parameter = self.rows[row].parameter
             return f"{self.number(row)} {self.row_name(row)}  ({parameter.id})\n{parameter.help.what}"
         if role == Qt.ItemDataRole.TextAlignmentRole:
@@ -239,24 +281,28 @@ class ParameterTable(QAbstractTableModel):
         return None
 
     def head(self, row: int) -> str:
-        """Return the head of a row: its number and its name."""
-        found = self._heads.get(row)
-        if found is None:
-            number = self.number(row).ljust(5, FIGURE_SPACE)
-            found = self._heads[row] = f"{number} {self.row_name(row)}"
-        return found
+        """Return the head of a row in words: its number and its name."""
+        return f"{self.number(row)} {self.row_name(row)}".strip()
 
     def row_name(self, row: int) -> str:
         """Return the name of a row: the parameter, and the instance if there are several."""
-        shown, file = self.rows[row], self.workspace.file
-        first = next(iter(shown.cells.values()))
-        place = file.machine_schema.instance_label(first) if shown.instance else ""
+        found = self._heads.get(row)
+        if found is None:
+            found = self._heads[row] = self._name(self.rows[row])
+        return found
+
+    def _name(self, shown: TableRow) -> str:
+        if shown.section or not shown.instance:
+            return shown.section or shown.parameter.name
+        place = self.workspace.file.machine_schema.instance_label(next(iter(shown.cells.values())))
         if CONTROL not in shown.cells:
             place = place.rpartition(", ")[2]  # the column is the axis
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
         """Return the number of a row: that of its first value that exists, if it belongs to this parameter."""
+        if self.rows[row].section:
+            return ""
         here = self.workspace.file.machine_schema
         first = self.first_of(row)
         address = self.address_at(row, first.column()) if first.isValid() else None
@@ -273,87 +319,75 @@ class ParameterTable(QAbstractTableModel):
         return None if address is None else self._cell(address, role)
 
     def _cell(self, address: Address, role: int) -> Any:
-        file = self.workspace.file
-        if role == Qt.ItemDataRole.DisplayRole:
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             return self.cell_text(address)
         if role == Qt.ItemDataRole.EditRole:
             return self.typed_value(address)
         if role == AddressRole:
             return address
         if role == Qt.ItemDataRole.TextAlignmentRole:
-            parameter = file.schema.parameters[address[0]]
-            return _RIGHT if parameter.type in ("real", "integer", "bits", "format") else _LEFT
-        if role == Qt.ItemDataRole.BackgroundRole:
-            worst = self._worst.get(address)
-            return QBrush(severity_colour(worst)) if worst in ("error", "warning") else None
-        if role == Qt.ItemDataRole.ForegroundRole:
-            return None if file.evaluation.state(address).is_active else QBrush(state_colour())
-        if role == Qt.ItemDataRole.FontRole:
-            return self._font_of(address)
-        if role == Qt.ItemDataRole.ToolTipRole:
+            parameter = self.workspace.file.schema.parameters[address[0]]
+            return _RIGHT if parameter.type in ("real", "integer", "format") else _LEFT
+        if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleDescriptionRole):
             return self._tip(address)
         return None
 
-    def _font_of(self, address: Address) -> QFont | None:
-        file = self.workspace.file
-        bold = file.get(address) is not None and not file.is_default(address)
-        italic = file.evaluation.state(address).state in ("ignored", "unusable")
-        return self._both if bold and italic else self._bold if bold else self._italic if italic else None
-
     def _tip(self, address: Address) -> str:
-        file = self.workspace.file
+        """Return what a cell means beyond its value: findings, why it is inactive, what the control uses instead."""
+        file, values = self.workspace.file, self.values
+        if not values.exists(address):
+            return self.tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
         state = file.evaluation.state(address)
-        shown = self.shown_value(address)
-        lines = [shown] if len(shown) > _LONG else []
-        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != "schema.unset"]
+        lines = [self.shown_value(address)]
+        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
         if not state.is_active:
-            lines.append(
-                f"{state_name(state.state).capitalize()}: {state.why}"
-                + (f" (page {state.page})" if state.page else "")
-            )
-        if address in self._effective:
-            lines.append(f"Effective value in the control: {self._shown(address, self._effective[address])}")
+            page = f" (page {state.page})" if state.page else ""
+            lines.append(f"{state_name(state.state).capitalize()}: {state.why}{page}")
+        if address in values.effective:
+            used = values.text(address, values.effective[address])
+            lines.append(self.tr("Effective value in the control: {value}").format(value=used))
         if address in file.forced:
-            lines.append(f"Forced {with_local_times(file.forced[address])}")
-        value = file.get(address)
-        if value is not None and self._in_units(address, value) != value:
+            lines.append(self.tr("Forced {when}").format(when=with_local_times(file.forced[address])))
+        value, saved = file.get(address), self.workspace.document.saved.get(address)
+        if value != saved:
+            lines.append(self.tr("Saved: {value}").format(value=values.text(address, saved)))
+        if value is not None and values.in_units(address, value) != value:
             entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
-            lines.append(f"Entered as {entered}")
+            lines.append(self.tr("Entered as {value}").format(value=entered))
         return "\n".join(lines)
 
     def flags(self, index: Index) -> Qt.ItemFlag:
         address = self.address_at(index.row(), index.column()) if index.isValid() else None
-        if address is None:
-            return Qt.ItemFlag.NoItemFlags
+        if address is None or not self.values.exists(address):
+            return Qt.ItemFlag.NoItemFlags  # keys pass over it
         flags = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
         can_be_set = self.rows[index.row()].parameter.access != "read"
-        if self.workspace.may_edit and can_be_set and (self.hidden_too or self._exists(address)):
-            flags |= Qt.ItemFlag.ItemIsEditable
-        return flags
+        return flags | Qt.ItemFlag.ItemIsEditable if self.workspace.may_edit and can_be_set else flags
 
     # -- following the file ----------------------------------------------------
 
     def _refresh(self, addresses: list[Address]) -> None:
-        self._find_worst()
-        columns = self._columns()
-        if columns != self.columns or self._rows(columns) != self.rows:
-            self.show_again()
-        elif self.rows and self.columns:
+        self.values.find_findings()
+        columns, decides = self._columns(), self.workspace.file.evaluation.decides_states
+        if (
+            columns != self.columns
+            or not addresses
+            or self._filter is not None
+            or any(map(decides, addresses))
+        ):
+            rows = self._rows(columns)
+            if columns != self.columns or rows != self.rows:
+                self._lay_out(columns, rows)
+                return
             self._heads.clear()  # the number of a row is that of its first value that exists
+        self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
+        self._forget_looks()
+
+    def _forget_looks(self) -> None:
+        self._looks.clear()
+        self._repaint()
+
+    def _repaint(self) -> None:
+        if self.rows and self.columns:
             last = self.index(len(self.rows) - 1, len(self.columns) - 1)
             self.dataChanged.emit(self.index(0, 0), last)
-            self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, last.column())
-
-    def _find_worst(self) -> None:
-        worst: dict[Address, str] = {}
-        for finding in self.workspace.findings:  # errors come first
-            for address in finding.causes:
-                worst.setdefault(address, finding.severity)
-        self._worst, self._effective = worst, self.workspace.effective()
-
-
-def _font(bold: bool, italic: bool) -> QFont:
-    font = QFont()
-    font.setBold(bold)
-    font.setItalic(italic)
-    return font

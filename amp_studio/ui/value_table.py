@@ -1,71 +1,90 @@
-"""The view of the table: fixed names while the axes scroll, editing with one key, one selected cell."""
+"""The view of the table: names that stay while the axes scroll, ranges of cells, editing with one key, a fill handle."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from heapq import nlargest
 
-from PySide6.QtCore import QModelIndex, Qt, QTimer, Signal
-from PySide6.QtGui import QAction, QFontMetrics, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView, QWidget
+from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, QPoint, QRect, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QAction,
+    QFocusEvent,
+    QFontMetrics,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QAbstractItemView, QTableView, QWidget
 
-from amp_studio.schema import Address
+from amp_studio.files import RangeError
+from amp_studio.schema import Address, InvalidValueError, shown
 
-from .parameter_table import AddressRole, ParameterTable
-from .value_delegate import ValueDelegate
+from .cell_editor import CellEditor, Refusal
+from .parameter_table import CONTROL, AddressRole, ParameterTable
+from .table_heads import NUMBER, AxisHeads, Corner, RowHeads
+from .theme import font, scheme
+from .value_delegate import ValueDelegate, allowed_text
 
-_NAMES = (256, 330)
-"""Least width of the names in a narrow table, and in one wider than four times the larger of these."""
-_MEASURED = 12
-"""Number of the longest texts of a column that are measured."""
-_MARGIN = 24
-"""Room for the scroll bar and the frame."""
-_NARROWEST, _WIDEST = 92, 240
-_CHOICES = (200, 160, 118)
-"""Widths that long choices may have, depending on the room."""
+_NAMES = (240, 302, 420)
+"""Width of the names in a narrow table, in a wide one, and at most, where the values leave room."""
+_WIDE = 620
+_AXIS, _AXIS_AT_MOST, _CONTROL_ALONE, _COMMAND = 100, 150, (240, 460), 230
+"""Widths of columns: of an axis at least and at most, of the control where it is alone, of the command that reads a value."""
+_MIXED = 190
+"""Width of the control's column beside axes, where they leave room."""
+_MARGIN = 18
+"""Room for the scroll bar."""
+_WIDEST_UNIT = 64
+_HANDLE = 6
 
 
 class ValueTable(QTableView):
-    """Shows a ``ParameterTable``; the selected cell stays selected when the model changes."""
+    """Shows a ``ParameterTable``; the selected cells stay selected when the model changes."""
 
     selected = Signal(object)
     """The address of the current cell; None where the list is empty."""
+    range_changed = Signal()
+    """Other cells are selected."""
+    fill_wanted = Signal(object)
+    """The fill handle was dragged: target -> the address that it gets its value from."""
 
     def __init__(
-        self,
-        model: ParameterTable,
-        commit: Callable[[Address, str], bool],
-        actions: Iterable[QAction] = (),
-        parent: QWidget | None = None,
+        self, model: ParameterTable, actions: Iterable[QAction] = (), parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
         self._table = model
-        self._is_fitting = self._is_dragged = self._refused = False
+        self._is_fitting = self._is_dragged = False
+        self._filling: tuple[QModelIndex, QModelIndex] | None = None
+        """First and last cell of the range from which the fill handle is dragged."""
         self.last: Address | None = None
+        self.setVerticalHeader(RowHeads(model, self))
+        self.setHorizontalHeader(AxisHeads(model, self))
+        self._corner = Corner(self)
         self.setModel(model)
-        self._take = commit
-        self._delegate = ValueDelegate(model.workspace, self._commit, self)
+        self._delegate = ValueDelegate(model, self._commit, self)
+        self._delegate.ended.connect(self._end_editing)
         self.setItemDelegate(self._delegate)
-        self.setAlternatingRowColors(True)
-        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.setFont(font("text"))
+        self.setAccessibleName(self.tr("Values"))
+        self.setShowGrid(False)
+        self.setFrameShape(QTableView.Shape.NoFrame)
+        self.setCornerButtonEnabled(False)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.ContiguousSelection)
         self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         self.setWordWrap(False)
+        self.viewport().setMouseTracking(True)
         triggers = QAbstractItemView.EditTrigger
         self.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
-        names, heads = self.verticalHeader(), self.horizontalHeader()
-        names.setDefaultSectionSize(24)
-        names.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-        names.setTextElideMode(Qt.TextElideMode.ElideRight)
-        names.setFixedWidth(_NAMES[0])
-        names.setHighlightSections(False)
-        names.setSectionsClickable(True)
-        names.sectionClicked.connect(self._select_row)
-        heads.setHighlightSections(True)
-        heads.setMinimumSectionSize(48)
-        heads.sectionResized.connect(self._note_drag)
+        self.verticalHeader().setFixedWidth(_NAMES[0])
+        self.verticalHeader().sectionClicked.connect(self._select_row)
+        self.horizontalHeader().sectionResized.connect(self._note_drag)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.addActions(list(actions))
         self.selectionModel().currentChanged.connect(self._emit_selected)
+        self.selectionModel().selectionChanged.connect(self._emit_range)
+        scheme().changed.connect(self.viewport().update)
         model.modelReset.connect(self._after_reset)
 
     def address(self) -> Address | None:
@@ -73,115 +92,344 @@ class ValueTable(QTableView):
         found: Address | None = self.currentIndex().data(AddressRole)
         return found
 
+    def selected_addresses(self) -> list[Address]:
+        """Return the addresses of the selected cells, row by row; those that do not exist are left out."""
+        return [address for row in self.selected_block() for address in row if address is not None]
+
+    def selected_block(self) -> list[list[Address | None]]:
+        """Return the selected cells as rows; None where a cell does not exist, without the heads of sections."""
+        ends = self._ends()
+        if ends is None:
+            return []
+        first, last = ends
+        rows = range(first.row(), last.row() + 1)
+        columns = range(first.column(), min(last.column(), len(self._table.columns) - 1) + 1)
+        return [[self._existing(r, c) for c in columns] for r in rows if not self._table.rows[r].section]
+
+    def block_from(self, rows: int, columns: int) -> list[list[Address | None]]:
+        """Return a block of cells that begins at the first selected one, as far as the table goes."""
+        ends = self._ends()
+        if ends is None:
+            return []
+        first = ends[0]
+        below = (r for r in range(first.row(), len(self._table.rows)) if not self._table.rows[r].section)
+        across = range(first.column(), min(first.column() + columns, len(self._table.columns)))
+        return [[self._existing(r, c) for c in across] for r, _ in zip(below, range(rows), strict=False)]
+
+    def block_to_fill(self, *, down: bool) -> list[list[Address | None]]:
+        """Return the selected cells with the line they are filled from: a single row gets the one above, a single column
+        the one before.
+        """
+        ends = self._ends()
+        if ends is None:
+            return []
+        first, last = ends
+        rows = [r for r in range(first.row(), last.row() + 1) if not self._table.rows[r].section]
+        columns = list(range(first.column(), min(last.column(), len(self._table.columns) - 1) + 1))
+        if down and len(rows) == 1:
+            above = (r for r in range(first.row() - 1, -1, -1) if not self._table.rows[r].section)
+            rows = [*([r] if (r := next(above, None)) is not None else []), *rows]
+        if not down and len(columns) == 1 and columns[0] > 0:
+            columns.insert(0, columns[0] - 1)
+        return [[self._existing(r, c) for c in columns] for r in rows]
+
+    def _existing(self, row: int, column: int) -> Address | None:
+        address = self._table.address_at(row, column)
+        return address if address is not None and self._table.values.exists(address) else None
+
+    def _ends(self) -> tuple[QModelIndex, QModelIndex] | None:
+        """Return the first and the last cell of the selected range, the current cell where there is none."""
+        selection = self.selectionModel().selection()
+        if selection.isEmpty():
+            here = self.currentIndex()
+            return (here, here) if here.isValid() else None
+        ranges = [selection.at(n) for n in range(selection.count())]
+        rows = [n for s in ranges for n in (s.top(), s.bottom())]
+        columns = [n for s in ranges for n in (s.left(), s.right())]
+        return self._table.index(min(rows), min(columns)), self._table.index(max(rows), max(columns))
+
     def _emit_selected(self, index: QModelIndex) -> None:
         address = index.data(AddressRole)
         if address is not None:
             self.last = address
             self.selected.emit(address)
+        self.verticalHeader().viewport().update()
+        self.horizontalHeader().viewport().update()
+        self.viewport().update()
+
+    def _emit_range(self) -> None:
+        self.viewport().update()  # the edge of the range is painted over cells that stay selected
+        self.range_changed.emit()
+
+    # -- editing ---------------------------------------------------------------
 
     def finish(self) -> bool:
-        """Commit an open editor; returns False when its value was refused."""
+        """Commit an open editor; returns False when its text was refused, and it stays open with the reason."""
         editor: QWidget | None = self.indexWidget(self.currentIndex())
         if editor is None:
             return True
-        self._refused = False
-        self.commitData(editor)
+        if isinstance(editor, CellEditor):
+            if not self._delegate.take(editor):
+                return False
+        else:
+            self.commitData(editor)
         self.closeEditor(editor, ValueDelegate.EndEditHint.NoHint)
-        return not self._refused
+        return True
 
-    def _commit(self, address: Address, text: str) -> bool:
-        if self._take(address, text):
-            return True
-        self._refused = True
-        QTimer.singleShot(0, self, lambda: self._mend(address, text))
-        return False
+    def _commit(self, address: Address, text: str) -> Refusal | None:
+        """Set a value from typed text; returns why it is refused."""
+        workspace = self._table.workspace
+        try:
+            workspace.enter(address, text)
+        except RangeError as error:
+            return self._delegate.out_of_range(address, str(error))
+        except InvalidValueError as error:
+            return Refusal(str(error), allowed_text(workspace, address))
+        return None
 
-    def _mend(self, address: Address, text: str) -> None:
+    def _end_editing(self, modifiers: int, editor: CellEditor) -> None:
+        """Take a text by Enter and go down; with Ctrl into every selected cell, with Ctrl and Shift out of range too."""
+        held = Qt.KeyboardModifier(modifiers) & ~Qt.KeyboardModifier.KeypadModifier
+        control, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
+        here, address = self.currentIndex(), self.address()
+        if held & control and address is not None:
+            refusal = self._force(address, editor.text()) if held & shift else self._fill_typed(editor.text())
+            if refusal is not None:
+                editor.show_refusal(refusal)
+                return
+            editor.setText(self._table.typed_value(address))  # it is taken: closing commits nothing more
+            self.closeEditor(editor, ValueDelegate.EndEditHint.RevertModelCache)
+            return
+        if self._delegate.take(editor):
+            self.closeEditor(editor, ValueDelegate.EndEditHint.NoHint)
+            move = self.CursorAction.MoveUp if held & shift else self.CursorAction.MoveDown
+            if self.currentIndex() == here:
+                self.setCurrentIndex(self.moveCursor(move, Qt.KeyboardModifier.NoModifier))
+
+    def _force(self, address: Address, text: str) -> Refusal | None:
+        try:
+            self._table.workspace.enter(address, text, force=True)
+        except InvalidValueError as error:
+            return Refusal(str(error), allowed_text(self._table.workspace, address))
+        return None
+
+    def _fill_typed(self, text: str) -> Refusal | None:
+        """Set every selected cell from one typed text, all or none."""
+        refused = self._table.workspace.enter_all(dict.fromkeys(self.selected_addresses(), text))
+        return Refusal("; ".join(refused[:3]) + (" …" if len(refused) > 3 else "")) if refused else None
+
+    def closeEditor(self, editor: QWidget, hint: ValueDelegate.EndEditHint) -> None:
+        """Close an editor; one that lost the focus with a refused text opens again with it."""
+        refusal, address = self._delegate.refusal, self.address()
+        if isinstance(editor, CellEditor):
+            if refusal is not None and hint == ValueDelegate.EndEditHint.NoHint and address is not None:
+                text = editor.text()
+                QTimer.singleShot(0, self, lambda: self._mend(address, text, refusal))
+            editor.close_frame()
+        self._delegate.refusal = None
+        super().closeEditor(editor, hint)
+
+    def _mend(self, address: Address, text: str, refusal: Refusal) -> None:
         """Open the editor again with a refused text."""
         index = self._table.index_of(address)
-        if index.isValid() and not self._table.rows[index.row()].parameter.choices:
+        if index.isValid():
             self.setCurrentIndex(index)
-            self._delegate.to_mend = (address, text)
+            self._delegate.to_mend = (address, text, refusal)
             self.edit(index)
 
     def _select_row(self, row: int) -> None:
+        if self._table.rows[row].section:
+            return
         here = self._table.index(row, self.currentIndex().column())
-        self.setCurrentIndex(here if here.data(AddressRole) else self._table.first_of(row))
+        current = here if here.flags() & Qt.ItemFlag.ItemIsEnabled else self._table.first_of(row)
+        if current.isValid():
+            whole = QItemSelection(
+                self._table.index(row, 0), self._table.index(row, max(0, len(self._table.columns) - 1))
+            )
+            self.setCurrentIndex(current)
+            self.selectionModel().select(whole, QItemSelectionModel.SelectionFlag.ClearAndSelect)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter edits the cell, as F2 and typing do; Tab leaves the table behind its last cell."""
+        is_enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        editing = self.state() == QAbstractItemView.State.EditingState
+        if is_enter and not editing and self.currentIndex().flags() & Qt.ItemFlag.ItemIsEditable:
+            self.edit(self.currentIndex())
+        elif event.key() == Qt.Key.Key_Tab and not editing and self._is_end(self.CursorAction.MoveNext):
+            self._leave_by_tab(forward=True)
+        elif (
+            event.key() == Qt.Key.Key_Backtab and not editing and self._is_end(self.CursorAction.MovePrevious)
+        ):
+            self._leave_by_tab(forward=False)
+        else:
+            super().keyPressEvent(event)
+
+    def _leave_by_tab(self, *, forward: bool) -> None:
+        self.setTabKeyNavigation(False)  # with it Qt would give the key to this table again
+        self.focusNextChild() if forward else self.focusPreviousChild()
+        self.setTabKeyNavigation(True)
+
+    def _is_end(self, move: QAbstractItemView.CursorAction) -> bool:
+        """Return whether Tab would begin again at the other end."""
+        here, there = self.currentIndex(), self.moveCursor(move, Qt.KeyboardModifier.NoModifier)
+        if not here.isValid() or not there.isValid() or here == there:
+            return True
+        is_before = (there.row(), there.column()) < (here.row(), here.column())
+        return is_before == (move == self.CursorAction.MoveNext)
+
+    # -- painting ---------------------------------------------------------------
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = self._delegate.painter
+        painter.is_active = self.hasFocus()
+        super().paintEvent(event)
+        over = QPainter(self.viewport())
+        for address in self._table.outlined:
+            index = self._table.index_of(address)
+            if index.isValid():
+                painter.outline(over, self.visualRect(index), "error")
+        ends = self._ends()
+        if ends is not None and ends[0] != ends[1]:
+            handle = self._handle() if self._table.workspace.may_edit else QRect()
+            painter.range_edge(over, self._place_of(*ends), handle)
+        if self.currentIndex().isValid():
+            painter.current(over, self.visualRect(self.currentIndex()))
+        over.end()
+
+    def _place_of(self, first: QModelIndex, last: QModelIndex) -> QRect:
+        heads, names = self.horizontalHeader(), self.verticalHeader()
+        left, top = heads.sectionViewportPosition(first.column()), names.sectionViewportPosition(first.row())
+        right = heads.sectionViewportPosition(last.column()) + heads.sectionSize(last.column())
+        bottom = names.sectionViewportPosition(last.row()) + names.sectionSize(last.row())
+        return QRect(QPoint(left, top), QPoint(right - 1, bottom - 1))
+
+    def _handle(self) -> QRect:
+        """Return the place of the fill handle."""
+        ends = self._ends()
+        if ends is None:
+            return QRect()
+        corner = self._place_of(*ends).bottomRight()
+        return QRect(corner.x() - _HANDLE + 1, corner.y() - _HANDLE + 1, _HANDLE, _HANDLE)
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        super().focusInEvent(event)
+        self.viewport().update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        super().focusOutEvent(event)
+        self.viewport().update()
+
+    # -- the fill handle ---------------------------------------------------------
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        is_handle = self._handle().adjusted(-5, -5, 5, 5).contains(event.position().toPoint())
+        if event.button() == Qt.MouseButton.LeftButton and is_handle and self._table.workspace.may_edit:
+            self._filling = self._ends()
+            return
+        super().mousePressEvent(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        place = event.position().toPoint()
+        if self._filling is None:
+            is_handle = self._handle().adjusted(-3, -3, 3, 3).contains(place)
+            self.viewport().setCursor(Qt.CursorShape.CrossCursor if is_handle else Qt.CursorShape.ArrowCursor)
+            super().mouseMoveEvent(event)
+            return
+        first, last = self._filling
+        over = self.indexAt(place)
+        if over.isValid():
+            down, across = over.row() - last.row(), over.column() - last.column()
+            is_down = down * self.rowHeight(last.row()) > across * self.columnWidth(last.column())
+            row = max(over.row(), last.row()) if is_down else last.row()
+            column = last.column() if is_down else max(over.column(), last.column())
+            self._select(first, self._table.index(row, column))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if self._filling is None:
+            super().mouseReleaseEvent(event)
+            return
+        (first, last), self._filling = self._filling, None
+        rows, columns = last.row() - first.row() + 1, last.column() - first.column() + 1
+        end = (self._ends() or (first, last))[1]
+        found: dict[Address, Address] = {}
+        for r in range(first.row(), end.row() + 1):
+            for c in range(first.column(), end.column() + 1):
+                target = self._existing(r, c)
+                source = self._existing(
+                    first.row() + (r - first.row()) % rows, first.column() + (c - first.column()) % columns
+                )
+                if target is not None and source is not None and target != source:
+                    found[target] = source
+        if found:
+            self.fill_wanted.emit(found)
+
+    def _select(self, first: QModelIndex, last: QModelIndex) -> None:
+        self.selectionModel().select(
+            QItemSelection(first, last), QItemSelectionModel.SelectionFlag.ClearAndSelect
+        )
+
+    # -- widths ------------------------------------------------------------------
 
     def _after_reset(self) -> None:
         self._is_dragged = False
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
-        if not index.isValid():
+        if not index.isValid() or not index.flags() & Qt.ItemFlag.ItemIsEnabled:
             index = next(
                 (i for row in range(len(self._table.rows)) if (i := self._table.first_of(row)).isValid()),
-                index,
+                QModelIndex(),
             )
         self.setCurrentIndex(index)
         if not index.isValid():
             self.selected.emit(None)
 
     def _fit_columns(self) -> None:
-        """Make each column as wide as its values and head; when they do not all fit, long choices are cut off."""
+        """Give the axes the room there is; no value is measured, so that a list of all parameters is there at once."""
+        painter, schema = self._delegate.painter, self._table.workspace.file.schema
+        units = {
+            shown(u)
+            for row in self._table.rows
+            if not row.parameter.choices
+            for u in schema.units_of(row.parameter)
+        }
+        painter.unit_slot = round(min(_WIDEST_UNIT, max(map(painter.unit_width, units), default=0)))
         if self._is_dragged:
             return
         self._is_fitting = True
-        wanted = [self._wanted(column) for column in range(len(self._table.columns))]
-        widths = [max(pair) for pair in wanted]
-        for most in _CHOICES:
-            if sum(widths) <= self.viewport().width():
-                break
-            widths = [max(figures, min(most, choices)) for figures, choices in wanted]
-        if self._table.shows_commands:
-            texts = map(self._table.command, range(len(self._table.rows)))
-            widths.append(round(max(_NARROWEST, _widest(QFontMetrics(self.font()), texts) + 16)))
-        for column, width in enumerate(widths):
+        columns, names = self._table.columns, _NAMES[self.width() > _WIDE]
+        room = self.width() - names - _MARGIN - (_COMMAND if self._table.shows_commands else 0)
+        if columns == [CONTROL]:
+            widths = [max(_CONTROL_ALONE[0], min(_CONTROL_ALONE[1], room))]
+        else:
+            each = max(_AXIS, min(_AXIS_AT_MOST, room // max(1, len(columns))))
+            mixed = max(each, min(_MIXED, room - each * (len(columns) - 1)))
+            widths = [mixed if column == CONTROL else each for column in columns]
+        for column, width in enumerate([*widths, _COMMAND] if self._table.shows_commands else widths):
             self.setColumnWidth(column, width)
-        self._fit_names(sum(widths))
+        self._fit_names(names, sum(widths))
         self._is_fitting = False
 
-    def _fit_names(self, values: int) -> None:
+    def _fit_names(self, least: int, values: int) -> None:
         """Make the names as wide as they need, as far as the values leave room: the gear is at their end."""
-        metrics = QFontMetrics(self.verticalHeader().font())
-        wanted = round(_widest(metrics, map(self._table.head, range(len(self._table.rows))))) + 16
-        least = _NAMES[self.width() > 4 * _NAMES[1]]
-        self.verticalHeader().setFixedWidth(max(least, min(wanted, self.width() - values - _MARGIN)))
-
-    def _wanted(self, column: int) -> tuple[int, int]:
-        """Return the width of the numbers and head of a column, and that of its choices."""
-        table, texts = self._table, QFontMetrics(self.font())
-        head = QFontMetrics(self.horizontalHeader().font()).horizontalAdvance(
-            table.column_title(table.columns[column])
+        metrics = QFontMetrics(font("text"))
+        longest = nlargest(8, {row.parameter.name for row in self._table.rows}, len)
+        has_places = any(row.instance for row in self._table.rows)
+        wanted = max(map(metrics.horizontalAdvance, longest), default=0) + NUMBER + 20 + 110 * has_places
+        self.verticalHeader().setFixedWidth(
+            round(max(least, min(wanted, _NAMES[2], self.width() - values - _MARGIN)))
         )
-        shown: dict[bool, set[str]] = {False: set(), True: set()}
-        for n, row in enumerate(table.rows):
-            address = table.address_at(n, column)
-            if address is not None:
-                shown[bool(row.parameter.choices)].add(table.cell_text(address))
-        figures, choices = (1.1 * _widest(texts, shown[kind]) + 14 for kind in (False, True))
-        return round(max(_NARROWEST, 1.1 * head + 24, min(_WIDEST, figures))), round(
-            min(_WIDEST, choices)
-        )  # bold is wider
 
     def _note_drag(self, *_: object) -> None:
         """Keep the widths when the user has set one, until another list is shown."""
         self._is_dragged = self._is_dragged or not self._is_fitting
 
+    def updateGeometries(self) -> None:
+        super().updateGeometries()
+        heads = self.horizontalHeader()
+        self._corner.setGeometry(0, 0, self.verticalHeader().width(), heads.height())
+        self._corner.raise_()
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         if event.size().width() != event.oldSize().width():
             self._fit_columns()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter edits the cell, as F2 and typing do."""
-        is_enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
-        editing = self.state() == QAbstractItemView.State.EditingState
-        if is_enter and not editing and self.currentIndex().flags() & Qt.ItemFlag.ItemIsEditable:
-            self.edit(self.currentIndex())
-        else:
-            super().keyPressEvent(event)
-
-
-def _widest(metrics: QFontMetrics, texts: Iterable[str]) -> float:
-    """Return the width of the widest text; only the longest are measured, as measuring is slow."""
-    return max(map(metrics.horizontalAdvance, nlargest(_MEASURED, texts, len)), default=0)

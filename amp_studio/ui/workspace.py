@@ -11,10 +11,13 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from amp_studio.files import Change, Comparison, Document, Opened, ParameterFile, compare, digest_of
+from amp_studio.files import Change, Comparison, Document, Opened, ParameterFile, compare, describe, digest_of
+from amp_studio.files.block_entry import BlockEntry, plan_entry
+from amp_studio.files.lock import now
 from amp_studio.files.parameter_file import Marks
-from amp_studio.schema import Address, Value, read_value
+from amp_studio.schema import Address, Value, axis_name, show_value
 from amp_studio.validate import NOT_SET, Finding, Validator, rules_beside
+from amp_studio.validate.cell_expression import Entered, enter, read_plain
 
 JOURNAL_MS = 500
 """Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""
@@ -103,6 +106,63 @@ class Workspace(QObject):
     def edit(self, text: str, wanted: Mapping[Address, Value | None], force: str = "") -> bool:
         """Change values as one undoable step; raises RangeError, and then nothing is changed."""
         return self.do(text, lambda: self.file.set_many(wanted, force))
+
+    def entered(self, address: Address, text: str) -> Entered:
+        """Read what a person typed for an address, a value or an expression; raises InvalidValueError."""
+        return enter(self.file, address, text, self.typed_unit)
+
+    def enter(self, address: Address, text: str, *, force: bool = False) -> bool:
+        """Set a value from typed text as one undoable step; raises InvalidValueError, and RangeError unless it is forced.
+
+        Returns whether it changed anything.
+        """
+        entered = self.entered(address, text)
+        why = f"on {now()} in the studio" if force else ""
+        return self.edit(
+            self.step_text({address: entered.value}, entered.expression), {address: entered.value}, why
+        )
+
+    def enter_all(self, texts: Mapping[Address, str]) -> list[str]:
+        """Set several values from typed texts as one undoable step, all or none; returns why those refused are refused."""
+        entry = self.plan(texts)
+        if not entry.refused:
+            self.take(entry)
+        return [f"{self.name_of(cell.address)}: {cell.problem}" for cell in entry.refused]
+
+    def plan(self, texts: Mapping[Address, str]) -> BlockEntry:
+        """Return what setting values from typed texts would do."""
+        return plan_entry(self.file, texts, lambda a, text: self.entered(a, text).value)
+
+    def take(self, entry: BlockEntry) -> bool:
+        """Set what a planned entry changes as one undoable step; returns whether it changed anything."""
+        return bool(entry.changed) and self.edit(self.step_text(entry.changed), entry.changed)
+
+    def read_plain(self, address: Address, text: str) -> Value:
+        """Read a pasted text for an address, which is no expression; raises InvalidValueError."""
+        return read_plain(self.file, address, text, self.typed_unit)
+
+    def name_of(self, address: Address) -> str:
+        """Return what a value is called in a sentence: ``1750 Excess Error, X``."""
+        place = axis_name(self.file.evaluation, address[1]) or self.file.machine_schema.instance_label(
+            address
+        )
+        return f"{describe(self.file, address)}, {place}" if place else describe(self.file, address)
+
+    def step_text(self, wanted: Mapping[Address, Value | None], expression: str = "") -> str:
+        """Return what a step is called in the list of steps: ``Set 1750 Excess Error, X to 12 mm (6 mm * 2)``."""
+        if len(wanted) != 1:
+            parameters = {a[0] for a in wanted}
+            if len(parameters) == 1:
+                return self.tr("Set %n values of {name}", "", len(wanted)).format(
+                    name=describe(self.file, next(iter(wanted)))
+                )
+            return self.tr("Set %n values", "", len(wanted))
+        ((address, value),) = wanted.items()
+        if value is None:
+            return self.tr("Clear {name}").format(name=self.name_of(address))
+        shown = show_value(self.file.schema.parameters[address[0]], value, secrets=False)
+        text = self.tr("Set {name} to {value}").format(name=self.name_of(address), value=shown)
+        return f"{text} ({expression})" if expression else text
 
     def do(self, text: str, operation: Callable[[], object]) -> bool:
         """Run an operation on the file as one undoable step; returns whether it changed anything.
@@ -216,9 +276,7 @@ class Workspace(QObject):
 
     def read(self, address: Address, text: str) -> Value | None:
         """Read what a person typed for an address, None for nothing; raises InvalidValueError."""
-        if not text.strip():
-            return None
-        return read_value(self.file.schema.parameters[address[0]], text, self.typed_unit(address))
+        return self.entered(address, text).value
 
     def remember_control(self, values: dict[Address, Value], when: str) -> None:
         """Store the values of the control, to be shown beside the values of the file."""

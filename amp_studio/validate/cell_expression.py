@@ -96,12 +96,18 @@ def enter(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> 
     may_be = is_expression(text) and parameter.type not in ("text", "format")
     if not (may_be and text.lstrip().startswith("=")):
         try:
-            counted = read_real(file.evaluation, address, text, unit_of(address))
-            return Entered(counted or read_value(parameter, text, unit_of(address)))
+            return Entered(read_plain(file, address, text, unit_of))
         except InvalidValueError:
             if not may_be or parameter.choices:
                 raise
     return Entered(_result(file, address, text, unit_of), text.strip().lstrip("=").strip())
+
+
+def read_plain(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> Value:
+    """Read a value that was pasted, which is no expression: ``2026-10-06`` is a date. Raises InvalidValueError."""
+    unit = unit_of(address)
+    counted = read_real(file.evaluation, address, text, unit)
+    return counted or read_value(file.schema.parameters[address[0]], text, unit)
 
 
 def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> Value | None:
@@ -148,7 +154,7 @@ class _Reader:
     def __init__(self, file: ParameterFile, address: Address, unit_of: UnitOf) -> None:
         self._file, self._here, self._unit_of = file, address, unit_of
         self._known: dict[str, tuple[str, _Quantity]] = {}
-        """Stand-in for the parser -> the text that it stands for, and what that is."""
+        """Name for the parser -> the text in its place, and what that is."""
 
     def reference_alone(self, text: str) -> Value | None:
         """Return the value that a text names as it is, of any kind; None where the text is more than a name."""
@@ -179,7 +185,7 @@ class _Reader:
     # -- names and numbers -------------------------------------------------------
 
     def _for_parser(self, text: str) -> str:
-        """Return the text with a stand-in for each quantity, which is what the parser reads."""
+        """Return the text with a plain name for each quantity, which is what the parser reads."""
         pieces, at, depth = [], 0, 0
         while at < len(text):
             token = _TOKEN.match(text, at)
@@ -191,15 +197,15 @@ class _Reader:
                     piece = piece.partition(",")[0]  # in brackets a comma parts what a function takes
                     at = token.start() + len(piece)
                 quantity, at = self._quantity(piece, text, at)
-                pieces.append(self._stand_in(text[token.start() : at], quantity))
+                pieces.append(self._plain_name(text[token.start() : at], quantity))
             elif kind == "name" and not (piece in _FUNCTIONS and text[at:].lstrip().startswith("(")):
-                pieces.append(self._stand_in(piece, self._referred(piece)))
+                pieces.append(self._plain_name(piece, self._referred(piece)))
             else:
                 depth += {"(": 1, ")": -1}.get(piece, 0)
                 pieces.append(_SIGNS.get(piece, piece))
         return " ".join(pieces)
 
-    def _stand_in(self, text: str, quantity: _Quantity) -> str:
+    def _plain_name(self, text: str, quantity: _Quantity) -> str:
         name = f"v{len(self._known)}_"
         self._known[name] = text, quantity
         return name

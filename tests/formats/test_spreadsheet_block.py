@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.formats.spreadsheet_block import (
+    BlockCell,
     BlockError,
-    Written,
     block_html,
     block_text,
     read_block,
@@ -18,9 +18,9 @@ from amp_studio.formats.spreadsheet_block import (
 )
 
 ROWS = [
-    [Written("11 mm", 11.0, "mm"), Written("0.433 in", 0.433, "in"), Written("2097152", 2097152)],
-    [Written("Closed Loop"), Written("=1+1"), Written("0x0021")],
-    [Written('two\nlines\tand "quotes"'), Written(""), Written("4 °", 4, "°")],
+    [BlockCell("11 mm", 11.0, "mm"), BlockCell("0.433 in", 0.433, "in"), BlockCell("2097152", 2097152)],
+    [BlockCell("Closed Loop"), BlockCell("=1+1"), BlockCell("0x0021")],
+    [BlockCell('two\nlines\tand "quotes"'), BlockCell(""), BlockCell("4 °", 4, "°")],
 ]
 TEXTS = [[cell.text for cell in row] for row in ROWS]
 
@@ -46,7 +46,7 @@ def test_html_comes_back_as_it_was() -> None:
 
 
 def test_a_formula_in_a_text_is_none_to_a_spreadsheet() -> None:
-    assert block_text([[Written("=1+1")]]) == "'=1+1"
+    assert block_text([[BlockCell("=1+1")]]) == "'=1+1"
 
 
 def test_a_number_counts_and_not_what_is_shown_of_it() -> None:

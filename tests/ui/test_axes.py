@@ -34,7 +34,7 @@ def test_name(window: MainWindow, file: ParameterFile, accept) -> None:
     accept(AxisDialog, lambda d: choose(d, "1", name="U"))
     action(window, "Name Axis").trigger()
     assert file.get(("axis.name", "1")) == Value("u")
-    assert window.table.column_title("1") == "1 U linear"
+    assert window.table.column_head(window.table.columns.index("1")) == ("U", "1 linear")
 
 
 def test_configure_type_takes_the_units_along_as_one_step(

@@ -186,10 +186,10 @@ def test_a_decimal_comma_is_a_decimal_comma(window: MainWindow, file: ParameterF
 
 def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, person) -> None:
     window.go_to(EXCESS)
-    window.edits.to_default()
+    window.edits.range.to_default()
     assert file.get(EXCESS) == file.default(EXCESS)
 
-    window.edits.clear()
+    window.edits.range.clear()
     assert file.get(EXCESS) is None
 
     no_default = next(
@@ -199,7 +199,7 @@ def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, 
     )
     before = file.get(no_default)
     window.go_to(no_default)
-    window.guarded(window.edits.to_default)
+    window.guarded(window.edits.range.to_default)
     assert "No default is printed" in person.reads()
     assert file.get(no_default) == before
 
@@ -209,7 +209,7 @@ def test_a_value_goes_to_all_axes_of_the_type(window: MainWindow, file: Paramete
     rotary = file.get(("servo.excess_error", "4"))
     window.go_to(EXCESS)
 
-    window.edits.to_all_axes()
+    window.edits.range.to_all_axes()
 
     assert [file.get(("servo.excess_error", a)) for a in "123"] == [Value(4.0, "mm")] * 3
     assert file.get(("servo.excess_error", "4")) == rotary
@@ -218,18 +218,18 @@ def test_a_value_goes_to_all_axes_of_the_type(window: MainWindow, file: Paramete
 def test_a_value_of_a_process_is_no_value_of_an_axis(window: MainWindow, person) -> None:
     """Instance 1 of a process comes beside instance 1 of an axis, not in its place."""
     window.go_to(("zone.group_count", "1"))
-    window.guarded(window.edits.to_all_axes)
+    window.guarded(window.edits.range.to_all_axes)
     assert person.reads() == "Select a value of a fitted axis first."
 
 
 def test_copy_and_paste_a_value(window: MainWindow, file: ParameterFile) -> None:
     window.go_to(EXCESS)
-    window.edits._copy()
+    window.edits.range.copy()
     assert QGuiApplication.clipboard().text() == "11 mm"
 
     window.go_to(("servo.gain_break_point", "2"))
     QGuiApplication.clipboard().setText("3,5 mm")
-    window.edits._paste()
+    window.edits.range.paste()
     assert file.get(("servo.gain_break_point", "2")) == Value(3.5, "mm")
 
 

@@ -249,12 +249,7 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
 
     action(window, "New").trigger()
 
-    assert [window.table.column_title(c) for c in window.table.columns] == [
-        "Control",
-        "1 X linear",
-        "2 Z linear",
-        "3 S spindle",
-    ]
+    assert window.table.titles == ["Control", "X 1 linear", "Z 2 linear", "S 3 spindle"]
     assert on_disk(tmp_path / "new.amp").machine == "mill"
 
 

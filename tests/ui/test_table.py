@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
+from amp_studio.ui.cell_look import CellLook
 from amp_studio.ui.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.parameter_table import AddressRole, ParameterTable
@@ -35,19 +36,18 @@ def press(window: MainWindow, key: Qt.Key) -> None:
     QTest.keyClick(window.table_view, key)
 
 
+def look(table: ParameterTable, address: tuple[str, str]) -> CellLook:
+    """Return how a cell is painted."""
+    index = table.index_of(address)
+    return table.look(index.row(), index.column())
+
+
 # -- what is shown -------------------------------------------------------------
 
 
 def test_a_column_an_axis_and_one_for_the_control(table: ParameterTable) -> None:
     titles = [table.headerData(n, Qt.Orientation.Horizontal) for n in range(table.columnCount())]
-    assert titles == [
-        "Control",
-        "1 X linear",
-        "2 Y linear",
-        "3 Z linear",
-        "4 B rotary",
-        "5 S spindle",
-    ]
+    assert titles[:6] == ["Control", "X 1 linear", "Y 2 linear", "Z 3 linear", "B 4 rotary", "S 5 spindle"]
 
 
 def test_a_row_a_process_a_gear_and_a_macro_call(table: ParameterTable) -> None:
@@ -75,7 +75,7 @@ def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> 
     table = window.table
     window.groups.tree.setCurrentItem(window.groups._items[0])
     assert "8" not in table.columns
-    hidden, rows = table.hidden_rows, table.rowCount()
+    hidden, rows = table.hidden_rows, table.count
     assert hidden > 0
     assert f"{hidden} hidden" in window.page.list_title.text()
 
@@ -83,7 +83,7 @@ def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> 
     window.view.hidden_too.trigger()
 
     assert "8" in table.columns
-    assert table.rowCount() == rows + hidden
+    assert table.count == rows + hidden
     assert "hidden" not in window.page.list_title.text()
 
 
@@ -112,7 +112,8 @@ def test_what_is_not_for_this_configuration_cannot_be_edited(
         if file.evaluation.state(a).state == "hidden" and table.index_of(a).isValid()
     )
     index = table.index_of(hidden)
-    assert index.data() == "·"
+    assert index.data() == ""
+    assert table.look(index.row(), index.column()).kind == "absent"
     assert not index.flags() & Qt.ItemFlag.ItemIsEditable
 
     table.hidden_too = True
@@ -121,12 +122,12 @@ def test_what_is_not_for_this_configuration_cannot_be_edited(
 
 
 def test_a_finding_colours_its_cells_and_tells_itself(table: ParameterTable, workspace: Workspace) -> None:
-    plain = table.index_of(EXCESS).data(Qt.ItemDataRole.BackgroundRole)
+    plain = look(table, EXCESS)
     workspace.edit("force", {EXCESS: Value(1e9, "mm")}, force="on a day")
 
     index = table.index_of(EXCESS)
-    assert plain is None
-    assert index.data(Qt.ItemDataRole.BackgroundRole) is not None
+    assert plain.severity == ""
+    assert look(table, EXCESS).severity == "error"
     assert "is outside" in index.data(Qt.ItemDataRole.ToolTipRole)
     assert "Forced on a day" in index.data(Qt.ItemDataRole.ToolTipRole)
 
@@ -134,19 +135,18 @@ def test_a_finding_colours_its_cells_and_tells_itself(table: ParameterTable, wor
 def test_what_a_wrong_value_was_compared_with_is_not_coloured(table: ParameterTable) -> None:
     """Maximum Cutting Feedrate must not be above Rapid Feedrate for Positioning, which is as it should be."""
     cutting, rapid = ("feedrate.max_cutting", "1"), ("feedrate.rapid", "1")
-    before = table.index_of(rapid).data(Qt.ItemDataRole.BackgroundRole)
+    before = look(table, rapid).severity
     table.workspace.edit("force", {cutting: Value(1e5, "mm/min")}, force="on a day")
-    assert table.index_of(cutting).data(Qt.ItemDataRole.BackgroundRole) is not None
-    assert table.index_of(rapid).data(Qt.ItemDataRole.BackgroundRole) == before
+    assert look(table, cutting).severity
+    assert look(table, rapid).severity == before
     assert any(rapid in finding.compared for finding in table.workspace.findings_of(cutting))
 
 
-def test_a_value_that_differs_from_the_default_is_bold(table: ParameterTable, workspace: Workspace) -> None:
+def test_an_own_value_is_loud_and_a_default_is_not(table: ParameterTable, workspace: Workspace) -> None:
     default = workspace.file.default(EXCESS)
-    assert table.index_of(EXCESS).data(Qt.ItemDataRole.FontRole).bold()
+    assert look(table, EXCESS).is_own
     workspace.edit("default", {EXCESS: default})
-    font = table.index_of(EXCESS).data(Qt.ItemDataRole.FontRole)
-    assert font is None or not font.bold()
+    assert not look(table, EXCESS).is_own
 
 
 # -- by keyboard ---------------------------------------------------------------
@@ -166,7 +166,8 @@ def test_a_key_starts_editing_and_enter_takes_the_value(
     QTest.keyClick(field, KEY.Key_Return)
 
     qtbot.waitUntil(lambda: file.get(EXCESS) == Value(3.25, "mm"), timeout=WAIT_MS)
-    assert window.selected() == EXCESS
+    below = window.table.index_of(EXCESS).row() + 1
+    assert window.selected() == window.table.address_at(below, 0), "Enter goes down"
 
 
 def test_typing_starts_editing_and_escape_leaves_the_value(window: MainWindow, file: ParameterFile) -> None:
@@ -207,7 +208,7 @@ def test_delete_unsets(window: MainWindow, file: ParameterFile) -> None:
     window.table_view.setFocus()
     press(window, KEY.Key_Delete)
     assert file.get(EXCESS) is None
-    assert window.table.index_of(EXCESS).data() == "—"
+    assert window.table.index_of(EXCESS).data() == "not set"
 
 
 def test_delete_in_a_field_deletes_a_letter(window: MainWindow, file: ParameterFile) -> None:
@@ -220,22 +221,62 @@ def test_delete_in_a_field_deletes_a_letter(window: MainWindow, file: ParameterF
     assert file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_a_refused_value_is_asked_once_and_stays_to_be_mended(
-    window: MainWindow, file: ParameterFile, person, qtbot
+def test_a_refused_value_stays_in_its_editor_with_the_range_and_no_box(
+    window: MainWindow, file: ParameterFile, person
 ) -> None:
-    """The question takes the focus from the field, which must not commit a second time."""
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
     field = editor(window)
     QTest.keyClicks(field, "99999")
-    person.answers("Cancel")
+    assert "is outside 0 to 214.1 mm" in field.refusal_text, "shown while it is typed"
 
     QTest.keyClick(field, KEY.Key_Return)
 
-    qtbot.waitUntil(lambda: person.asked != [] and editor(window).text() == "99999", timeout=WAIT_MS)
-    assert len(person.asked) == 1
+    assert editor(window) is field
+    assert field.text() == "99999"
+    assert person.asked == []
     assert file.get(EXCESS) == Value(11.0, "mm")
+    QTest.keyClicks(field, "12")
+    assert field.refusal_text == ""
+    QTest.keyClick(field, KEY.Key_Return)
+    assert file.get(EXCESS) == Value(12.0, "mm")
+
+
+def test_a_refused_value_can_be_forced_by_its_key(window: MainWindow, file: ParameterFile) -> None:
+    window.go_to(EXCESS)
+    press(window, KEY.Key_F2)
+    QTest.keyClicks(editor(window), "300")
+    keys = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    QTest.keyClick(editor(window), KEY.Key_Return, keys)
+    assert file.get(EXCESS) == Value(300.0, "mm")
+    assert "in the studio" in file.forced[EXCESS]
+
+
+def test_a_refused_text_comes_back_when_its_field_loses_the_focus(
+    window: MainWindow, file: ParameterFile, qtbot
+) -> None:
+    window.go_to(EXCESS)
+    press(window, KEY.Key_F2)
+    QTest.keyClicks(editor(window), "many")
+    window.groups.search.setFocus()
+    qtbot.waitUntil(lambda: editor(window).refusal_text != "", timeout=WAIT_MS)
+    assert editor(window).text() == "many"
+    assert "is not a number" in editor(window).refusal_text
     QTest.keyClick(editor(window), KEY.Key_Escape)
+    assert file.get(EXCESS) == Value(11.0, "mm")
+
+
+def test_the_result_of_an_expression_is_shown_while_it_is_typed(
+    window: MainWindow, file: ParameterFile
+) -> None:
+    window.go_to(EXCESS)
+    press(window, KEY.Key_F2)
+    field = editor(window)
+    QTest.keyClicks(field, "25.4/5")
+    assert field.result_text == "5.08 mm"
+    QTest.keyClick(field, KEY.Key_Return)
+    assert file.get(EXCESS) == Value(5.08, "mm")
+    assert window.workspace.undo_stack.undoText() == "Set 1750 Excess Error, X to 5.08 mm (25.4/5)"
 
 
 def test_one_key_opens_the_list_of_choices_and_a_letter_chooses(
@@ -343,7 +384,7 @@ def test_saving_takes_what_stands_in_an_open_field(window: MainWindow, path) -> 
     assert on_disk(path).get(EXCESS) == Value(3.5, "mm")
 
 
-def test_an_action_waits_for_a_field_that_cannot_be_taken(window: MainWindow, path, person, qtbot) -> None:
+def test_an_action_waits_for_a_field_that_cannot_be_taken(window: MainWindow, path) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
@@ -351,9 +392,9 @@ def test_an_action_waits_for_a_field_that_cannot_be_taken(window: MainWindow, pa
 
     action(window, "Save").trigger()
 
-    assert "is not a number" in person.reads()
+    assert "is not a number" in editor(window).refusal_text
     assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
-    qtbot.waitUntil(lambda: editor(window).text() == "three", timeout=WAIT_MS)
+    assert editor(window).text() == "three"
     QTest.keyClick(editor(window), KEY.Key_Escape)
 
 
