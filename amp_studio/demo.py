@@ -16,14 +16,9 @@ from pathlib import Path
 
 import platformdirs
 
+from amp_studio.files.examples import examples_folder
+
 EXAMPLE = "mill-1394"
-
-
-def examples_folder() -> Path:
-    """Return where the examples are: inside the installed package, or at the top of the checkout."""
-    package = Path(__file__).resolve().parent
-    inside = package / "examples"
-    return inside if inside.is_dir() else package.parent / "examples"
 
 
 def run_demo(terminal: bool = False) -> int:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from amp_studio.demo import examples_folder
 from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file, open_file, save_file
+from amp_studio.files.examples import examples_folder
 from amp_studio.schema import Address, Value
 from amp_studio.validate import Validator
 

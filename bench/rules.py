@@ -18,8 +18,8 @@ from jsonschema import ValidationError
 from jsonschema.validators import Draft202012Validator, extend
 from measure import Measure, timed
 
-from amp_studio.demo import examples_folder
 from amp_studio.files import Change, ParameterFile, open_file
+from amp_studio.files.examples import examples_folder
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Address, Rule, Schema, Value, read_address, written
 from amp_studio.validate import Validator

@@ -298,7 +298,7 @@ def _named(
         ):
             wanted = _with_field(file, declared.group, axis, f"Group {group or 1}", wanted)
     except InvalidValueError as error:
-        raise AxisError(str(error)) from None
+        raise AxisError(str(error).removesuffix(", none")) from None
     return wanted
 
 

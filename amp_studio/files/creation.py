@@ -8,7 +8,7 @@ from amp_studio.schema import Value, load_schema
 from amp_studio.schema.nearest import unknown_name
 
 from .axis_fitting import name_axes
-from .parameter_file import Header, ParameterFile, fill_defaults
+from .parameter_file import Header, ParameterFile, fill_defaults, without_secrets
 
 
 def new_file(
@@ -47,4 +47,11 @@ def new_file(
         name_axes(file, axes)
     declared = schema.family.declared_axes
     fill_defaults(file, existing_only=declared is not None and declared.letters is not None)
+    return file
+
+
+def new_like(source: ParameterFile, name: str) -> ParameterFile:
+    """Return a new file with the values of another one; notes, software revision and passwords belong to that machine and stay there."""
+    file = without_secrets(source).copy()
+    file.header.name, file.header.notes, file.header.revision = name, "", ""
     return file

@@ -20,6 +20,7 @@ from amp_studio.files import (
     real_path,
     recover_backup,
     same_file,
+    write_atomic,
 )
 from amp_studio.files.by_schema import by_schema
 from amp_studio.files.local_time import local_time
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
     pass
 
 FILTER = "Parameter files (*.amp);;All files (*)"
-_RECENT = 8
+_RECENT, _IN_MENU = 24, 9
 
 CheckedDocument = tuple[Document, Validator]
 """A document, its validator (already run), and the errors in the rules file beside it."""
@@ -78,23 +79,40 @@ class FileActions:
         menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
         menu.addSeparator()
         menu.addAction(act("E&xit", window.close, keys.Quit, ""))
+        self.last_session: list[Path] = window.settings.session()
+        """The files that were open when the program was left; none once they have been opened again."""
         self.toolbar: list[QAction] = [new, opened, save]
-        self.welcome: list[QAction] = [new, opened]
 
     # -- recent files ----------------------------------------------------------
 
     def recent(self) -> list[Path]:
-        """Return the recent files that still exist."""
-        return [path for path in self.window.settings.recent()[:_RECENT] if is_there(path)]
+        """Return the recent files that still exist, the pinned ones first."""
+        settings = self.window.settings
+        pinned = settings.pinned()
+        paths = dict.fromkeys((*pinned, *settings.recent()[:_RECENT]))
+        return [path for path in paths if is_there(path)]
+
+    def pin(self, path: Path) -> None:
+        """Keep a file at the top of the recent ones, or no longer."""
+        pinned = self.window.settings.pinned()
+        self.window.settings.keep_pinned(
+            [p for p in pinned if p != path] if path in pinned else [*pinned, path]
+        )
+
+    def forget(self, path: Path) -> None:
+        """Take a file off the list of recent files; the file itself stays."""
+        settings = self.window.settings
+        settings.keep_pinned([p for p in settings.pinned() if p != path])
+        settings.keep_recent([p for p in settings.recent() if p != path])
 
     def _remember(self, path: Path) -> None:
         path = path.absolute()
-        paths = [path, *(p for p in self.recent() if p != path)][:_RECENT]
+        paths = [path, *(p for p in self.window.settings.recent() if p != path and is_there(p))][:_RECENT]
         self.window.settings.keep_recent(paths)
         self._recent_menu.setEnabled(True)
 
     def _fill_recent(self) -> None:
-        paths = self.recent()
+        paths = self.recent()[:_IN_MENU]
         if paths == [action.data() for action in self._recent_menu.actions()]:
             return
         self._recent_menu.clear()
@@ -108,24 +126,32 @@ class FileActions:
 
     # -- opening ---------------------------------------------------------------
 
-    def new(self) -> None:
-        """Make a new file from the family's defaults."""
-        from .file_dialogs import NewFileDialog
+    def new(self, family: str = "") -> None:
+        """Make a new file from the family's defaults, or like another one."""
+        from .new_file_dialog import NewFileDialog
 
         project, workspace = self.window.project, self.window.workspace
         now = project.info.family if project else workspace.file.schema.family.family if workspace else ""
-        dialog = NewFileDialog(self.window, now)
+        dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent())
         if not dialog.exec():
             return
         file = dialog.make()
-        if project and project.info.family == file.schema.family.family:
-            path: Path | None = project.path(file.header.name)
-            if path and path.exists():
-                raise FileExistsError(f"The project already has a file '{path.stem}'. Choose another name.")
-        else:
-            path = self.ask_path("New parameter file", Path(file.header.name or "machine"))
+        path = dialog.path() or self.ask_path("New parameter file", Path(file.header.name or "machine"))
         if path:
             self.write_new(path, lambda: Document.create(file, path))
+
+    def open_example(self, example: Path) -> None:
+        """Open a copy of an example; the example itself is never edited."""
+        path = self.ask_path("Copy of an example", example)
+        if path is None:
+            return
+        content = example.read_bytes()
+
+        def write() -> Document:
+            write_atomic(path, content, None)
+            return Document.open(path)
+
+        self.write_new(path, write)
 
     def ask_path(self, title: str, near: Path) -> Path | None:
         """Ask where to save; adds the file extension and asks before a file is replaced."""
@@ -226,7 +252,7 @@ class FileActions:
 
     def restore_session(self) -> None:
         """Open the files that were open when the program was left; what cannot be opened is named."""
-        missing = []
+        missing, self.last_session = [], []
         for path in self.window.settings.session():
             try:
                 try:

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import Header, ParameterFile, ProjectInfo, new_file
+from amp_studio.files import Header, ProjectInfo
 from amp_studio.report import UNIT_CHOICES, Contents, Sort, UnitChoice
 from amp_studio.schema import family_ids, load_schema
 
@@ -58,52 +58,6 @@ def _family_box() -> QComboBox:
     for family in family_ids():
         box.addItem(load_schema(family).family.name, family)
     return box
-
-
-class NewFileDialog(_Form):
-    """Asks for family, machine type, name and axes of a new file; the family in use is selected."""
-
-    def __init__(self, parent: QWidget | None = None, family: str = "") -> None:
-        super().__init__("New parameter file", parent)
-        self.family = _family_box()
-        self.family.setCurrentIndex(max(self.family.findData(family), 0))
-        self.machine = QComboBox()
-        self.name = QLineEdit("MACHINE_1")
-        self.axes = QLineEdit()
-        self.axes.setPlaceholderText("X, Y, Z, B, S — leave empty for the default axes")
-        for label, field in (
-            ("&Control", self.family),
-            ("&Machine type", self.machine),
-            ("&Name", self.name),
-            ("&Axes", self.axes),
-        ):
-            self.form.addRow(label, field)
-        self.family.currentIndexChanged.connect(lambda _: self._machines())
-        self._machines()
-        self.add_buttons()
-
-    def _machines(self) -> None:
-        self.machine.clear()
-        family = load_schema(str(self.family.currentData())).family
-        for machine in family.machines:
-            self.machine.addItem(machine.name, machine.key)
-        self.machine.setCurrentIndex(self.machine.findData(family.default_machine))
-
-    def make(self) -> ParameterFile:
-        """Return the new file; raises ValueError for an unknown axis name."""
-        axes = [a.strip() for a in self.axes.text().split(",") if a.strip()]
-        return new_file(
-            str(self.family.currentData()), str(self.machine.currentData()), axes, self.name.text().strip()
-        )
-
-    def accept(self) -> None:
-        """Close the dialog when the file can be made."""
-        try:
-            self.make()
-        except ValueError as error:
-            show_message(self, "New parameter file", str(error))
-            return
-        super().accept()
 
 
 class FactsDialog(_Form):

@@ -58,7 +58,7 @@ class MainWindow(StudioWindow):
         self._help_menu()
         self._toolbar()
         self.view.panels.addAction(self.action("&Reset Layout", self.docks.reset))
-        self.welcome = WelcomePage(self.files.welcome, self.open_first)
+        self.welcome = WelcomePage(self, self.files, self.projects.open)
         self.centre = QStackedWidget()
         self.centre.addWidget(self.welcome)
         self.centre.addWidget(self.tabs)

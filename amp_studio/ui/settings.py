@@ -41,6 +41,15 @@ class UserSettings:
         """Store the recent files, the newest first."""
         self._stored.setValue("recent", [str(path) for path in paths])
 
+    def pinned(self) -> list[Path]:
+        """Return the files that are kept at the top of the recent ones."""
+        kept = self._value("pinned")
+        return [Path(p) for p in (kept if isinstance(kept, list) else [kept]) if isinstance(p, str) and p]
+
+    def keep_pinned(self, paths: Iterable[Path]) -> None:
+        """Store the pinned files."""
+        self._stored.setValue("pinned", [str(path) for path in paths])
+
     def session(self) -> list[Path]:
         """Return the files that were open when the program was left, the one in front last."""
         kept = self._value("session")

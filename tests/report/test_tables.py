@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from amp_studio.demo import examples_folder
 from amp_studio.files import open_file
+from amp_studio.files.examples import examples_folder
 from amp_studio.report import build_report
 
 

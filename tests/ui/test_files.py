@@ -13,6 +13,7 @@ from amp_studio.schema import Value
 from amp_studio.ui import file_dialogs
 from amp_studio.ui.compare_dialog import CompareDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.new_file_dialog import NewFileDialog
 
 from .conftest import WAIT_MS, Person, action, on_disk
 
@@ -239,12 +240,12 @@ def test_save_as_over_a_file_another_program_edits_is_refused(
 def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, person: Person, accept) -> None:
     window = open_window()
 
-    def fill(dialog: file_dialogs.NewFileDialog) -> None:
+    def fill(dialog: NewFileDialog) -> None:
         dialog.family.setCurrentIndex(dialog.family.findData("9pc"))
         dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
         dialog.axes.setText("X, Z, S")
 
-    accept(file_dialogs.NewFileDialog, fill)
+    accept(NewFileDialog, fill)
     person.chooses(tmp_path / "new")
 
     action(window, "New").trigger()
@@ -253,12 +254,15 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
     assert on_disk(tmp_path / "new.amp").machine == "mill"
 
 
-def test_an_axis_name_that_is_not_offered_is_told_and_asks_again(open_window, person: Person) -> None:
-    dialog = file_dialogs.NewFileDialog(open_window(), "9pc")
+def test_an_axis_name_that_is_not_offered_is_named_while_it_is_typed(open_window) -> None:
+    dialog = NewFileDialog(open_window(), "9pc")
     dialog.axes.setText("X, Q")
+    assert "'Q'" in dialog.fault.text()
+    assert not dialog.create_button.isEnabled()
     dialog.accept()
-    assert "'Q'" in person.reads()
     assert not dialog.result()
+    dialog.axes.setText("X, Z")
+    assert dialog.create_button.isEnabled()
 
 
 def test_recover_backup_asks_and_says_what_is_lost(

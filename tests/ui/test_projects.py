@@ -10,6 +10,7 @@ from amp_studio.files import Document, Project, ProjectInfo
 from amp_studio.schema import Value
 from amp_studio.ui import file_dialogs
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.new_file_dialog import NewFileDialog
 from amp_studio.ui.project_check import ProjectCheckDialog
 
 from .conftest import Person, action, on_disk
@@ -137,16 +138,16 @@ def test_a_file_in_use_elsewhere_is_not_deleted(window: MainWindow, project: Pro
     assert project.path("second").exists()
 
 
-def test_a_new_file_goes_into_the_project(
-    window: MainWindow, project: Project, accept, person: Person
-) -> None:
-    accept(file_dialogs.NewFileDialog, lambda d: d.name.setText("fresh"))
+def test_a_new_file_goes_into_the_project(window: MainWindow, project: Project, accept) -> None:
+    accept(NewFileDialog, lambda d: d.name.setText("fresh"))
     action(window, "New").trigger()
     assert window.workspace.path == project.path("fresh")
 
-    accept(file_dialogs.NewFileDialog, lambda d: d.name.setText("mill"))
+    faults: list[str] = []
+    accept(NewFileDialog, lambda d: (d.name.setText("mill"), faults.append(d.fault.text())))
     action(window, "New").trigger()
-    assert person.reads() == "The project already has a file 'mill'. Choose another name."
+    assert faults == ["The project already has a file 'mill'. Choose another name."]
+    assert window.workspace.path == project.path("fresh")
 
 
 def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, person: Person) -> None:

@@ -16,9 +16,9 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
-from amp_studio.demo import examples_folder
 from amp_studio.files import Change as Edit
 from amp_studio.files import ParameterFile, new_file, open_file
+from amp_studio.files.examples import examples_folder
 from amp_studio.schema import Address, Value, canonical_value, family_ids
 from amp_studio.validate import Finding, Setting, Validator
 

@@ -181,6 +181,8 @@ class Family(Model):
     name: str
     short: str = ""
     """A name that a tab has room for; empty for the whole name."""
+    what: str = ""
+    """In a line what machines it is for."""
     document: str
     title: str
     applications: tuple[str, ...] = ()

@@ -1,0 +1,98 @@
+"""The dialog for a new file: what a family cannot choose is off before anything is accepted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import fitted_axes, without_secrets
+from amp_studio.files.examples import examples
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.new_file_dialog import NewFileDialog
+
+from .conftest import Person, on_disk
+
+
+@pytest.fixture
+def dialog(open_window: Callable[..., MainWindow]) -> Callable[[str], NewFileDialog]:
+    """Return what makes the dialog, with a family chosen."""
+    return lambda family: NewFileDialog(open_window(), family)
+
+
+def test_a_family_with_fixed_axes_says_so_before_ok(dialog) -> None:
+    new = dialog("57c422b")
+    assert not new.axes.isEnabled()
+    assert new.note.text() == "Reliance 57C422B 2-Axis Servo Module always has the axes X and Y (page 4-1)."
+    assert new.create_button.isEnabled()
+    assert fitted_axes(new.make()) == ("X", "Y")
+
+
+@pytest.mark.parametrize(
+    ("family", "axes", "fitted"),
+    [("num", "X, Y, B", 3), ("acromill", "X, Y", 2), ("grblhal", "X,Y,Z,A", 4), ("syntec", "X", 1), ("9pc", "X, Z, S", 3)],
+)  # fmt: skip
+def test_every_other_family_takes_axes_in_the_dialog(dialog, family: str, axes: str, fitted: int) -> None:
+    new = dialog(family)
+    new.axes.setText(axes)
+    assert new.create_button.isEnabled(), new.fault.text()
+    assert len(fitted_axes(new.make())) == fitted
+    assert new.place.text().endswith(f"; axes {' '.join(a.strip() for a in axes.split(','))}")
+
+
+@pytest.mark.parametrize(
+    ("family", "axes"), [("num", "X, S"), ("acromill", "X"), ("grblhal", "X, Z"), ("num", "X, X")]
+)
+def test_axes_that_cannot_be_are_refused_while_they_are_typed(dialog, family: str, axes: str) -> None:
+    new = dialog(family)
+    new.axes.setText(axes)
+    assert new.fault.text()
+    assert not new.create_button.isEnabled()
+
+
+def test_where_the_axes_are_written_is_said_with_the_page(dialog) -> None:
+    new = dialog("num")
+    assert "Axis Assignment to a Group, Number of CNC Axis Groups, Measured Axes" in new.note.text()
+    assert "(page 4-24)" in new.note.text()
+    assert "X.2 is X of group 2" in new.note.text()
+
+
+def test_another_family_changes_what_is_offered(dialog) -> None:
+    new = dialog("57c422b")
+    new.family.setCurrentIndex(new.family.findData("acromill"))
+    assert new.axes.isEnabled()
+    assert [new.units.itemData(n) for n in range(new.units.count())] == ["metric", "inch"]
+    new.units.setCurrentIndex(1)
+    assert new.make().header.units == "inch"
+    new.family.setCurrentIndex(new.family.findData("num"))
+    assert not new.units.isEnabled()
+
+
+def test_a_file_like_an_example_has_its_values_but_not_its_notes(dialog) -> None:
+    new = dialog("9pc")
+    example = next(e for e in examples() if e.family == "9pc")
+    new.like.setCurrentIndex(new.like.findData(example.path))
+    assert not new.axes.isEnabled()
+    assert example.path.name in new.note.text()
+    new.name.setText("MINE")
+    made = new.make()
+    assert (made.header.name, made.header.notes) == ("MINE", "")
+    assert made.values == without_secrets(on_disk(example.path)).values, "passwords stay with their machine"
+
+
+def test_a_file_like_one_of_mine(dialog, path: Path, person: Person) -> None:
+    new = dialog("9pc")
+    person.chooses(path)
+    new._choose_like(new.like.count() - 1)
+    assert new.source() == path
+    assert new.make().get(("axis.name", "1")) == Value("x")
+
+
+def test_a_file_of_another_family_cannot_be_the_pattern(dialog, path: Path, person: Person) -> None:
+    new = dialog("num")
+    person.chooses(path)
+    new._choose_like(new.like.count() - 1)
+    assert "is a file for Allen-Bradley 9/PC AMP" in new.fault.text()
+    assert not new.create_button.isEnabled()
