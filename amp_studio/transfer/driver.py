@@ -24,6 +24,7 @@ class Abilities:
     ``can_send``        it takes a download
     ``remembers``       it knows by itself what the control has contained before, and takes that back whatever it is
     ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
+    ``is_live``         single values go into the control while it is at work, one short exchange each
     ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
     """
 
@@ -31,6 +32,7 @@ class Abilities:
     remembers: bool = False
     all_or_nothing: bool = True
     maps_numbers: bool = False
+    is_live: bool = False
 
 
 @dataclass(frozen=True)

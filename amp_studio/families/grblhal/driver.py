@@ -49,7 +49,7 @@ class GrblDriver(GrblContentKind, NeverRestarts):
     It never makes a control restart: some builds do not take a setting afterwards.
     """
 
-    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True)
+    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True, is_live=True)
 
     def __init__(
         self,

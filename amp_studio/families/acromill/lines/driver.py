@@ -67,7 +67,7 @@ Figures = tuple[str, ...]
 class TerminalDriver(AcrContent, NeverRestarts):
     """Speaks to a card; ``system`` is the unit system of its figures, which it does not know itself."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False)
+    abilities = Abilities(can_send=True, all_or_nothing=False, is_live=True)
 
     def __init__(
         self,

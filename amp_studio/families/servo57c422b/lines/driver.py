@@ -45,7 +45,7 @@ AXES = {0: "X", AXIS_Y: "Y"}
 class RegisterDriver(RegisterContent, NeverRestarts):
     """Speaks to the live registers of one module."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False)
+    abilities = Abilities(can_send=True, all_or_nothing=False, is_live=True)
 
     def __init__(
         self,
