@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import cold
 import exchange
 import find
+import grid
 import machine
 import rules
 import screen
@@ -55,6 +56,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from sim.measures(folder, times)
     yield from sim_laws.measures(times)
     yield from screen.measures(folder, full, times)
+    yield from grid.measures(folder, times)
     yield from exchange.measures(folder, full, example, max(1, times // 3))
 
 

@@ -27,6 +27,13 @@ class RowHeads(QHeaderView):
         self.setHighlightSections(False)
         self.setAccessibleName(self.tr("Parameters"))
 
+    def sizeHint(self) -> QSize:
+        """Return the width that the view has set: Qt would measure a thousand heads after each change."""
+        return QSize(self.width(), 0)
+
+    def sectionSizeFromContents(self, section: int) -> QSize:
+        return QSize(self.width(), ROW)
+
     def paintSection(self, painter: QPainter, rect: QRect, section: int) -> None:
         table, view = self._table, self.parent()
         assert isinstance(view, QTableView)
@@ -76,6 +83,9 @@ class AxisHeads(QHeaderView):
         self.setHighlightSections(True)
         self.setMinimumSectionSize(56)
         self.setAccessibleName(self.tr("Axes"))
+
+    def sectionSizeFromContents(self, section: int) -> QSize:
+        return QSize(self.minimumSectionSize(), COLUMN_HEAD)
 
     def sizeHint(self) -> QSize:
         return QSize(super().sizeHint().width(), COLUMN_HEAD)

@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractItemView, QTableView, QWidget
 
 from amp_studio.files import RangeError
-from amp_studio.schema import Address, InvalidValueError, shown
+from amp_studio.schema import Address, InvalidValueError, Parameter, shown
 
 from .cell_editor import CellEditor, Refusal
 from .parameter_table import CONTROL, AddressRole, ParameterTable
@@ -59,6 +59,9 @@ class ValueTable(QTableView):
         self._filling: tuple[QModelIndex, QModelIndex] | None = None
         """First and last cell of the range from which the fill handle is dragged."""
         self.last: Address | None = None
+        self._shown: list[Parameter] = []
+        self._chosen: list[Address] = []
+        self._top = 0
         self.setVerticalHeader(RowHeads(model, self))
         self.setHorizontalHeader(AxisHeads(model, self))
         self._corner = Corner(self)
@@ -85,6 +88,7 @@ class ValueTable(QTableView):
         self.selectionModel().currentChanged.connect(self._emit_selected)
         self.selectionModel().selectionChanged.connect(self._emit_range)
         scheme().changed.connect(self.viewport().update)
+        model.modelAboutToBeReset.connect(self._before_reset)
         model.modelReset.connect(self._after_reset)
 
     def address(self) -> Address | None:
@@ -370,8 +374,15 @@ class ValueTable(QTableView):
 
     # -- widths ------------------------------------------------------------------
 
+    def _before_reset(self) -> None:
+        self._shown = self._table.asked
+        self._top = self.verticalScrollBar().value()
+        self._chosen = self.selected_addresses()
+
     def _after_reset(self) -> None:
-        self._is_dragged = False
+        """Show the new list; one that is the old one with other rows stays where it was, with what was selected."""
+        is_same = self._shown is self._table.asked
+        self._is_dragged = self._is_dragged and is_same
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
         if not index.isValid() or not index.flags() & Qt.ItemFlag.ItemIsEnabled:
@@ -382,6 +393,17 @@ class ValueTable(QTableView):
         self.setCurrentIndex(index)
         if not index.isValid():
             self.selected.emit(None)
+        elif is_same:
+            self._select_again()
+            self.verticalScrollBar().setValue(self._top)
+            self.scrollTo(index)
+
+    def _select_again(self) -> None:
+        """Select the range again that was selected before the list was laid out anew."""
+        if len(self._chosen) > 1:
+            ends = [self._table.index_of(a) for a in (self._chosen[0], self._chosen[-1])]
+            if all(end.isValid() for end in ends):
+                self._select(*ends)
 
     def _fit_columns(self) -> None:
         """Give the axes the room there is; no value is measured, so that a list of all parameters is there at once."""
