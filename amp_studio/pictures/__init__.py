@@ -5,6 +5,7 @@ set, inactive or out of range becomes a note, and nothing is guessed.
 """
 
 from .draw import FilePicture, draw, pictures_of
+from .editing import dragged, stepped
 from .record import scene_json
 from .scene import Dot, Drag, FilledArea, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
 from .svg import scene_svg
@@ -20,8 +21,10 @@ __all__ = [
     "Scene",
     "ShapeSort",
     "Text",
+    "dragged",
     "draw",
     "pictures_of",
     "scene_json",
     "scene_svg",
+    "stepped",
 ]

@@ -93,7 +93,7 @@ class ValueReader:
     def _figure(self, address: Address, unit: str) -> DrawnValue:
         definition, value = self.file.schema.parameters[address[0]], self.file.get(address)
         unit, label = unit or self.unit(address), self.label(address)
-        shown = show_value(definition, self._in_file(address, value))
+        shown = self._shown(address, value)
         if value is None:
             return DrawnValue(address, label, None, unit, shown, "not set")
         state = self.evaluation.state(address)
@@ -132,6 +132,13 @@ class ValueReader:
         if dimension(unit) != dimension(value.unit) or unit == value.unit:
             return value
         return Value(float(write_figure(convert(float(value.value), value.unit, unit))), unit)
+
+    def _shown(self, address: Address, value: Value | None) -> str:
+        """Return a value as a person reads it, with what it is in mm or degrees where its unit has a size."""
+        definition = self.file.schema.parameters[address[0]]
+        text = show_value(definition, self._in_file(address, value))
+        real = real_value(self.evaluation, address, value)
+        return f"{text} ({show_value(definition, real)})" if real is not None else text
 
     def label(self, address: Address) -> str:
         """Return ``1007 Limit 3 Max Value, X``."""

@@ -53,6 +53,8 @@ class FilePage(QWidget):
         self.findings = FindingsPanel(workspace)
         self.bar = MessageBar()
         self._title = ""
+        self.pictures: QWidget | None = None
+        """In the place of the table, once they were asked for."""
         self.list_title = QLabel()
         self.list_title.setContentsMargins(6, 4, 6, 4)
         layout = QVBoxLayout(self)
@@ -125,6 +127,30 @@ class FilePage(QWidget):
             self.table.show_again()
             self.changed.emit(self)
 
+    # -- pictures in its place -----------------------------------------------------
+
+    @property
+    def shows_pictures(self) -> bool:
+        """Whether the pictures are shown instead of the table."""
+        return self.pictures is not None and not self.pictures.isHidden()
+
+    def take_pictures(self, pictures: QWidget) -> None:
+        """Take the page of pictures in, hidden."""
+        self.pictures = pictures
+        pictures.hide()
+        self.layout().addWidget(pictures)
+
+    def show_pictures(self, wanted: bool) -> None:
+        """Show the pictures, or the table."""
+        if self.pictures is None or wanted == self.shows_pictures:
+            return
+        for widget in (self.list_title, self.table_view):
+            widget.setVisible(not wanted)
+        self.pictures.setVisible(wanted)
+        self.setFocusProxy(self.pictures if wanted else self.table_view)
+        self.focusProxy().setFocus()
+        self.changed.emit(self)
+
     # -- selection -------------------------------------------------------------
 
     def address_text(self) -> str:
@@ -153,6 +179,7 @@ class FilePage(QWidget):
     def go_to(self, address: Address) -> None:
         """Select an address and come to the front; shows its group when the table does not contain it."""
         self.front_wanted.emit(self)
+        self.show_pictures(False)
         if not self.table.index_of(address).isValid():
             self.groups.choose_group_of(address[0])
         if not self.table.values.exists(address):

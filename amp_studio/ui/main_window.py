@@ -19,6 +19,7 @@ from .edit_actions import EditActions
 from .file_actions import FileActions
 from .file_page import FilePage
 from .garbage import collect_by_timer
+from .picture_actions import PictureActions
 from .program_icon import program_icon
 from .project_actions import ProjectActions
 from .questions import show_message
@@ -52,6 +53,8 @@ class MainWindow(StudioWindow):
         self.edits = EditActions(self)
         self.axes = AxisActions(self)
         self.view = ViewActions(self)
+        self.pictures = PictureActions(self)
+        self.view.menu.addActions([self.pictures.action, self.pictures.save])
         self.themes = ThemeActions(self, self.view.menu)
         self.control = ControlActions(self, self.files)
         self.projects = ProjectActions(self, self.files.open_path)
@@ -78,7 +81,7 @@ class MainWindow(StudioWindow):
 
     def _toolbar(self) -> None:
         undo = (self.edits.undo, self.edits.redo)
-        views = (*self.view.toolbar, self.files.compare_action)
+        views = (self.pictures.action, *self.view.toolbar, self.files.compare_action)
         self.tools = MainToolBar(
             self, self.files.toolbar, undo, self.view.switch, views, self.control.toolbar
         )
@@ -173,6 +176,7 @@ class MainWindow(StudioWindow):
         self.edits.show_state(workspace)
         self.control.enable()
         self.view.check(workspace)
+        self.pictures.check(self.page)
         self.tools.show_units()
         self.status.show_file(workspace, self.settings.control())
         if workspace is None:

@@ -1,0 +1,76 @@
+"""The pictures of the file in front, in the place of its table; saving one as a drawing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QFileDialog
+
+from amp_studio.files import check_output, write_atomic
+from amp_studio.pictures import scene_svg
+
+from .file_page import FilePage
+from .pictures_page import PicturesPage
+from .studio_window import StudioWindow
+
+KEY = "F12"
+
+
+class PictureActions(QObject):
+    """Shows and hides the page of pictures of each file."""
+
+    def __init__(self, window: StudioWindow) -> None:
+        super().__init__(window)
+        self.window = window
+        name = self.tr("&Pictures")
+        self.action = window.action(name, self._toggle, KEY, "file", "frame-corners", self.tr("Pictures"))
+        self.action.setCheckable(True)
+        self.save = window.action(self.tr("Sa&ve Picture As SVG…"), self._save)
+
+    def pages(self, page: FilePage) -> PicturesPage:
+        """Return the pictures of a file, made when they are first asked for."""
+        if page.pictures is None:
+            pictures = PicturesPage(page.workspace)
+            pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
+            pictures.left.connect(lambda: self.show(page, False))
+            pictures.told.connect(page.noted)
+            page.take_pictures(pictures)
+            return pictures
+        assert isinstance(page.pictures, PicturesPage)
+        return page.pictures
+
+    def show(self, page: FilePage, wanted: bool) -> None:
+        """Show the pictures of a file, or its table."""
+        if wanted:
+            self.pages(page)
+        page.show_pictures(wanted)
+        self.check(self.window.page)
+
+    def check(self, page: FilePage | None) -> None:
+        """Press the button where the file in front shows its pictures."""
+        self.action.setChecked(page is not None and page.shows_pictures)
+
+    def _toggle(self) -> None:
+        page = self.window.page
+        assert page is not None
+        self.show(page, not page.shows_pictures)
+
+    def _to_parameter(self, page: FilePage, address: object) -> None:
+        self.show(page, False)
+        page.go_to(address)  # type: ignore[arg-type]
+        page.table_view.setFocus()
+
+    def _save(self) -> None:
+        page = self.window.page
+        assert page is not None
+        self.show(page, True)
+        card = self.pages(page).chosen_card
+        own = page.workspace.path
+        name = own.with_name(f"{own.stem}-{card.picture.name}.svg")
+        text, _ = QFileDialog.getSaveFileName(self.window, self.tr("Save Picture"), str(name), "SVG (*.svg)")
+        if text:
+            path = Path(text if text.lower().endswith(".svg") else f"{text}.svg")
+            check_output(path, own)
+            write_atomic(path, scene_svg(card.canvas.scene).encode(), keep_backup=False)
+            self.window.show_status(self.tr("{path} written").format(path=path))

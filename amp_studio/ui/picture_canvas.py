@@ -1,0 +1,345 @@
+"""One picture on the screen: painted from its scene, with handles for the mouse, the keys and screen readers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from PySide6.QtCore import QPointF, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from amp_studio.files import RangeError
+from amp_studio.pictures import Handle, Scene, dragged, stepped
+from amp_studio.pictures.frame import Placement
+from amp_studio.schema import Address, Value
+
+from .picture_paint import ScenePainter, empty_text, paint_handles, paint_tag
+from .theme import colour
+from .value_drag import ValueDrag
+from .workspace import Workspace
+
+REACH = 12.0
+"""How far from a handle the mouse takes hold of it, in logical pixels."""
+ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
+
+DrawScene = Callable[[Scene | None], Scene]
+"""Draws the scene anew, in the scales of another one while a handle is dragged."""
+
+
+class HandleSpot(QWidget):
+    """A handle for the keyboard and for screen readers; the mouse goes to the picture, which takes the nearest one."""
+
+    stepped = Signal(int, int, int)
+    """Steps to the right, steps up, and how many at once."""
+    typed = Signal(str)
+    removed = Signal()
+    left = Signal()
+    focused = Signal()
+
+    def __init__(self, canvas: QWidget) -> None:
+        super().__init__(canvas)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.resize(int(2 * REACH), int(2 * REACH))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        key, text = Qt.Key(event.key()), event.text()
+        shift = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        if key in ARROWS and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.stepped.emit(*ARROWS[key], 10 if shift else 1)
+        elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
+            self.removed.emit()
+        elif key == Qt.Key.Key_Escape:
+            self.left.emit()
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2):
+            self.typed.emit("")
+        elif text and (text in "+-.=" or text.isdigit()):
+            self.typed.emit(text)
+        else:
+            super().keyPressEvent(event)
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        super().focusInEvent(event)
+        self.focused.emit()
+
+
+class PictureCanvas(QWidget):
+    """Shows one scene and edits the file through its handles."""
+
+    parameter_wanted = Signal(object)
+    """The address of a name that was clicked."""
+    handle_chosen = Signal(object)
+    """The handle that has the focus, or None."""
+    typed = Signal(str)
+    """The value of the chosen handle is to be typed, beginning so."""
+    told = Signal(str)
+    """A short text for the status bar."""
+    left = Signal()
+    """Esc while nothing is dragged."""
+
+    def __init__(self, workspace: Workspace, drawn: DrawScene) -> None:
+        super().__init__()
+        self._workspace, self._drawn = workspace, drawn
+        self.scene = drawn(None)
+        self._place = Placement.within(self.scene, 100.0, 100.0)
+        self._spots: list[HandleSpot] = []
+        self._active: int | None = None
+        self._drag: ValueDrag | None = None
+        self._start: Scene | None = None
+        self._offset = QPointF(0, 0)
+        self._refused = ""
+        self._names: list[tuple[object, Address]] = []
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self._arrange()
+
+    def sizeHint(self) -> QSize:
+        return QSize(480, 320)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(220, 150)
+
+    # -- what is shown -----------------------------------------------------------
+
+    def show_drawn(self, drawn: DrawScene) -> None:
+        """Show another part; the focus goes."""
+        self.end_drag()
+        self._drawn = drawn
+        self._active = None
+        self.draw_again()
+        self.handle_chosen.emit(None)
+
+    def draw_again(self) -> None:
+        """Follow the file."""
+        self.scene = self._drawn(self._start)
+        self._arrange()
+        self.update()
+
+    def _arrange(self) -> None:
+        """Put a spot on each handle, with its name and value for screen readers."""
+        self._place = Placement.within(self.scene, float(self.width()), float(self.height()))
+        handles = self.scene.handles
+        while len(self._spots) > len(handles):
+            self._spots.pop().deleteLater()
+        while len(self._spots) < len(handles):
+            self._spots.append(self._new_spot(len(self._spots)))
+        if self._active is not None and self._active >= len(handles):
+            self._active = None
+        for spot, handle in zip(self._spots, handles, strict=True):
+            x, y = self._place.at(handle.at)
+            spot.move(int(x - REACH), int(y - REACH))
+            name = f"{handle.label}: {handle.value}"
+            if spot.accessibleName() != name:
+                spot.setAccessibleName(name)
+        title = f"{self.scene.title}, {self.scene.subtitle}"
+        if self.accessibleName() != title:
+            self.setAccessibleName(title)
+
+    def _new_spot(self, index: int) -> HandleSpot:
+        spot = HandleSpot(self)
+        spot.stepped.connect(self._step)
+        spot.typed.connect(self.typed)
+        spot.removed.connect(self._take_out)
+        spot.left.connect(self._leave)
+        spot.focused.connect(lambda: self.choose(index))
+        spot.setAccessibleDescription(
+            self.tr("Handle of the picture: arrow keys change the value, Shift by ten steps")
+        )
+        spot.show()
+        return spot
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._arrange()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), colour("base"))
+        if empty := empty_text(self.scene):
+            painter.setPen(colour("dim"))
+            inner = self.rect().adjusted(16, 16, -16, -16)
+            painter.drawText(QRect(inner), Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, empty)
+            return
+        shapes = ScenePainter(painter, self._place, float(self.width()))
+        shapes.paint()
+        self._names = list(shapes.named)
+        chosen = self.handle if self.hasFocus() or self._drag or self._has_spot_focus() else None
+        corners_last = sorted(self.scene.handles, key=lambda handle: handle is chosen)
+        paint_handles(painter, self._place, ((handle, handle is chosen) for handle in corners_last))
+        if chosen is not None:
+            paint_tag(painter, self._place, chosen.at, self._tag(chosen), bool(self._refused))
+
+    def _tag(self, handle: Handle) -> tuple[str, str, str]:
+        more = self._refused
+        if self._drag is not None and not more and self._start is not None and self._active is not None:
+            old = self._start.handles[self._active].value
+            more = "" if old == handle.value else self.tr("was {value}").format(value=old)
+        return handle.label, handle.value, more
+
+    def _has_spot_focus(self) -> bool:
+        return any(spot.hasFocus() for spot in self._spots)
+
+    @property
+    def is_dragging(self) -> bool:
+        """Whether a handle follows the pointer."""
+        return self._drag is not None
+
+    # -- the handle with the focus -------------------------------------------------
+
+    @property
+    def handle(self) -> Handle | None:
+        """The chosen handle."""
+        return self.scene.handles[self._active] if self._active is not None else None
+
+    def choose(self, index: int | None) -> None:
+        """Choose a handle by its place in the scene."""
+        if index != self._active:
+            self._refused = ""
+        self._active = index
+        self.update()
+        self.handle_chosen.emit(self.handle)
+
+    def focus_handle(self) -> None:
+        """Give the chosen handle the keyboard, or the picture where there is none."""
+        (self._spots[self._active] if self._active is not None else self).setFocus()
+
+    def _step(self, right: int, up: int, times: int) -> None:
+        if self.handle is not None and self._drag is None:
+            self.set_values(stepped(self._workspace.file, self.handle, right, up, times))
+
+    def set_values(self, wanted: Mapping[Address, Value]) -> bool:
+        """Set values of the chosen handle as one undo step; a value out of range is refused, with the reason in the tag."""
+        if not wanted or self.handle is None or not self._workspace.may_edit:
+            return False
+        self._refused = ""
+        try:
+            done = self._workspace.edit(self.tr("Move {name}").format(name=self.handle.label), wanted)
+        except RangeError as error:
+            self._refused = str(error)
+            done = False
+        self.handle_chosen.emit(self.handle)
+        self.update()
+        return done
+
+    def _take_out(self) -> None:
+        """Take the point of the chosen handle out of its table."""
+        if self.handle is not None and self.handle.without is not None:
+            self.set_values(dict([self.handle.without]))
+        elif self.scene.with_point is not None:
+            self.told.emit(self.tr("This point cannot be taken out: the table would have a gap"))
+
+    def _leave(self) -> None:
+        if self._drag is not None:
+            self.end_drag(cancel=True)
+        else:
+            self.left.emit()
+
+    # -- the mouse ----------------------------------------------------------------
+
+    def nearest(self, at: QPointF) -> int | None:
+        """Return the handle within reach of a place: the nearest one, corners before edges at the same distance."""
+        found = []
+        for n, handle in enumerate(self.scene.handles):
+            x, y = self._place.at(handle.at)
+            far = ((x - at.x()) ** 2 + (y - at.y()) ** 2) ** 0.5
+            if far <= REACH:
+                found.append((round(far), -len(handle.drags), n))
+        return min(found)[2] if found else None
+
+    def _name_at(self, at: QPointF) -> Address | None:
+        return next((address for box, address in self._names if box.contains(at)), None)  # type: ignore[attr-defined]
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton or self._drag is not None:
+            return
+        index = self.nearest(event.position())
+        if index is None:
+            address = self._name_at(event.position())
+            self.choose(None)
+            self.setFocus()
+            if address is not None:
+                self.parameter_wanted.emit(address)
+            return
+        self.choose(index)
+        self._spots[index].setFocus(Qt.FocusReason.MouseFocusReason)
+        handle = self.scene.handles[index]
+        if not self._workspace.may_edit:
+            self._refused = self.tr("The file is read-only")
+            self.update()
+            return
+        self._start = self.scene
+        self._offset = QPointF(*self._place.at(handle.at)) - event.position()
+        self._drag = ValueDrag(self._workspace, tuple(drag.address for drag in handle.drags))
+        self.grabKeyboard()
+        self.told.emit(self.tr("Dragging {name}: one undo step").format(name=handle.label))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._drag is None:
+            over_handle = self.nearest(event.position()) is not None
+            link = not over_handle and self._name_at(event.position()) is not None
+            self.setCursor(
+                Qt.CursorShape.PointingHandCursor if over_handle or link else Qt.CursorShape.ArrowCursor
+            )
+            return
+        self.drag_to(event.position() + self._offset)
+
+    def drag_to(self, at: QPointF) -> None:
+        """Let the dragged handle follow to a place."""
+        if self._drag is None or self._start is None or self._active is None:
+            return
+        # The functions of the scene in which the drag began: they know what stays the same.
+        wanted = dragged(self._start.handles[self._active], self._place.world(at.x(), at.y()))
+        changed = self._drag.move(wanted)
+        self._refused = self._drag.refused
+        if changed:
+            self.draw_again()
+            self.handle_chosen.emit(self.handle)
+        else:
+            self.update()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton and self._drag is not None:
+            self.end_drag()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Put a point into a table."""
+        if self.scene.with_point is None or self.nearest(event.position()) is not None:
+            return
+        at = self._place.world(event.position().x(), event.position().y())
+        try:
+            point = self.scene.with_point(at)
+        except ValueError as error:
+            self.told.emit(str(error))
+            return
+        if point is not None and self._workspace.may_edit:
+            self._workspace.edit(self.tr("Put in a point"), dict([point]))
+
+    def end_drag(self, *, cancel: bool = False) -> None:
+        """Drop the dragged values as one undo step, or give the old ones back."""
+        drag, start, active = self._drag, self._start, self._active
+        if drag is None:
+            return
+        self._drag = self._start = None
+        self.releaseKeyboard()
+        if cancel:
+            self._refused = ""
+            drag.cancel()
+        elif start is not None and active is not None:
+            drag.drop(self.tr("Drag {name}").format(name=start.handles[active].label))
+        self.draw_again()
+        self.handle_chosen.emit(self.handle)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """While a handle is dragged Esc gives the old value back, and no other key does anything."""
+        if event.key() == Qt.Key.Key_Escape:
+            self._leave()
+        elif self._drag is None:
+            super().keyPressEvent(event)
+
+    def event(self, event: object) -> bool:
+        """Keep menu keys away from a value that is being dragged."""
+        if self._drag is not None and event.type() == event.Type.ShortcutOverride:  # type: ignore[attr-defined]
+            event.accept()  # type: ignore[attr-defined]
+            return True
+        return super().event(event)  # type: ignore[arg-type]

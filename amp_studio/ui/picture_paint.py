@@ -1,0 +1,258 @@
+"""Paints a scene: the same shapes as its SVG, in the colours of the window."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPen, QPolygonF
+
+from amp_studio.pictures import Dot, FilledArea, Handle, Polyline, Scene, ShapeSort, Text
+from amp_studio.pictures.frame import Placement
+from amp_studio.pictures.svg import ANCHORS, ARROWS, axis_text
+from amp_studio.schema import Address
+
+from .theme import GAP, GAP2, RADIUS, Token, colour, font
+
+INKS: dict[ShapeSort, Token] = {
+    "ink": "text", "dim": "dim", "limit": "edge", "now": "sel", "second": "edge", "error": "error", "forbidden": "edge",
+    "either": "edge", "outside": "rec", "travel": "text", "rail": "edge", "overlap": "line",
+}  # fmt: skip
+TEXT_INKS: dict[ShapeSort, Token] = {
+    "now": "sel",
+    "error": "error",
+    "dim": "dim",
+    "second": "dim",
+    "outside": "rec",
+}
+HANDLE = 9.0
+"""Side of a handle in logical pixels."""
+
+
+class ScenePainter:
+    """Paints one scene in one place, and remembers where the names of parameters are."""
+
+    def __init__(self, painter: QPainter, place: Placement, width: float) -> None:
+        """Paint with a painter on a sheet so wide, in points."""
+        self._painter, self._place, self._scene, self._width = painter, place, place.scene, width
+        self._caption = font("caption")
+        self._measure = QFontMetricsF(self._caption)
+        self.named: list[tuple[QRectF, Address]] = []
+        """Where a name is that leads to its parameter."""
+        self._taken: list[QRectF] = []
+
+    def paint(self) -> None:
+        """Paint all of the scene but its handles."""
+        painter = self._painter
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setFont(self._caption)
+        self._grid()
+        for area in self._scene.areas:
+            self._area(area)
+        for line in self._scene.lines:
+            self._line(line)
+        for dot in self._scene.dots:
+            self._dot(dot)
+        for text in self._scene.texts:
+            self._text(text)
+
+    def _at(self, point: tuple[float, float]) -> QPointF:
+        return QPointF(*self._place.at(point))
+
+    def _grid(self) -> None:
+        painter, place = self._painter, self._place
+        inner = QRectF(place.left, place.top, place.width, place.height)
+        for axis in ("x", "y"):
+            for at, text in place.ticks(axis):
+                painter.setPen(QPen(colour("grid"), 1))
+                if axis == "x":
+                    painter.drawLine(QPointF(at, inner.top()), QPointF(at, inner.bottom()))
+                    box = QRectF(at - 40, inner.bottom() + GAP, 80, 16)
+                    where = Qt.AlignmentFlag.AlignHCenter
+                else:
+                    painter.drawLine(QPointF(inner.left(), at), QPointF(inner.right(), at))
+                    box = QRectF(0, at - 8, inner.left() - GAP2, 16)
+                    where = Qt.AlignmentFlag.AlignRight
+                painter.setPen(colour("dim"))
+                painter.drawText(box, where | Qt.AlignmentFlag.AlignVCenter, text)
+        painter.setPen(colour("dim"))
+        right = Qt.AlignmentFlag.AlignRight
+        painter.drawText(
+            QRectF(inner.right() - 200, inner.bottom() + 18, 200, 16), right, axis_text(self._scene, "x")
+        )
+        painter.drawText(
+            QRectF(0, inner.top() - 24, inner.left() - GAP2, 16), right, axis_text(self._scene, "y")
+        )
+        for at, _, unit in self._scene.y.rows:
+            level = place.at((self._scene.x.low, at))[1]
+            painter.drawText(QPointF(inner.right() + GAP2, level + 4), unit)
+
+    def _area(self, area: FilledArea) -> None:
+        box = QRectF(self._at((area.left, area.top)), self._at((area.right, area.bottom))).normalized()
+        ink = colour(INKS[area.sort])
+        if area.sort == "overlap":
+            self._painter.fillRect(box, ink)
+            return
+        if area.sort != "outside":
+            hatch = QColor(ink)
+            hatch.setAlphaF(0.35)
+            self._painter.fillRect(box, QBrush(hatch, Qt.BrushStyle.BDiagPattern))
+        self._painter.setBrush(Qt.BrushStyle.NoBrush)
+        self._painter.setPen(QPen(ink, 1))
+        self._painter.drawRect(box)
+
+    def _line(self, line: Polyline) -> None:
+        width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.25
+        ink = colour(INKS[line.sort])
+        if line.sort == "rail":
+            ink.setAlphaF(0.5)
+        pen = QPen(ink, width)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+        if line.dashed:
+            pen.setDashPattern([4.0, 3.0])
+        self._painter.setPen(pen)
+        self._painter.drawPolyline(QPolygonF([self._at(point) for point in line.points]))
+
+    def _dot(self, dot: Dot) -> None:
+        painter, at = self._painter, self._at(dot.at)
+        ink = colour("error" if dot.sort == "error" else "text")
+        painter.setPen(QPen(ink, 1.5))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        x, y = at.x(), at.y()
+        if dot.kind == "home":
+            painter.drawEllipse(at, 6.0, 6.0)
+            painter.drawLine(QPointF(x - 10, y), QPointF(x + 10, y))
+            painter.drawLine(QPointF(x, y - 10), QPointF(x, y + 10))
+        elif dot.kind == "switch":
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(ink)
+            painter.drawRoundedRect(QRectF(x - 6, y - 6, 12, 12), 2, 2)
+        elif dot.kind in ARROWS:
+            self._arrow(x, y, *ARROWS[dot.kind])
+        elif dot.kind in ("marker", "end"):
+            painter.setPen(QPen(colour("sel") if dot.kind == "marker" else ink, 2))
+            painter.drawLine(QPointF(x, y - 8), QPointF(x, y + 8))
+        else:
+            painter.setBrush(colour("base"))
+            painter.drawEllipse(at, 3.5, 3.5)
+
+    def _arrow(self, x: float, y: float, dx: int, dy: int) -> None:
+        x, y = x + 14.0 * abs(dy), y - 14.0 * abs(dx)
+        tip = QPointF(x + 11.0 * dx, y + 11.0 * dy)
+        self._painter.drawLine(QPointF(x - 11.0 * dx, y - 11.0 * dy), tip)
+        for side in (1, -1):
+            end = QPointF(tip.x() - 5.0 * dx - 4.0 * side * dy, tip.y() - 5.0 * dy - 4.0 * side * dx)
+            self._painter.drawLine(tip, end)
+
+    # -- texts -------------------------------------------------------------------
+
+    def _text(self, text: Text) -> None:
+        """Paint a text where it is free; one that would lie on another moves down by its height."""
+        strong = font("caption")
+        strong.setWeight(strong.Weight.DemiBold if text.value else strong.weight())
+        name_width = QFontMetricsF(strong).horizontalAdvance(text.text)
+        value = f" {text.value}" if text.value else ""
+        width = name_width + self._measure.horizontalAdvance(value) + 2.0
+        anchor, dx, dy = ANCHORS[text.anchor]
+        if text.anchor == "above" and text.value:
+            anchor = "start"
+        at = self._at(text.at)
+        left = at.x() + dx - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
+        height = self._measure.height()
+        box = QRectF(left, at.y() + dy - self._measure.ascent(), width, height)
+        box = self._kept_inside(box)
+        if not text.value and any(taken.intersects(box) for taken in self._taken):
+            return  # a figure that the handle beside it tells as well
+        box = self._free(box)
+        self._taken.append(box)
+        if text.address is not None:
+            self.named.append((box, text.address))
+        if text.value:
+            ground = colour("base")
+            ground.setAlphaF(0.8)
+            self._painter.fillRect(box, ground)
+        base = QPointF(box.left(), box.top() + self._measure.ascent())
+        self._painter.setFont(strong)
+        self._painter.setPen(colour(TEXT_INKS.get(text.sort, "text")))
+        self._painter.drawText(base, text.text)
+        if value:
+            self._painter.setFont(self._caption)
+            self._painter.setPen(colour("dim"))
+            self._painter.drawText(QPointF(base.x() + name_width, base.y()), value)
+        self._painter.setFont(self._caption)
+
+    def _kept_inside(self, box: QRectF) -> QRectF:
+        right = self._width - 2.0
+        if box.right() > right:
+            box.moveRight(right)
+        box.moveLeft(max(box.left(), 2.0))
+        box.moveTop(max(box.top(), 1.0))
+        return box
+
+    def _free(self, box: QRectF) -> QRectF:
+        for _ in range(6):
+            over = next((taken for taken in self._taken if taken.intersects(box)), None)
+            if over is None:
+                break
+            box.moveTop(over.bottom() + 1.0)
+        return box
+
+
+def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[Handle, bool]]) -> None:
+    """Paint handles, each with whether it has the focus: square, of less weight round, filled where it has it."""
+    half = 0.5 * HANDLE
+    for handle, is_active in handles:
+        at = QPointF(*place.at(handle.at))
+        ink = colour("sel" if is_active else "text")
+        painter.setPen(QPen(ink, 1.5))
+        painter.setBrush(ink if is_active else colour("base"))
+        if handle.second and len(handle.drags) == 1:
+            painter.drawEllipse(at, half - 0.5, half - 0.5)
+        elif len(handle.drags) > 1:
+            painter.setPen(QPen(ink if is_active else colour("edge"), 1))
+            painter.drawRect(QRectF(at.x() - 3, at.y() - 3, 6, 6))
+        else:
+            painter.drawRoundedRect(QRectF(at.x() - half, at.y() - half, HANDLE, HANDLE), 1.5, 1.5)
+
+
+def paint_tag(
+    painter: QPainter, place: Placement, at: tuple[float, float], lines: tuple[str, str, str], wrong: bool
+) -> None:
+    """Paint what a handle is and has: name, value, and the old value or the reason why it goes no further."""
+    name, value, more = lines
+    caption, strong = font("caption"), font("small")
+    strong.setWeight(strong.Weight.DemiBold)
+    small, large = QFontMetricsF(caption), QFontMetricsF(strong)
+    more_width = small.horizontalAdvance(more) + GAP2 if more else 0.0
+    rows = 3 if wrong and more else 2
+    second = large.horizontalAdvance(value) + (0.0 if rows == 3 else more_width)
+    width = max(small.horizontalAdvance(name), second, more_width if rows == 3 else 0.0) + 2 * GAP2
+    height = small.height() * (rows - 1) + large.height() + GAP2
+    point = place.at(at)
+    right_edge = place.left + place.width + 20.0
+    left = point[0] + 12.0 if point[0] + 12.0 + width <= right_edge else max(point[0] - 12.0 - width, 2.0)
+    top = point[1] - height - GAP2 if point[1] - height - GAP2 > 2.0 else point[1] + GAP2
+    box = QRectF(left, top, width, height)
+    painter.setPen(QPen(colour("error" if wrong else "sel"), 1))
+    painter.setBrush(colour("raised"))
+    painter.drawRoundedRect(box, RADIUS, RADIUS)
+    y = box.top() + GAP + small.ascent()
+    painter.setFont(caption)
+    painter.setPen(colour("dim"))
+    painter.drawText(QPointF(box.left() + GAP2, y), name)
+    y += small.descent() + large.ascent()
+    painter.setFont(strong)
+    painter.setPen(colour("text"))
+    painter.drawText(QPointF(box.left() + GAP2, y), value)
+    painter.setFont(caption)
+    painter.setPen(colour("error" if wrong else "dim"))
+    if rows == 3:
+        painter.drawText(QPointF(box.left() + GAP2, y + large.descent() + small.ascent()), more)
+    elif more:
+        painter.drawText(QPointF(box.left() + GAP2 + large.horizontalAdvance(value) + GAP2, y), more)
+
+
+def empty_text(scene: Scene) -> str:
+    """Return what is shown instead of a scene in which nothing is drawn."""
+    return scene.notes[0].text if scene.notes and not scene.lines else ""

@@ -1,0 +1,211 @@
+"""The page of pictures: handles dragged, stepped by keys and typed, in the real window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QAccessible
+from PySide6.QtTest import QTest
+
+from amp_studio.schema import Value
+from amp_studio.ui.pictures_page import PicturesPage
+
+from .conftest import action
+
+RIGHT = ("zone.limit3_max", "1")
+LOW = ("zone.limit3_min", "2")
+
+
+@pytest.fixture
+def pictures(window):
+    """Return the page of pictures of the example mill, with the travel alone."""
+    action(window, "Pictures").trigger()
+    page = window.page.pictures
+    page.show_picture("travel")
+    page.grab()
+    return page
+
+
+def place(canvas, *addresses):
+    """Return where a handle is, and its number."""
+    (found,) = [
+        n for n, h in enumerate(canvas.scene.handles) if [d.address for d in h.drags] == list(addresses)
+    ]
+    return QPointF(*canvas._place.at(canvas.scene.handles[found].at)).toPoint(), found
+
+
+def at(canvas, x, y):
+    """Return the point of a place of the machine."""
+    return QPointF(*canvas._place.at((x, y))).toPoint()
+
+
+def press(canvas, *addresses):
+    point, _ = place(canvas, *addresses)
+    QTest.mousePress(canvas, Qt.MouseButton.LeftButton, pos=point)
+    return point
+
+
+def drag(canvas, to, *addresses):
+    press(canvas, *addresses)
+    QTest.mouseMove(canvas, to)
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=to)
+
+
+def test_an_edge_is_dragged_in_mm_as_one_undo_step(window, pictures, file, whole):
+    before, canvas = whole(), pictures.chosen_card.canvas
+    start = press(canvas, RIGHT)
+    for x in (-140.0, -120.0, -100.0):
+        QTest.mouseMove(canvas, QPoint(at(canvas, x, 0.0).x(), start.y()))
+    assert window.workspace.undo_stack.count() == 0
+    assert file.get(RIGHT).value == pytest.approx(-100.0, abs=2.0)
+    assert canvas._tag(canvas.handle)[2] == "was -150 mm"
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=QPoint(at(canvas, -100.0, 0.0).x(), start.y()))
+    assert (window.workspace.undo_stack.count(), file.get(RIGHT).unit) == (1, "mm")
+    assert window.workspace.undo_stack.undoText() == "Drag 1007 Limit 3 Max Value, X"
+    window.workspace.undo_stack.undo()
+    assert whole() == before
+    assert place(canvas, RIGHT)[0] == start
+
+
+def test_a_corner_moves_both_axes_in_one_step(window, pictures, file):
+    canvas = pictures.chosen_card.canvas
+    drag(canvas, at(canvas, -120.0, -340.0), RIGHT, LOW)
+    assert [file.get(a).value for a in (RIGHT, LOW)] == pytest.approx([-120.0, -340.0], abs=3.0)
+    assert window.workspace.undo_stack.count() == 1
+    window.workspace.undo_stack.undo()
+    assert [file.get(a) for a in (RIGHT, LOW)] == [Value(-150.0, "mm"), Value(-300.0, "mm")]
+
+
+def test_an_inch_file_is_dragged_in_inches(window, pictures, file):
+    window.workspace.show_in("inch")
+    canvas = pictures.chosen_card.canvas
+    drag(canvas, at(canvas, -5.0, -8.0), RIGHT)
+    assert (file.get(RIGHT).value, file.get(RIGHT).unit) == (pytest.approx(-5.0, abs=0.1), "in")
+
+
+def test_esc_during_a_drag_gives_the_old_value_back(window, pictures, file, whole):
+    before, canvas = whole(), pictures.chosen_card.canvas
+    press(canvas, RIGHT)
+    QTest.mouseMove(canvas, at(canvas, -120.0, -200.0))
+    assert file.get(RIGHT) != Value(-150.0, "mm")
+    QTest.keyClick(canvas, Qt.Key.Key_Escape)
+    assert whole() == before
+    assert window.workspace.undo_stack.count() == 0
+    assert window.page.shows_pictures
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=at(canvas, -120.0, -200.0))
+    assert whole() == before
+
+
+def test_beyond_the_allowed_range_the_value_stays_and_the_tag_says_why(pictures, file):
+    """Page 6-8: the larger end stays above the smaller one."""
+    canvas = pictures.chosen_card.canvas
+    press(canvas, RIGHT)
+    QTest.mouseMove(canvas, at(canvas, -400.0, -200.0))
+    assert file.get(RIGHT) == Value(-150.0, "mm")
+    assert "is outside -350 to 999999.99 mm" in canvas._tag(canvas.handle)[2]
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=at(canvas, -400.0, -200.0))
+
+
+def test_keys_move_the_focused_handle_by_a_step_and_shift_by_ten(pictures, file):
+    canvas = pictures.chosen_card.canvas
+    spot = canvas._spots[place(canvas, RIGHT)[1]]
+    spot.setFocus()
+    QTest.keyClick(spot, Qt.Key.Key_Left)
+    assert file.get(RIGHT) == Value(-151.0, "mm")
+    QTest.keyClick(spot, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    assert file.get(RIGHT) == Value(-141.0, "mm")
+
+
+def test_a_number_is_typed_for_the_focused_handle(pictures, file):
+    canvas = pictures.chosen_card.canvas
+    spot = canvas._spots[place(canvas, RIGHT)[1]]
+    spot.setFocus()
+    QTest.keyClicks(spot, "-")
+    QTest.keyClicks(pictures.footer.field, "133.5")
+    QTest.keyClick(pictures.footer.field, Qt.Key.Key_Return)
+    assert file.get(RIGHT) == Value(-133.5, "mm")
+    pictures.footer.field.setText("-9999999")
+    QTest.keyClick(pictures.footer.field, Qt.Key.Key_Return)
+    assert "is outside" in pictures.footer.more.text()
+    assert file.get(RIGHT) == Value(-133.5, "mm")
+
+
+def test_the_picture_follows_edits_elsewhere_and_a_change_during_a_drag_keeps_its_scales(
+    window, pictures, file
+):
+    canvas = pictures.chosen_card.canvas
+    window.workspace.edit("elsewhere", {RIGHT: Value(-200.0, "mm")})
+    assert canvas.scene.handles[place(canvas, RIGHT)[1]].at[0] == -200.0
+    scale = canvas.scene.x
+    press(canvas, ("zone.overtravel_negative", "1"))
+    QTest.mouseMove(canvas, at(canvas, -510.0, -200.0))
+    assert canvas.scene.x == scale
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=at(canvas, -510.0, -200.0))
+    assert canvas.scene.x != scale
+
+
+def test_a_name_leads_to_its_parameter_in_the_table(window, pictures):
+    canvas = pictures.chosen_card.canvas
+    canvas.grab()
+    box, address = next((b, a) for b, a in canvas._names if canvas.nearest(b.center()) is None)
+    QTest.mouseClick(canvas, Qt.MouseButton.LeftButton, pos=box.center().toPoint())
+    assert not window.page.shows_pictures
+    assert window.page.table_view.address() == address
+    assert not action(window, "Pictures").isChecked()
+
+
+def test_each_handle_is_an_accessible_child_with_its_name_and_value(pictures):
+    canvas = pictures.chosen_card.canvas
+    interface = QAccessible.queryAccessibleInterface(canvas)
+    names = {interface.child(n).text(QAccessible.Text.Name) for n in range(interface.childCount())}
+    assert "1007 Limit 3 Max Value, X: -150 mm" in names
+    assert len(canvas._spots) == len(canvas.scene.handles)
+
+
+def test_all_pictures_are_side_by_side_where_there_is_room_and_one_alone_where_not(workspace, qtbot):
+    page = PicturesPage(workspace)
+    qtbot.addWidget(page)
+    page.show()
+
+    def seen():
+        return [name for name, card in page.cards.items() if not card.isHidden()]
+
+    page.resize(1000, 500)
+    qtbot.waitUntil(lambda: seen() == ["travel", "ramps", "gears", "jog"])
+    page.resize(600, 500)
+    qtbot.waitUntil(lambda: seen() == ["travel"])
+
+
+def test_a_read_only_file_is_looked_at_and_not_dragged(window, pictures, file, monkeypatch):
+    monkeypatch.setattr(type(window.workspace), "may_edit", False)
+    canvas = pictures.chosen_card.canvas
+    drag(canvas, at(canvas, -100.0, -200.0), RIGHT)
+    assert file.get(RIGHT) == Value(-150.0, "mm")
+    assert canvas._refused == "The file is read-only"
+
+
+@pytest.mark.parametrize(
+    "example",
+    [
+        "num-1060-mill/MILL_1060",
+        "syntec-mill/SYNTEC_MILL",
+        "57c422b-label-press/LABEL_PRESS",
+        "acromill-router/ROUTER",
+        "grblhal-router/GRBL_ROUTER",
+    ],
+)
+def test_every_family_has_a_page_of_pictures(
+    open_window: Callable, checkout: Path, tmp_path: Path, example: str
+):
+    path = tmp_path / "file.amp"
+    path.write_bytes((checkout / "examples" / f"{example}.amp").read_bytes())
+    window = open_window(path)
+    action(window, "Pictures").trigger()
+    page = window.page.pictures
+    for name, card in page.cards.items():
+        page.show_picture(name)
+        assert not card.grab().isNull()
+        assert card.canvas._names or card.canvas.scene.notes
