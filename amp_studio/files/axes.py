@@ -94,9 +94,7 @@ def axis_title(file: ParameterFile, axis: str) -> str:
         title = labelled(family.scopes["axis"].label, axis)
     else:
         title = f"{axis} {'?' if letter.startswith('raw:') else letter or '–'}"
-    own_group = axis_group(file.evaluation, axis) if letter else ""
-    groups = {axis_group(file.evaluation, a) for a in fitted_axes(file)} if own_group else set()
-    return f"{title} {kind}".rstrip() + (f", {own_group}" if len(groups) > 1 else "")
+    return f"{title} {kind}".rstrip() + (_of_group(file, axis) if letter else "")
 
 
 def axis_head(file: ParameterFile, axis: str) -> tuple[str, str]:
@@ -110,7 +108,14 @@ def axis_head(file: ParameterFile, axis: str) -> tuple[str, str]:
     kind = other_use(file, axis) or axis_kind(file, axis)
     if not letter:
         return "", f"{labelled(file.schema.family.scopes['axis'].label, axis)} {kind}".rstrip()
-    return letter, " ".join(filter(None, ("" if letter == axis else axis, kind)))
+    return letter, " ".join(filter(None, ("" if letter == axis else axis, kind))) + _of_group(file, axis)
+
+
+def _of_group(file: ParameterFile, axis: str) -> str:
+    """Return ``, Group 2`` where the axes of a file are in several groups."""
+    own = axis_group(file.evaluation, axis)
+    several = own and len({axis_group(file.evaluation, a) for a in fitted_axes(file)}) > 1
+    return f", {own}" if several else ""
 
 
 def unlike_axes(file: ParameterFile, addresses: Iterable[Address]) -> set[Address]:

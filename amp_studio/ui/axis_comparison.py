@@ -106,8 +106,8 @@ class AxisComparison(QDialog):
         self.count.setText(self._how_many(len(found)))
         may_take = bool(found) and self._workspace.may_edit
         for button, text, target in (
-            (self.take_first, self.tr("Selected to &{axis}"), second),
-            (self.take_second, self.tr("Selected to &{axis}"), first),
+            (self.take_first, self.tr("&Take for {axis}"), second),
+            (self.take_second, self.tr("Ta&ke for {axis}"), first),
         ):
             button.setText(text.format(axis=target))
             button.setEnabled(may_take)

@@ -157,8 +157,8 @@ class WelcomePage(QWidget):
         row = QHBoxLayout()
         row.setSpacing(GAP2)
         for text, name, act in (
-            (self.tr("&Open…"), "folder-open", self._files.open),
-            (self.tr("Open &Project…"), "folder-simple", self._open_project),
+            (self.tr("Open…"), "folder-open", self._files.open),
+            (self.tr("Open Project…"), "folder-simple", self._open_project),
         ):
             button = QToolButton()
             button.setText(text)
@@ -250,7 +250,7 @@ class WelcomePage(QWidget):
             return
         names = ", ".join(p.stem for p in paths)
         text = self.tr("These files were open the last time: {names}.").format(names=names)
-        self.message.say(text, "information", (self.tr("Open &All"), self._open_session))
+        self.message.say(text, "information", (self.tr("Open All"), self._open_session))
 
     def _open_session(self) -> None:
         for path in self._files.last_session:

@@ -9,6 +9,7 @@ from amp_studio.files import (
     ParameterFile,
     add_axis,
     alike_axes,
+    axis_head,
     axis_letter,
     axis_title,
     compare_axes,
@@ -60,6 +61,7 @@ def test_an_axis_of_a_num_may_be_put_into_a_group() -> None:
     assert [word(file, "axes.assignment", str(n)) for n in range(4)] == [0x00, 0x02, 0x10, 0x12]
     assert titles(file)[1:3] == ["1 Z linear, Group 1", "2 X linear, Group 2"]
     assert word(file, "axes.cnc_groups") == 2
+    assert axis_head(file, "3") == ("Z", "3 linear, Group 2")
 
 
 def test_the_number_of_axes_says_which_an_acromill_has() -> None:

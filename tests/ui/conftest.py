@@ -28,6 +28,8 @@ from amp_studio.ui.palette import commands
 from amp_studio.ui.task import ProgressDialog, Task
 from amp_studio.ui.workspace import Workspace
 
+from .alt_letters import doubled, texts_of
+
 WAIT_MS = 20_000
 """Far more than anything takes; a test that waits ends as soon as what it waits for is there."""
 
@@ -123,8 +125,9 @@ def accept(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
     """Return what makes the next dialogs of a class be filled in by ``fill(dialog)`` and accepted, as ``accept()`` does."""
 
     def arrange(kind: type[QWidget], fill: Callable[..., object] = lambda dialog: None) -> None:
-        def run(dialog: object) -> int:
+        def run(dialog: QWidget) -> int:
             fill(dialog)
+            assert doubled(texts_of(dialog)) == {}, "two controls have one Alt letter"
             dialog.accept()  # type: ignore[attr-defined]  # a dialog
             return int(dialog.result())  # type: ignore[attr-defined]
 

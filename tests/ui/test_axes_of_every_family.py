@@ -13,6 +13,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.axis_comparison import AxisComparison
 from amp_studio.ui.axis_dialogs import AddAxisDialog, AxisDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.parameter_table import CONTROL
 from amp_studio.ui.workspace import Workspace
 
 from .conftest import action
@@ -41,22 +42,21 @@ def choose(dialog: AxisDialog, axis: str, other: str) -> None:
 
 def heads(window: MainWindow) -> list[str]:
     """Return the heads of the axis columns."""
-    shown = [column for column in window.table.columns if column]
     return [
-        window.table.column_title(column)
-        for column in shown
-        if window.table.column_title(column) != "Control"
+        title
+        for title, column in zip(window.table.titles, window.table.columns, strict=True)
+        if column != CONTROL
     ]
 
 
 @pytest.mark.parametrize(
     ("family", "axes", "parameter", "titles"),
     [
-        ("num", "X,Y,B", "servo.max_speed", ["0 X linear", "1 Y linear", "2 B rotary"]),
-        ("acromill", "X,Y", "axes.pulses_per_unit", ["Axis X", "Axis Y"]),
-        ("57c422b", "X,Y", "setup.encoder", ["X axis", "Y axis"]),
-        ("grblhal", "X,Y,Z", "axis.max_rate", ["X axis linear", "Y axis linear", "Z axis linear"]),
-        ("syntec", "X,Z", "axis.type", ["1 X linear", "2 Z linear"]),
+        ("num", "X,Y,B", "servo.max_speed", ["X 0 linear", "Y 1 linear", "B 2 rotary"]),
+        ("acromill", "X,Y", "axes.pulses_per_unit", ["X", "Y"]),
+        ("57c422b", "X,Y", "setup.encoder", ["X", "Y"]),
+        ("grblhal", "X,Y,Z", "axis.max_rate", ["X linear", "Y linear", "Z linear"]),
+        ("syntec", "X,Z", "axis.type", ["X 1 linear", "Z 2 linear"]),
     ],
 )
 def test_heads_have_letters_and_unfitted_axes_are_hidden(
@@ -90,7 +90,7 @@ def test_an_axis_of_an_acromill_is_named_added_and_deleted(opened, accept) -> No
     assert file.get(("view.number_of_axes", "")) == Value(3)
     accept(AxisDialog, lambda d: choose(d, "Z", "C"))
     action(window, "Name Axis").trigger()
-    assert window.table.column_title("Z") == "Z C"
+    assert heads(window)[-1] == "C Z"
     accept(AxisDialog, lambda d: d.axis_box.setCurrentIndex(2))
     action(window, "Delete Axis").trigger()
     assert fitted_axes(file) == ("X", "Y")
