@@ -108,7 +108,7 @@ def _message_json(page: MessagePage) -> dict[str, Any]:
         "code": message.code, "text": message.text, "reaction": message.reaction, "means": message.means,
         "causes": message.causes, "cures": message.cures, "note": message.note,
         "params": [{"id": p.id, "name": p.name, "number": p.number,
-                    "values": [{"param": written(a), "value": text} for a, text in p.values]} for p in page.parameters],
+                    "values": [{"param": written(v.address), "value": v.text} for v in p.values]} for p in page.parameters],
         "rules": [{"rule": linked.rule.id, "title": linked.rule.title, "broken": bool(linked.findings),
                    "messages": [finding.message for finding in linked.findings]} for linked in page.rules],
         "source": message.page, "pages": message.pages,
@@ -154,7 +154,7 @@ def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
 
 def _parameter_line(page: MessagePage, n: int) -> str:
     linked = page.parameters[n]
-    values = ", ".join(dict.fromkeys(text for _, text in linked.values))
+    values = ", ".join(f"{v.place} {v.text}".lstrip() for v in linked.values)
     return f"{linked.number} {linked.name}".strip() + (f" = {values}" if values else "")
 
 

@@ -5,7 +5,7 @@ Typing errors are forgiven, each hit has its reason, and the words of a family a
 
 from .entries import Entry, HitKind
 from .finder import Finder, Hit, index_of
-from .message_page import LinkedParameter, LinkedRule, MessagePage, message_page
+from .message_page import LinkedParameter, LinkedRule, LinkedValue, MessagePage, message_page
 
 __all__ = [
     "Entry",
@@ -14,6 +14,7 @@ __all__ = [
     "HitKind",
     "LinkedParameter",
     "LinkedRule",
+    "LinkedValue",
     "MessagePage",
     "index_of",
     "message_page",

@@ -13,13 +13,13 @@ from amp_studio.schema import (
     Schema,
     UnknownParameterError,
     axis_meant,
-    axis_name,
     show_value,
 )
 
 from .entries import Entry, HitKind, Where, entries_of
 from .file_values import FileValues, asked_number
 from .index import Index, Match
+from .places import place_of
 from .words import words_of
 
 _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
@@ -214,12 +214,7 @@ class Finder:
         return f"{label} {place}" if place and self._here.number(address) else label
 
     def _place(self, address: Address) -> str:
-        """Return the letter of the axis, or what else an instance is called."""
-        if address[1] and self.file is not None and self._here.kin(self._here.scopes[address[0]], "axis"):
-            name = axis_name(self.file.evaluation, address[1])
-            if name:
-                return name
-        return self._here.instance_label(address)
+        return place_of(self.file, address) if self.file is not None else self._here.instance_label(address)
 
 
 def _snippet(match: Match, where: Where) -> str:

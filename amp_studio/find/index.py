@@ -13,6 +13,8 @@ _EQUAL, _BEGINS, _WITHIN = 6.0, 3.0, 2.0
 """What the whole question is worth as the whole title, its beginning, or a part of it."""
 _LOOKED_AT = 20
 """Further matches of which the texts are searched for the whole question."""
+_FORGOTTEN = 4
+"""Words of a question of which one may be missing although another entry has them all."""
 _MISSING = 0.4
 """What is left for each word of the question that an entry does not have."""
 
@@ -78,9 +80,12 @@ class Index:
         total = sum(weights.values())
         asked = " ".join(words_of(query))
         best = []
+        whole = any(len(hits) == len(words) for hits in found.values())
         for n, hits in found.items():
             missing = [word for word in words if word not in hits]
-            if 2 * len(missing) > len(words) or any(map(_has_digit, missing)):
+            if len(missing) > (len(words) // _FORGOTTEN if whole else len(words) // 2) or any(
+                map(_has_digit, missing)
+            ):
                 continue
             score = sum(weights[word] * hit.worth for word, hit in hits.items()) / total
             score = (score + self._phrase(asked, n)) * KINDS[self.entries[n].kind] * _MISSING ** len(missing)

@@ -4,11 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule, Schema, show_value
 from amp_studio.schema.model import ControlMessage
 from amp_studio.validate import Finding
+
+from .places import place_of
+
+
+class LinkedValue(NamedTuple):
+    """A value of such a parameter: where, and as a person reads it."""
+
+    address: Address
+    place: str
+    """The letter of its axis, or what else the instance is called; empty for the only one."""
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,8 +31,8 @@ class LinkedParameter:
     name: str
     number: str
     """Of its first instance; empty where it has none."""
-    values: tuple[tuple[Address, str], ...]
-    """Active values of the file as a person reads them; empty without a file."""
+    values: tuple[LinkedValue, ...]
+    """Active values of the file; empty without a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +81,9 @@ def message_page(
         for instance in instances if file is not None and parameter.access != "read" else ():
             address = (name, instance)
             if file is not None and file.evaluation.state(address).state == "in-force":
-                values.append((address, show_value(parameter, file.get(address))))
+                values.append(
+                    LinkedValue(address, place_of(file, address), show_value(parameter, file.get(address)))
+                )
         linked.append(
             LinkedParameter(name, parameter.name, here.number((name, instances[0])) or "", tuple(values))
         )

@@ -33,18 +33,17 @@ class EditActions:
         quick = act("&Quick Edit by Number…", self.quick_edit, "F4", "edit")
         calculator = act("Ca&lculator…", self.calculator, "F3", "file")
         tables = act("&Tables of the Manual…", self.tables, "Shift+F3", "file")
-        find = act("&Find Parameter", self._find, keys.Find, "file")
         fix = act("F&ix Selected Finding", self._fix, "F8", "edit")
         why = act("S&how Explanation of Finding", self._why, "Shift+F1", "file")
         several = act("Fix Se&veral…", self.fix_several, "Shift+F8", "edit", "magic-wand")
         safe = act("Apply All &Safe Fixes", self.fix_safe, None, "edit")
         self.range = RangeActions(window)
         self.of_a_cell: list[QAction] = [edit, *self.range.actions]
-        menu = window.menuBar().addMenu("&Edit")
+        self.menu = menu = window.menuBar().addMenu("&Edit")
         for actions in (
             (self.undo, self.redo, steps),
             self.of_a_cell,
-            (quick, calculator, tables, find),
+            (quick, calculator, tables),
             (fix, several, safe, why),
         ):
             menu.addActions(list(actions))
@@ -147,11 +146,6 @@ class EditActions:
         dialog = TablesDialog(self._workspace(), self.window.selected(), self.window)
         dialog.linked.connect(self._page().follow)
         dialog.show()
-
-    def _find(self) -> None:
-        self.window.show_panel("Groups")
-        if self.window.groups is not None:
-            self.window.groups.focus_search()
 
     # -- findings ---------------------------------------------------------------
 

@@ -18,6 +18,7 @@ from .disk_watch import DiskWatch
 from .edit_actions import EditActions
 from .file_actions import FileActions
 from .file_page import FilePage
+from .find_actions import FindActions
 from .garbage import collect_by_timer
 from .picture_actions import PictureActions
 from .program_icon import program_icon
@@ -51,6 +52,8 @@ class MainWindow(StudioWindow):
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
         self.files = FileActions(self, self.show_workspace)
         self.edits = EditActions(self)
+        self.finder = FindActions(self)
+        self.edits.menu.addActions(self.finder.actions)
         self.axes = AxisActions(self)
         self.view = ViewActions(self)
         self.pictures = PictureActions(self)
@@ -76,7 +79,6 @@ class MainWindow(StudioWindow):
 
     def _help_menu(self) -> None:
         menu = self.menuBar().addMenu("&Help")
-        menu.addAction(self.action("&Commands…", self.palette_of_commands, "Ctrl+Shift+P", ""))
         menu.addAction(self.action("&About AMP Studio", self._about, None, ""))
 
     def _toolbar(self) -> None:
@@ -85,6 +87,7 @@ class MainWindow(StudioWindow):
         self.tools = MainToolBar(
             self, self.files.toolbar, undo, self.view.switch, views, self.control.toolbar
         )
+        self.tools.take_find_box(self.finder.box)
         self.addToolBar(self.tools)
 
     def _about(self) -> None:
@@ -92,14 +95,6 @@ class MainWindow(StudioWindow):
 
         show_message(self, "About AMP Studio", f"AMP Studio {__version__}\n\nThe numbered parameters of machine controls: "
              "edit, check, print, exchange and simulate them.", QMessageBox.Icon.Information)  # fmt: skip
-
-    def palette_of_commands(self) -> None:
-        """Open the command palette and run the chosen command."""
-        from .palette import CommandPalette
-
-        chosen = CommandPalette(self.menuBar(), self).ask()
-        if chosen is not None:
-            chosen.trigger()
 
     # -- the open files ----------------------------------------------------------
 
@@ -116,6 +111,7 @@ class MainWindow(StudioWindow):
         DiskWatch(page, self.files.compare_with_disk, self.files.reload)
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
+        self.finder.add(page)
         self.view.apply_options(page)
         self.tabs.add(page, instead)
         page.changed.connect(self._update)

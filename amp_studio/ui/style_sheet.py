@@ -65,6 +65,10 @@ QLineEdit:focus, QPlainTextEdit:focus, QAbstractSpinBox:focus, QComboBox:focus {
 QLineEdit:disabled, QPlainTextEdit:disabled, QAbstractSpinBox:disabled, QComboBox:disabled { color: $off; border-color: $line2; }
 QAbstractItemView QLineEdit, QAbstractItemView QComboBox { min-height: 0; border-radius: 0; padding: 0 4px; border: 2px solid $sel; }
 
+QFrame#find-popup { background: $raised; border: 1px solid $line2; border-radius: 4px; }
+QFrame#find-popup QListView { background: $raised; }
+QFrame#find-popup QLabel { color: $dim; border-top: 1px solid $line; }
+
 QTabWidget::pane { border: 0; border-top: 1px solid $line; }
 QTabBar { background: $window; }
 QTabBar::tab { background: $window; color: $dim; border: 0; border-right: 1px solid $line; border-top: 2px solid transparent; padding: 5px 12px 6px 12px; }

@@ -24,7 +24,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, ParameterFile, content_of, new_file, open_file
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.palette import commands
+from amp_studio.ui.menu_commands import commands
 from amp_studio.ui.task import ProgressDialog, Task
 from amp_studio.ui.workspace import Workspace
 

@@ -1,16 +1,16 @@
-"""Every command is in a menu, has a name and a key, and is found and run by the command palette."""
+"""Every command is in a menu, has a name and a key, and is found and run by the find box."""
 
 from __future__ import annotations
 
 from collections import Counter
 
-import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDockWidget, QMenu, QWidgetAction
 
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.palette import CommandPalette, commands
+from amp_studio.ui.menu_commands import commands
 
 from .conftest import action
 
@@ -67,16 +67,21 @@ def test_toolbar_buttons_have_an_icon_a_text_and_a_tip_with_the_key(window: Main
             assert button.shortcut().toString() in button.toolTip()
 
 
-def test_the_palette_lists_every_enabled_command_and_no_other(window: MainWindow) -> None:
-    palette = CommandPalette(window.menuBar(), window)
-    listed = {item.data(0, Qt.ItemDataRole.UserRole) for item in palette._items}
-    assert listed == {a for _, a in commands(window.menuBar()) if a.isEnabled()}
-    assert window.edits.undo not in listed
-    assert any(item.text(0) == "File › Save" and item.text(1) == "Ctrl+S" for item in palette._items)
-    assert any(item.text(0) == "✓ Options › Units › Metric" for item in palette._items)
+def listed(window: MainWindow, text: str = ">") -> dict[str, QAction]:
+    """Return the commands that the find box lists, by name."""
+    window.finder.box.begin(text)
+    return {row.text: row.action for row in window.finder.box.model.rows if row.action is not None}
 
 
-def test_the_palette_lists_nothing_twice_after_another_file(window: MainWindow, path) -> None:
+def test_the_find_box_lists_every_enabled_command_and_no_other(window: MainWindow) -> None:
+    found = listed(window)
+    assert set(found.values()) == {a for _, a in commands(window.menuBar()) if a.isEnabled()}
+    assert window.edits.undo not in found.values()
+    assert found["✓ Options › Units › Metric"].isChecked()
+    assert any(row.text == "File › Save" and row.right == "Ctrl+S" for row in window.finder.box.model.rows)
+
+
+def test_no_command_is_listed_twice_after_another_file(window: MainWindow, path) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
     window.files.open_path(other)
@@ -84,39 +89,37 @@ def test_the_palette_lists_nothing_twice_after_another_file(window: MainWindow, 
     assert len(names) == len(set(names))
 
 
-def test_the_palette_runs_every_command_it_lists(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is chosen is triggered once, and only when the palette has gone."""
-    triggered, wanted = [], ""
-    listed = CommandPalette(window.menuBar(), window)._actions
-    for name, command in listed:
+def test_the_find_box_runs_every_command_it_lists(window: MainWindow) -> None:
+    """What is chosen is triggered once, and only when the list is closed."""
+    triggered, box = [], window.finder.box
+    every = list(listed(window).values())
+    for command in every:
         command.triggered.disconnect()
-        command.triggered.connect(lambda *_, name=name: triggered.append(name))
-
-    def choose(palette: CommandPalette) -> None:
-        names = [name for name, _ in palette._actions]
-        palette.list.setCurrentItem(palette._items[names.index(wanted)])
-        palette._choose()
-        assert wanted not in triggered
-
-    monkeypatch.setattr(CommandPalette, "exec", choose)
-    for wanted, _ in listed:  # noqa: B007  # read by choose
-        window.palette_of_commands()
-    assert triggered == [name for name, _ in listed]
+        command.triggered.connect(lambda *_, command=command: triggered.append((command, box.is_open)))
+    for command in every:
+        box.begin(">")
+        row = next(n for n, each in enumerate(box.model.rows) if each.action is command)
+        box.list.setCurrentIndex(box.model.index(row))
+        QTest.keyClick(box, Qt.Key.Key_Return)
+    assert triggered == [(command, False) for command in every]
 
 
-def test_the_palette_is_driven_from_its_search_field(window: MainWindow) -> None:
-    palette = CommandPalette(window.menuBar(), window)
-    palette.search.setText("axis conf")
-    assert [i.text(0) for i in palette._items] == ["Axis › Configure Axis Type", "Axis › Configure Servo"]
-    QTest.keyClick(palette.search, Qt.Key.Key_Down)
-    QTest.keyClick(palette.search, Qt.Key.Key_Return)
-    assert palette.chosen is action(window, "Configure Servo")
-
-    palette.search.setText("marzipan")
-    palette.chosen = None
-    QTest.keyClick(palette.search, Qt.Key.Key_Down)
-    QTest.keyClick(palette.search, Qt.Key.Key_Return)
-    assert palette.chosen is None
+def test_commands_are_chosen_with_the_keys_and_slips_are_forgiven(window: MainWindow) -> None:
+    action(window, "Commands").trigger()
+    box = window.finder.box
+    assert box.hasFocus()
+    QTest.keyClicks(box, "confgure axis")
+    assert box.model.rows[1].text == "Axis › Configure Axis Type"
+    assert [row.text for row in box.model.rows if row.action is None] == ["Commands"]
+    box.setText(">marzipan")
+    box.search()
+    assert [row.text for row in box.model.rows] == ["Nothing found"]
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert box.is_open
+    QTest.keyClick(box, Qt.Key.Key_Escape)
+    assert not box.is_open
+    QTest.keyClick(box, Qt.Key.Key_Escape)
+    assert (box.text(), window.table_view.hasFocus()) == ("", True)
 
 
 def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> None:
@@ -136,14 +139,14 @@ def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> Non
 
 def test_find_from_anywhere(window: MainWindow) -> None:
     window.show_panel("Findings")
-    action(window, "Find Parameter").trigger()
-    assert window.groups.search.hasFocus()
+    action(window, "Find").trigger()
+    assert window.finder.box.hasFocus()
 
 
 def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
     window = open_window()
     enabled = {name for name, a in commands(window.menuBar()) if a.isEnabled()}
-    assert {"File › New", "File › Open", "Control › Upload From Control", "Help › Commands"} <= enabled
+    assert {"File › New", "File › Open", "Control › Upload From Control", "Edit › Commands"} <= enabled
     assert (
         not {"File › Save", "Edit › Clear Value (Not Set)", "Axis › Copy Axis", "Options › Motion"} & enabled
     )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 
 from amp_studio.files import new_file
 from amp_studio.schema import Value
@@ -67,12 +69,8 @@ def test_searching_shows_what_is_found_and_clearing_the_group_again(window: Main
 
 
 def test_enter_in_the_search_goes_to_the_table(window: MainWindow, qtbot) -> None:
-    from PySide6.QtCore import Qt
-    from PySide6.QtTest import QTest
-
-    action = window.actions()
-    assert any(a.text() == "&Find Parameter" for a in action)
-    window.edits._find()
+    window.show_panel("Groups")
+    window.groups.focus_search()
     qtbot.waitUntil(window.groups.search.hasFocus, timeout=WAIT_MS)
     QTest.keyClicks(window.groups.search, "excess error")
     QTest.keyClick(window.groups.search, Qt.Key.Key_Return)

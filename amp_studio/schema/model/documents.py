@@ -121,6 +121,8 @@ class Messages(Model):
     id: Key
     title: str
     page: Page
+    params: tuple[ParameterId, ...] = ()
+    """Parameters for whose values the list as a whole is looked up."""
     note: str = ""
     messages: tuple[ControlMessage, ...]
 
@@ -128,9 +130,14 @@ class Messages(Model):
         """Return the list, and behind it each message that has a code, causes and cures."""
         rows = tuple((m.code, m.text or m.title, m.means, ", ".join(m.every_page)) for m in self.messages)
         head = ("Code", "Message", "What it means", "Page")
-        params = tuple(dict.fromkeys(name for m in self.messages for name in m.params))
         listed = Table(
-            id=self.id, title=self.title, page=self.page, head=head, rows=rows, params=params, note=self.note
+            id=self.id,
+            title=self.title,
+            page=self.page,
+            head=head,
+            rows=rows,
+            params=self.params,
+            note=self.note,
         )
         return listed, *(m.table() for m in self.messages if m.code and m.causes and m.cures)
 

@@ -1,0 +1,150 @@
+"""Finding: the box of the tool bar, what it knows of the file in front, and where each hit leads."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtGui import QAction, QKeySequence
+
+from amp_studio.find import Entry, Finder, Hit, index_of
+from amp_studio.find.index import Index
+from amp_studio.schema import Schema
+
+from .file_page import FilePage
+from .find_box import COMMANDS, FindBox
+from .find_rows import FindRow, rows_of
+from .menu_commands import commands
+from .message_page import MessageWindow
+from .studio_window import StudioWindow
+from .task import Task
+
+_COMMAND = 0.8
+"""What a command is worth among parameters whose words match as well."""
+
+
+class FindActions:
+    """Builds the box; the words of a family are indexed in a thread when its first file is opened."""
+
+    def __init__(self, window: StudioWindow) -> None:
+        self.window = window
+        self.box = FindBox(self.rows, window)
+        self.box.chosen.connect(self._go)
+        self.box.left.connect(self._leave)
+        self._finders: dict[FilePage, Finder] = {}
+        self._indexed: set[tuple[int, str]] = set()
+        self._commands: dict[str, QAction] = {}
+        self._menu = Index(())
+        self.box.entered.connect(self._read_menus)
+        act = window.action
+        self.actions = [
+            act("&Find…", self.box.begin, "Ctrl+F", ""),
+            act("&Go to Number…", self.box.begin, "Ctrl+G", "file"),
+            act("Co&mmands…", partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", ""),
+        ]
+        self.actions[0].setShortcuts([QKeySequence("Ctrl+F"), QKeySequence("Ctrl+K")])
+
+    # -- the files ---------------------------------------------------------------------
+
+    def add(self, page: FilePage) -> None:
+        """Know the values of a file, and the words of its family soon."""
+        file = page.workspace.file
+        finder = self._finders[page] = Finder(file.schema, file.machine, file)
+        page.workspace.changed.connect(lambda *_: self._changed(page, finder))
+        page.destroyed.connect(lambda: self._finders.pop(page, None))
+        self._index(file.schema, file.machine)
+
+    def _changed(self, page: FilePage, finder: Finder) -> None:
+        file = page.workspace.file
+        if finder.machine != file.machine:
+            self._finders[page] = Finder(file.schema, file.machine, file)
+            self._index(file.schema, file.machine)
+        else:
+            finder.forget_values()
+
+    def _index(self, schema: Schema, machine: str) -> None:
+        """Index the words of a family on a machine type in a thread; a question that waits for it is asked again."""
+        key = (id(schema), machine)
+        if key in self._indexed:
+            return
+
+        def done(_: object) -> None:
+            self._indexed.add(key)
+            if self.box.is_open:
+                self.box.search()
+
+        task = Task(lambda *_: index_of(schema, machine))
+        task.done.connect(done)
+        task.begin()
+
+    # -- asking --------------------------------------------------------------------------
+
+    def rows(self, query: str) -> list[FindRow]:
+        """Return what a question finds: in the file in front and among the commands, or among these alone."""
+        own = query.removeprefix(COMMANDS).strip()
+        if query.startswith(COMMANDS):
+            every = [self._hit(entry, 1.0) for entry in self._menu.entries]
+            hits = self._among(own) if own else every
+            return rows_of(hits, self._commands) or self._nothing("")
+        finder = self._finder()
+        found = finder.find(own) if finder is not None else []
+        found = sorted(found + self._among(own), key=lambda hit: -hit.score)
+        if found:
+            return rows_of(found, self._commands)
+        return self._nothing(finder.nearest(own) if finder is not None else "")
+
+    def _finder(self) -> Finder | None:
+        """Return the finder of the file in front once its family is indexed."""
+        finder = self._finders.get(self.window.page) if self.window.page is not None else None
+        is_ready = finder is not None and (id(finder.schema), finder.machine) in self._indexed
+        return finder if is_ready else None
+
+    def _read_menus(self) -> None:
+        """Learn which commands can be used now; the menus do not change while somebody types here."""
+        able = [(name, action) for name, action in commands(self.window.menuBar()) if action.isEnabled()]
+        self._commands = {str(n): action for n, (_, action) in enumerate(able)}
+        self._menu = Index(
+            Entry("command", name, str(n), (("name", name),)) for n, (name, _) in enumerate(able)
+        )
+
+    def _among(self, query: str) -> list[Hit]:
+        return [self._hit(match.entry, match.score * _COMMAND) for match in self._menu.search(query, 12)]
+
+    @staticmethod
+    def _hit(entry: Entry, score: float) -> Hit:
+        return Hit("command", entry.title, "", "name", entry.key, score)
+
+    def _nothing(self, nearest: str) -> list[FindRow]:
+        nothing = FindRow(self.box.tr("Nothing found"))
+        if not nearest:
+            return [nothing]
+        text = self.box.tr("Did you mean “{words}”?").format(words=nearest)
+        return [nothing, FindRow(text, icon="magnifying-glass", instead=nearest)]
+
+    # -- going there -----------------------------------------------------------------------
+
+    def _go(self, row: FindRow) -> None:
+        if row.action is not None:
+            self.box.clear()
+            self._leave()
+            row.action.trigger()
+        elif row.hit is not None and self.window.page is not None:
+            self.window.guarded(partial(self._follow, row.hit, self.window.page), "Find")
+
+    def _follow(self, hit: Hit, page: FilePage) -> None:
+        if hit.kind == "message":
+            MessageWindow(page, hit.key).show()
+            return
+        if hit.kind == "group":
+            group = next(g for g in page.workspace.file.schema.groups if g.key == hit.key)
+            page.groups.choose_group_of(group.parameters[0].id)
+        elif hit.address is not None:
+            page.go_to(hit.address)
+        else:
+            page.follow(hit.key)
+        page.table_view.setFocus()
+
+    def _leave(self) -> None:
+        if self.window.table_view is not None:
+            self.window.table_view.setFocus()
+        else:
+            self.box.clearFocus()

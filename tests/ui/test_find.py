@@ -1,0 +1,134 @@
+"""The find box: what it shows at each key, and where each row leads."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtTest import QTest
+
+from amp_studio.ui.find_box import FindBox
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.message_page import MessageWindow
+from amp_studio.ui.task import Task
+from amp_studio.ui.workspace import Workspace
+
+from .conftest import WAIT_MS, action
+
+
+@pytest.fixture
+def box(window: MainWindow, qtbot) -> FindBox:
+    """Return the box of a window whose family is indexed."""
+    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    return window.finder.box
+
+
+def heads(box: FindBox) -> list[str]:
+    return [row.text for row in box.model.rows if row.is_head]
+
+
+def typed(box: FindBox, text: str) -> None:
+    box.begin("")
+    QTest.keyClicks(box, text)
+
+
+def test_control_f_and_control_k_come_to_the_box_and_control_g_too(window: MainWindow) -> None:
+    assert [key.toString() for key in action(window, "Find").shortcuts()] == ["Ctrl+F", "Ctrl+K"]
+    action(window, "Go to Number").trigger()
+    assert window.focusWidget() is window.finder.box
+
+
+def test_enter_goes_to_the_best_parameter_and_the_cursor_to_the_table(
+    window: MainWindow, box: FindBox
+) -> None:
+    typed(box, "exess error y")
+    assert (box.is_open, heads(box)[0]) == (True, "Parameters")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert window.selected() == ("servo.excess_error", "2")
+    assert window.table_view.hasFocus()
+    assert not box.is_open
+
+
+def test_a_number_a_value_and_a_choice_each_lead_to_their_cell(window: MainWindow, box: FindBox) -> None:
+    for text, address in (
+        ("2300", ("home.calibration", "2")),
+        ("12.7 mm", ("servo.lead_screw_pitch", "1")),
+        ("J3", ("servo.position_port", "3")),
+    ):
+        typed(box, text)
+        QTest.keyClick(box, Qt.Key.Key_Return)
+        assert window.selected() == address, text
+
+
+def test_heads_are_passed_by_the_keys_and_the_ends_join(box: FindBox) -> None:
+    typed(box, "closed loop")
+    rows = box.model.rows
+    able = [n for n, row in enumerate(rows) if not row.is_head]
+    assert len(heads(box)) > 2
+    seen = []
+    for _ in range(len(able) + 1):
+        seen.append(box.list.currentIndex().row())
+        QTest.keyClick(box, Qt.Key.Key_Down)
+    assert seen == [*able, able[0]]
+    QTest.keyClick(box, Qt.Key.Key_Up)
+    QTest.keyClick(box, Qt.Key.Key_Up)
+    assert box.list.currentIndex().row() == able[-1]
+    assert box.hasFocus()
+
+
+def test_escape_closes_the_list_and_keeps_the_question(box: FindBox) -> None:
+    typed(box, "home")
+    QTest.keyClick(box, Qt.Key.Key_Escape)
+    assert (box.is_open, box.text(), box.hasFocus()) == (False, "home", True)
+
+
+def test_the_list_closes_when_the_cursor_goes_elsewhere(window: MainWindow, box: FindBox) -> None:
+    typed(box, "home")
+    window.table_view.setFocus()
+    assert not box.is_open
+
+
+def test_nothing_found_offers_the_nearest_and_enter_takes_it(window: MainWindow, box: FindBox) -> None:
+    typed(box, "excccesss")
+    nothing, nearest = box.model.rows
+    assert (nothing.text, nearest.instead) == ("Nothing found", "excess")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert (box.text(), box.is_open) == ("excess", True)
+    assert heads(box)[0] == "Parameters"
+
+
+def test_a_value_is_found_as_it_was_edited(workspace: Workspace, box: FindBox) -> None:
+    address = ("servo.excess_error", "1")
+    workspace.edit("edit", {address: workspace.read(address, "17.123 mm")})
+    typed(box, "17.123")
+    assert box.model.rows[1].hit.address == address
+
+
+def test_a_message_opens_its_page_which_follows_every_edit(
+    window: MainWindow, workspace: Workspace, box: FindBox
+) -> None:
+    typed(box, "servo amp fe limts")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    page = window.findChild(MessageWindow)
+    assert "Gain Break Point is not below Feedrate Suppression Point" in page.text.toPlainText()
+    assert "In this file" not in page.text.toPlainText()
+    address = ("servo.gain_break_point", "1")
+    workspace.edit("edit", {address: workspace.read(address, "50 mm")})
+    assert "In this file" in page.text.toPlainText()
+    assert "X 50 mm" in page.text.toPlainText()
+    page.text.anchorClicked.emit(QUrl("at:servo.gain_break_point%402"))
+    assert window.selected() == ("servo.gain_break_point", "2")
+    QTest.keyClick(page, Qt.Key.Key_Escape)
+    assert not page.isVisible()
+
+
+def test_without_a_file_commands_are_found(open_window) -> None:
+    window = open_window()
+    window.finder.box.begin("new")
+    assert any(row.text == "File › New" for row in window.finder.box.model.rows)
+
+
+def test_a_closed_file_is_forgotten(window: MainWindow, box: FindBox, qtbot) -> None:
+    window.close_page(window.page)
+    qtbot.waitUntil(lambda: not window.finder._finders, timeout=WAIT_MS)
+    box.begin("home")
+    assert "Parameters" not in heads(box)
