@@ -39,8 +39,8 @@ class FindActions:
         self.actions = [
             act("&Find…", self.box.begin, "Ctrl+F", ""),
             act("&Go to Number…", self.box.begin, "Ctrl+G", "file"),
-            act("Co&mmands…", partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", ""),
         ]
+        self.commands_action = act("&Commands…", partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", "")
         self.actions[0].setShortcuts([QKeySequence("Ctrl+F"), QKeySequence("Ctrl+K")])
 
     # -- the files ---------------------------------------------------------------------

@@ -79,6 +79,7 @@ class MainWindow(StudioWindow):
 
     def _help_menu(self) -> None:
         menu = self.menuBar().addMenu("&Help")
+        menu.addAction(self.finder.commands_action)
         menu.addAction(self.action("&About AMP Studio", self._about, None, ""))
 
     def _toolbar(self) -> None:
