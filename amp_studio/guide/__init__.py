@@ -5,7 +5,7 @@ steps that have been reached and which are deferred; ``next_open`` is the next v
 ticked is kept in the head of the file (``tick``).
 """
 
-from .progress import GuideProgress, StepProgress, next_open, progress
+from .progress import GuideProgress, StepProgress, StepState, next_open, progress
 from .steps import SetupStep, find_step, step_of, steps_of
 from .ticks import tick
 
@@ -13,6 +13,7 @@ __all__ = [
     "GuideProgress",
     "SetupStep",
     "StepProgress",
+    "StepState",
     "find_step",
     "next_open",
     "progress",

@@ -3,11 +3,11 @@
 A value is *open* where the file needs it and has none: the parameter is active, can be set, and is not one that a file is
 complete without. A value is *untouched* where it is open or the printed default.
 
-A finding belongs to the last step of which it reads an untouched value: not before then has anybody put that value next
-to the others. Where it reads none, somebody has set all that it is about, and it belongs to the step of what is wrong.
+Where what is wrong has been set by somebody, he learns it at once. A finding about untouched values alone belongs to the
+last step of which it reads one: not before then has anybody put that value next to the others.
 
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an error belongs
-to it. A finding that reads an untouched value of a later step is deferred: left out of a list, never of a check.
+to it. A finding that belongs to a later step is deferred: left out of a list, never of a check.
 ``validate``, a download and its preview know nothing of steps.
 """
 
@@ -20,9 +20,9 @@ from typing import Literal
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
-from amp_studio.validate import Finding, Validator
+from amp_studio.validate import NOT_SET, Finding, Validator
 
-from .steps import SetupStep, step_of, steps_of
+from .steps import REST, SetupStep, step_of, steps_of
 
 StepState = Literal["not begun", "begun", "done", "not needed"]
 
@@ -61,7 +61,7 @@ class StepProgress:
         It is done when nothing is open, nothing about it is an error, and all that somebody had to give is given. Where
         every value has a default nobody had to give any: then it is done when a person ticks it.
         """
-        if not self.active:
+        if not self.active or (self.step.id == REST and not self.total and not self.own):
             return "not needed"
         if not self.open and not self.count("error") and (self.total or self.ticked):
             return "done"
@@ -103,9 +103,9 @@ class GuideProgress:
         return self.steps[step.number - 1]
 
 
-def progress(validator: Validator) -> GuideProgress:
-    """Return how far the file of a validator, which has run, has come."""
-    file, findings = validator.file, validator.findings()
+def progress(validator: Validator, findings: Sequence[Finding] | None = None) -> GuideProgress:
+    """Return how far the file of a validator, which has run, has come; ``findings`` are its present ones."""
+    file, findings = validator.file, validator.findings() if findings is None else findings
     places, steps = step_of(file.schema), steps_of(file.schema)
     not_set = set(validator.not_set)
     total, active, own = Counter[int](), Counter[int](), Counter[int]()
@@ -140,21 +140,17 @@ def progress(validator: Validator) -> GuideProgress:
     return GuideProgress(each, each[reached - 1] if reached <= len(steps) else None, deferred)
 
 
-NOT_SET = "schema.unset"
-"""The one recommendation about all values that are not set: progress has the same, step by step."""
-
-
 def _waits_for(file: ParameterFile, finding: Finding) -> int:
-    """Return the number of the last step of which a finding reads an untouched value; 0 where it reads none."""
+    """Return the number of the last step of which a finding reads an untouched value; 0 where somebody has set a cause."""
+
+    def is_untouched(address: Address) -> bool:
+        return address not in file.values or file.is_default(address)
+
+    if not all(map(is_untouched, finding.causes)):
+        return 0
     places = step_of(file.schema)
-    return max(
-        (
-            places[address[0]].number
-            for address in finding.addresses
-            if address[0] in places and (address not in file.values or file.is_default(address))
-        ),
-        default=0,
-    )
+    untouched = (a[0] for a in finding.addresses if a[0] in places and is_untouched(a))
+    return max((places[name].number for name in untouched), default=0)
 
 
 def _step_of_cause(file: ParameterFile, finding: Finding) -> int:

@@ -16,7 +16,7 @@ from amp_studio.validate import Finding, not_set
 
 from .detail_panel import DetailPanel
 from .findings_panel import FindingsPanel
-from .group_list import GroupList
+from .left_panel import LeftPanel
 from .message_bar import MessageBar
 from .parameter_table import ParameterTable
 from .value_table import ValueTable
@@ -48,9 +48,11 @@ class FilePage(QWidget):
         commit_here = partial(commit, workspace)
         self.table = ParameterTable(workspace)
         self.table_view = ValueTable(self.table, cell_actions)
-        self.groups = GroupList(workspace)
+        self.left = LeftPanel(workspace)
+        self.groups = self.left.groups
         self.detail = DetailPanel(workspace, commit_here)
         self.findings = FindingsPanel(workspace)
+        self.findings.hold_back(workspace.is_deferred)
         self.bar = MessageBar()
         self._title = ""
         self.pictures: QWidget | None = None
@@ -63,7 +65,8 @@ class FilePage(QWidget):
         for widget in (self.bar, self.list_title, self.table_view):
             layout.addWidget(widget)
         self.setFocusProxy(self.table_view)
-        self.groups.chosen.connect(self._show_parameters)
+        self.left.chosen.connect(self._show_parameters)
+        self.left.steps.wanted.connect(self.go_to)
         self.groups.left.connect(self.table_view.setFocus)
         self.table_view.selected.connect(self.detail.show_address)
         self.table_view.selected.connect(self.selected)
@@ -77,7 +80,7 @@ class FilePage(QWidget):
         workspace.changed.connect(self._tell)
         workspace.saved.connect(self._tell)
         workspace.undo_stack.indexChanged.connect(self._tell)  # a step is on the stack only after it was made
-        self.groups.choose()
+        self.left.choose()
 
     def _tell(self, *_: object) -> None:
         self.changed.emit(self)
@@ -85,7 +88,7 @@ class FilePage(QWidget):
     @property
     def panels(self) -> dict[str, QWidget]:
         """Name of a dock -> what it shows while this page is in front."""
-        return {"Groups": self.groups, "Parameter": self.detail, "Findings": self.findings}
+        return {"Groups": self.left, "Parameter": self.detail, "Findings": self.findings}
 
     @property
     def title(self) -> str:
@@ -181,7 +184,7 @@ class FilePage(QWidget):
         self.front_wanted.emit(self)
         self.show_pictures(False)
         if not self.table.index_of(address).isValid():
-            self.groups.choose_group_of(address[0])
+            self.left.show_place_of(address[0])
         if not self.table.values.exists(address):
             self.show_columns(self.table.all_axes, hidden_too=True)
         if not self.table.index_of(address).isValid():

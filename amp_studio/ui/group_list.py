@@ -1,15 +1,19 @@
-"""The left side: a search field over the parameter groups."""
+"""The parameter groups beside the table: areas, groups and their sections, with a search field over them."""
 
 from __future__ import annotations
 
+from collections import Counter
+
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.report.wording import counted
-from amp_studio.schema import Parameter
+from amp_studio.schema import Group, Parameter
+from amp_studio.validate import NOT_SET, SEVERITIES
 
-from .theme import severity_ink
+from .place_tree import COUNTS, INK, RIGHT, PlaceTree
+from .theme import GAP, GAP2
 from .workspace import Workspace
 
 _KEYS = Qt.ItemDataRole.UserRole
@@ -48,20 +52,18 @@ class GroupList(QWidget):
         self.search.setAccessibleName("Search parameters")
         self.search.textChanged.connect(self.choose)
         self.search.left.connect(self.left)
-        self.tree = QTreeWidget()
-        self.tree.setHeaderHidden(True)
+        self.tree = PlaceTree()
         self.tree.setColumnCount(3)
-        self.tree.setUniformRowHeights(True)
-        self.tree.setIndentation(14)
-        layout = QVBoxLayout(self)
+        self.tree.setAccessibleName(self.tr("Parameter groups"))
+        layout, above = QVBoxLayout(self), QVBoxLayout()
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(3)
-        layout.addWidget(self.search)
+        layout.setSpacing(0)
+        above.setContentsMargins(GAP2, GAP, GAP2, GAP)
+        above.addWidget(self.search)
+        layout.addLayout(above)
         layout.addWidget(self.tree)
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
-        self._steps: dict[str, set[str]] = {}
-        """Key of a step of a guide -> the parameters to set in it."""
         self._machine, self._texts = workspace.file.machine, _search_texts(workspace)
         self._fill()
         self.tree.currentItemChanged.connect(self._choose_group)
@@ -84,31 +86,38 @@ class GroupList(QWidget):
             ("With findings", _FINDINGS),
         ):
             self._add(None, text, [key])
-        by_name: dict[str, list[str]] = {}
-        for group in schema.groups:
-            by_name.setdefault(group.name, []).append(group.key)
-        sections = {g.key: g.section for g in schema.groups}
-        for name, keys in by_name.items():
-            item = self._add(None, name, keys)
-            for key in keys if len(keys) > 1 else ():
-                self._add(item, sections[key], [key])
-            item.setExpanded(True)
-        for guide in schema.guides:
-            keys = [f"{guide.id} {n}" for n in range(1, len(guide.steps) + 1)]
-            self._steps |= {key: set(step.params) for key, step in zip(keys, guide.steps, strict=True)}
-            item = self._add(None, guide.title, keys)
-            for n, (key, step) in enumerate(zip(keys, guide.steps, strict=True), 1):
-                tip = f"{step.title}, page {step.page}" + (f": {step.what}" if step.what else "")
-                self._add(item, f"{n}  {step.title}", [key]).setToolTip(0, tip)
+        areas = [(area.name, area.groups) for area in schema.family.areas]
+        by_key = {group.key: group for group in schema.groups}
+        for name, keys in areas or [("", tuple(by_key))]:
+            head = self._add_head(name) if name else None
+            self._add_groups(head, [by_key[key] for key in keys])
+        self.tree.expandAll()
         header = self.tree.header()
         header.setStretchLastSection(False)
         header.setMinimumSectionSize(8)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        for column in (1, 2):
-            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        for column in (1, 2):  # for who reads the tree without seeing it
+            header.hideSection(column)
         self.update_counts()
         self._hide_empty()
-        self.tree.setCurrentItem(next(i for i in self._items[3:] if not i.isHidden()))
+        self.tree.setCurrentItem(next(i for i in self._items[3:] if not i.isHidden() and i.data(0, _KEYS)))
+
+    def _add_head(self, name: str) -> QTreeWidgetItem:
+        """Add an area: a head over its groups, no page."""
+        head = self._add(None, name, [])
+        head.setFlags(Qt.ItemFlag.ItemIsEnabled)
+        head.setData(0, INK, "dim")
+        return head
+
+    def _add_groups(self, head: QTreeWidgetItem | None, groups: list[Group]) -> None:
+        """Add groups under an area, those of one name as one with its sections below it."""
+        by_name: dict[str, list[Group]] = {}
+        for group in groups:
+            by_name.setdefault(group.name, []).append(group)
+        for name, alike in by_name.items():
+            item = self._add(head, name, [group.key for group in alike])
+            for group in alike if len(alike) > 1 else ():
+                self._add(item, group.section, [group.key])
 
     def _hide_empty(self) -> None:
         """Hide the groups of which this machine type, or this control, has no parameter."""
@@ -117,15 +126,16 @@ class GroupList(QWidget):
         groups = {group.key for group in schema.groups}
         for item in self._items:
             keys = set(item.data(0, _KEYS))
-            item.setHidden(keys <= groups and keys.isdisjoint(present))
+            item.setHidden(bool(keys) and keys <= groups and keys.isdisjoint(present))
+        for item in self._items:
+            if not item.data(0, _KEYS):
+                item.setHidden(all(item.child(n).isHidden() for n in range(item.childCount())))
 
     def _add(self, parent: QTreeWidgetItem | None, text: str, keys: list[str]) -> QTreeWidgetItem:
         item = QTreeWidgetItem([text.removesuffix(" Parameters"), "", ""])
         item.setData(0, _KEYS, keys)
         self._items.append(item)
         item.setToolTip(0, text)
-        for column in (1, 2):
-            item.setTextAlignment(column, Qt.AlignmentFlag.AlignRight)
         if parent is None:
             self.tree.addTopLevelItem(item)
         else:
@@ -133,20 +143,29 @@ class GroupList(QWidget):
         return item
 
     def update_counts(self) -> None:
-        """Show how many errors and warnings each group has."""
+        """Show how many findings and open values each group has."""
         schema = self._workspace.file.schema
-        found = []
-        for finding in self._workspace.findings:
-            ids = {a[0] for a in finding.causes}
-            steps = {key for key, params in self._steps.items() if not params.isdisjoint(ids)}
-            found.append((finding.severity, {schema.group_of[name].key for name in ids} | steps))
+        found = [
+            (finding.severity, {schema.group_of[a[0]].key for a in finding.causes})
+            for finding in self._workspace.listed
+            if finding.rule != NOT_SET
+        ]
+        not_set = Counter(
+            schema.group_of[a[0]].key for each in self._workspace.progress.steps for a in each.open
+        )
         for item in self._items:
             keys = set(item.data(0, _KEYS))
-            for column, severity in ((1, "error"), (2, "warning")):
-                count = sum(s == severity and not keys.isdisjoint(places) for s, places in found)
-                item.setText(column, str(count) if count else "")
-                item.setForeground(column, severity_ink(severity))
-                item.setToolTip(column, counted(count, severity) if count else "")
+            counts = {
+                s: sum(own == s and not keys.isdisjoint(places) for own, places in found) for s in SEVERITIES
+            }
+            for column, severity in enumerate(SEVERITIES[:2], 1):
+                item.setText(column, str(counts[severity] or ""))
+            missing = sum(not_set[key] for key in keys)
+            item.setData(0, COUNTS, tuple((s, n) for s, n in counts.items() if n))
+            item.setData(0, RIGHT, str(missing) if missing else "")
+            parts = [item.text(0), *(counted(n, s) for s, n in counts.items() if n)]
+            parts += [self.tr("%n values not set", "", missing)] if missing else []
+            item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
 
     def _follow(self, addresses: list[object]) -> None:
         """Update the counts, and a list that depends on values, after the present edit."""
@@ -155,7 +174,12 @@ class GroupList(QWidget):
             self._hide_empty()
         self.update_counts()
         item = self.tree.currentItem()
-        if item is not None and item.data(0, _KEYS)[0] in (_CHANGED, _FINDINGS) and not self.search.text():
+        if (
+            item is not None
+            and item.data(0, _KEYS)[:1]
+            and item.data(0, _KEYS)[0] in (_CHANGED, _FINDINGS)
+            and not self.search.text()
+        ):
             self._later.start(0)
 
     # -- choosing --------------------------------------------------------------
@@ -175,7 +199,7 @@ class GroupList(QWidget):
             item.setSelected(not words)
         if words:
             self.chosen.emit(f"Search: {self.search.text()}", self.found(words))
-        elif item is not None:
+        elif item is not None and item.data(0, _KEYS):
             self.chosen.emit(item.toolTip(0), self._parameters(item.data(0, _KEYS)))
 
     def found(self, words: list[str]) -> list[Parameter]:
@@ -199,17 +223,9 @@ class GroupList(QWidget):
             ids = {a[0] for a in file.values if not file.is_default(a)}
             return [p for p in every if p.id in ids]
         if keys == [_FINDINGS]:
-            ids = {a[0] for f in self._workspace.findings for a in f.addresses if f.rule != "schema.unset"}
+            ids = {a[0] for f in self._workspace.listed for a in f.addresses if f.rule != NOT_SET}
             return [p for p in every if p.id in ids]
-        if keys[0] in self._steps:
-            order = dict.fromkeys(name for key in keys for name in self._ordered(key))
-            return [schema.parameters[name] for name in order]
         return [p for g in schema.groups if g.key in keys for p in g.parameters]
-
-    def _ordered(self, key: str) -> tuple[str, ...]:
-        """Return the parameters of a step in the guide's order."""
-        guide, _, n = key.rpartition(" ")
-        return next(g for g in self._workspace.file.schema.guides if g.id == guide).steps[int(n) - 1].params
 
     def choose_group_of(self, parameter_id: str) -> None:
         """Select the group of a parameter."""

@@ -20,6 +20,8 @@ from .file_actions import FileActions
 from .file_page import FilePage
 from .find_actions import FindActions
 from .garbage import collect_by_timer
+from .guide_actions import GuideActions
+from .left_panel import as_side
 from .picture_actions import PictureActions
 from .program_icon import program_icon
 from .project_actions import ProjectActions
@@ -55,6 +57,7 @@ class MainWindow(StudioWindow):
         self.finder = FindActions(self)
         self.edits.menu.addActions(self.finder.actions)
         self.axes = AxisActions(self)
+        self.guide = GuideActions(self)
         self.view = ViewActions(self)
         self.pictures = PictureActions(self)
         self.view.menu.addActions([self.pictures.action, self.pictures.save])
@@ -109,6 +112,10 @@ class MainWindow(StudioWindow):
         page.findings.several_requested.connect(lambda: self.guarded(self.edits.fix_several, "Fix Several"))
         page.findings.explanation_requested.connect(self._why)
         page.findings.suppression_requested.connect(self._suppress)
+        self.guide.connect_page(page)
+        if side := as_side(self.settings.left_side()):
+            page.left.show_side(side)
+        page.left.turned.connect(self.settings.keep_left_side)
         DiskWatch(page, self.files.compare_with_disk, self.files.reload)
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
@@ -172,6 +179,7 @@ class MainWindow(StudioWindow):
         self.axes.enable(workspace)
         self.edits.show_state(workspace)
         self.control.enable()
+        self.guide.show_state()
         self.view.check(workspace)
         self.pictures.check(self.page)
         self.tools.show_units()

@@ -76,6 +76,14 @@ class UserSettings:
         """Store the theme."""
         self._stored.setValue("theme", choice)
 
+    def left_side(self) -> object:
+        """Return which side the left panel was turned to, as it was stored."""
+        return self._value("left")
+
+    def keep_left_side(self, side: str) -> None:
+        """Store which side the left panel is turned to."""
+        self._stored.setValue("left", side)
+
     # -- windows -------------------------------------------------------------------
 
     def place(self, window: QMainWindow) -> None:

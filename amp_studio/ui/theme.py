@@ -167,6 +167,12 @@ def severity_colour(severity: str | None) -> QColor:
     return colour(_SEVERITY[severity][1]) if severity in _SEVERITY else QColor(Qt.GlobalColor.transparent)
 
 
+def severity_mark(severity: str) -> tuple[str, Token]:
+    """Return the name of the icon of a severity and its ink. For delegates."""
+    ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    return name, ink
+
+
 def severity_icon(severity: str) -> QIcon:
     """Return the icon of a severity, in its colour."""
     ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])

@@ -15,6 +15,7 @@ from amp_studio.files import Change, Comparison, Document, Opened, ParameterFile
 from amp_studio.files.block_entry import BlockEntry, plan_entry
 from amp_studio.files.lock import now
 from amp_studio.files.parameter_file import Marks
+from amp_studio.guide import GuideProgress, progress
 from amp_studio.schema import Address, Value, axis_name, show_value
 from amp_studio.validate import NOT_SET, Finding, Validator, rules_beside
 from amp_studio.validate.cell_expression import Entered, enter, read_plain
@@ -65,6 +66,10 @@ class Workspace(QObject):
         self.undo_stack = QUndoStack(self)
         self.validator = validator or Validator(document.file)
         self.findings: tuple[Finding, ...] = validator.findings() if validator else self.validator.run()
+        self._progress: GuideProgress | None = None
+        """How far commissioning is, until the findings change."""
+        self.shows_later = False
+        """Whether findings of steps that have not been reached are listed too."""
         self.as_entered = False
         """Whether each value is shown in its unit of entry instead of the file's unit system."""
         self.secrets = False
@@ -180,7 +185,7 @@ class Workspace(QObject):
 
     def after_edit(self, addresses: list[Address]) -> None:
         """Update the findings and notify the views."""
-        self.findings = self.validator.update(addresses)
+        self.findings, self._progress = self.validator.update(addresses), None
         if (
             not self._journal.isActive()
         ):  # not restarted by the next edit, so that continued typing loses no more than this
@@ -192,13 +197,13 @@ class Workspace(QObject):
         self.as_entered = units is None
         if units is not None:
             self.file.header.units = units
-        self.findings = self.validator.run()  # messages give numbers in these units
+        self.findings, self._progress = self.validator.run(), None  # messages give numbers in these units
         self.changed.emit([])
 
     def read_own_rules(self) -> None:
         """Check again with the present rules file beside the parameter file."""
         self.validator = Validator(self.file, rules_beside(self.path, self.file.schema))
-        self.findings = self.validator.run()
+        self.findings, self._progress = self.validator.run(), None
         self.changed.emit([])
 
     # -- disk ------------------------------------------------------------------
@@ -250,6 +255,27 @@ class Workspace(QObject):
 
     # -- asking ----------------------------------------------------------------
 
+    @property
+    def progress(self) -> GuideProgress:
+        """How far commissioning is: what each step has open, and which findings are deferred."""
+        if self._progress is None:
+            self._progress = progress(self.validator, self.findings)
+        return self._progress
+
+    def is_deferred(self, finding: Finding) -> bool:
+        """Return whether lists leave a present finding out: it is of a step that has not been reached, and nobody has asked for it."""
+        return not self.shows_later and any(finding is later for later in self.progress.deferred)
+
+    @property
+    def listed(self) -> tuple[Finding, ...]:
+        """The findings that lists show."""
+        return tuple(finding for finding in self.findings if not self.is_deferred(finding))
+
+    def show_later(self, later: bool) -> None:
+        """List the findings of steps that have not been reached, or leave them out."""
+        self.shows_later = later
+        self.changed.emit([])
+
     def findings_of(self, address: Address) -> tuple[Finding, ...]:
         """Return the findings about one address."""
         return tuple(f for f in self.findings if address in f.addresses)
@@ -260,7 +286,7 @@ class Workspace(QObject):
 
     def count(self, severity: str) -> int:
         """Return how many findings of a severity there are; values that are not set are a state of the file, not findings."""
-        return sum(f.severity == severity and f.rule != NOT_SET for f in self.findings)
+        return sum(f.severity == severity and f.rule != NOT_SET for f in self.listed)
 
     def changes(self) -> int:
         """Return how many values differ from those on disk, as far as this program knows them."""

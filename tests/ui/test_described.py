@@ -35,6 +35,7 @@ def board(open_window, tmp_path: Path) -> MainWindow:
 
 
 def test_the_columns_are_the_axes_of_the_control_and_absent_groups_are_hidden(board: MainWindow) -> None:
+    board.page.left.show_side("groups")
     board.go_to(("axis.max_rate", "X"))
     assert board.table.columns == ["X", "Y", "Z"]
     assert "axis.jerk" not in [row.parameter.id for row in board.table.rows]

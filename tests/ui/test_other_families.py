@@ -41,12 +41,13 @@ def test_every_axis_has_a_column_and_every_word_a_row(wide: MainWindow) -> None:
 
 
 def test_a_guide_leads_through_the_parameters_in_its_own_order(wide: MainWindow) -> None:
-    guide = wide.groups.tree.findItems("Order of integration", Qt.MatchFlag.MatchExactly)[0]
+    steps_tree = wide.page.left.steps.tree
+    guide = steps_tree.findItems("Order of integration", Qt.MatchFlag.MatchExactly)[0]
     steps = [guide.child(n) for n in range(guide.childCount())]
     assert [step.text(0) for step in steps] == ["1  The words", "2  The axes"]
-    wide.groups.tree.setCurrentItem(steps[1])
+    steps_tree.setCurrentItem(steps[1])
     assert [row.parameter.id for row in wide.table.rows] == ["axis.position", *["word.mode"] * 3]
-    wide.groups.tree.setCurrentItem(guide)
+    steps_tree.setCurrentItem(guide)
     assert [row.parameter.id for row in wide.table.rows][:3] == ["word.mode"] * 3
     assert "Set the words first." in steps[0].toolTip(0)
 

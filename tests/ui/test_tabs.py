@@ -59,11 +59,11 @@ def test_the_docks_show_the_file_in_front(window: MainWindow, num: Path, qtbot: 
     first = window.page
     window.files.open_path(num)
     second = window.page
-    qtbot.waitUntil(second.groups.isVisible, timeout=WAIT_MS)
-    assert not first.groups.isVisible()
+    qtbot.waitUntil(second.left.isVisible, timeout=WAIT_MS)
+    assert not first.left.isVisible()
     window.tabs.bring(first)
-    assert first.groups.isVisible()
-    assert not second.groups.isVisible()
+    assert first.left.isVisible()
+    assert not second.left.isVisible()
 
 
 def test_the_table_keeps_its_width_when_a_second_file_opens(

@@ -1,0 +1,208 @@
+"""Commissioning in the window: steps beside the table, the next value that is not set, findings that wait for their step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QTreeWidgetItem
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import Document, new_file
+from amp_studio.guide import SetupStep
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.place_tree import COUNTS, KEY, PICTURE, RIGHT
+from amp_studio.ui.steps_panel import StepsPanel
+from amp_studio.ui.workspace import Workspace
+
+from .conftest import action
+
+
+@pytest.fixture
+def fresh(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
+    """Return a window with a new mill of three axes that have servos."""
+    window = open_window()
+    file = new_file("9pc", "mill", ["X", "Y", "Z"])
+    for axis in "123":
+        file.set(("servo.hardware_type", axis), Value("sercos"))
+        file.set(("servo.loop_type", axis), Value("digital"))
+    window.show_workspace(Workspace(Document.create(file, tmp_path / "new.amp")))
+    return window
+
+
+def item(steps: StepsPanel, step_id: str) -> QTreeWidgetItem:
+    """Return the place of a step."""
+    found = [steps.tree.topLevelItem(n) for n in range(steps.tree.topLevelItemCount())]
+    return next(i for i in found if isinstance(i.data(0, KEY), SetupStep) and i.data(0, KEY).id == step_id)
+
+
+def test_a_new_file_opens_at_its_steps_and_a_complete_one_at_its_groups(
+    fresh: MainWindow, path: Path
+) -> None:
+    assert fresh.page.left.side == "steps"
+    assert "Step 2 › Axis names and rollover" in fresh.page.list_title.text()
+    fresh.open_first(path)
+    assert fresh.page.left.side == "groups"
+
+
+def test_the_bar_and_the_steps_show_how_far_the_file_is(fresh: MainWindow) -> None:
+    steps = fresh.page.left.steps
+    assert steps.steps_done.text() == "1 of 22 steps"
+    total = fresh.workspace.progress.total
+    assert steps.values_set.text() == f"3 of {total} set"
+    assert item(steps, "control").data(0, PICTURE)[0] == "check-circle-fill"
+    assert item(steps, "axis").data(0, PICTURE)[0] == "circle"
+    assert item(steps, "axis").data(0, RIGHT) == "3"
+    assert "3 values not set" in item(steps, "axis").data(0, Qt.ItemDataRole.AccessibleTextRole)
+
+
+def test_the_open_values_are_under_the_present_step_with_their_axes(fresh: MainWindow) -> None:
+    here = item(fresh.page.left.steps, "axis")
+    assert here.isExpanded()
+    assert [(here.child(n).text(0), here.child(n).data(0, RIGHT)) for n in range(here.childCount())] == [
+        ("185 Axis Integrand Name", "X Y Z")
+    ]
+    fresh.page.left.steps.tree.setCurrentItem(here.child(0))
+    assert fresh.selected() == ("axis.integrand_name", "1")
+
+
+def test_a_key_goes_from_one_open_value_to_the_next_and_names_what_it_passes(fresh: MainWindow) -> None:
+    fresh.go_to(("control.type", ""))
+    seen = []
+    for _ in range(4):
+        action(fresh, "Next Not Set").trigger()
+        seen.append(fresh.selected())
+    assert seen == [
+        *(("axis.integrand_name", axis) for axis in "123"),
+        ("home.g28_direction", "1"),
+    ]
+    assert fresh.table_view.hasFocus()
+    assert "G28 Direction to Home" in fresh.detail.pages["Help"].toPlainText()
+    last_zone = fresh.workspace.progress.steps[3].open[-1]
+    fresh.go_to(last_zone)
+    action(fresh, "Next Not Set").trigger()
+    assert fresh.selected()[0] == "jog.speed_lowest"
+    assert fresh.statusBar().currentMessage() == (
+        "All at their defaults, check them too: SERCOS ring and servos, Position loop, Velocity loop, Motors and amplifiers"
+    )
+
+
+def test_an_edit_is_followed_and_taken_back(fresh: MainWindow, qtbot: QtBot) -> None:
+    steps = fresh.page.left.steps
+    wanted = {("axis.integrand_name", axis): Value(letter) for axis, letter in zip("123", "ijk", strict=True)}
+    fresh.workspace.edit("names", wanted)
+    qtbot.waitUntil(lambda: item(steps, "axis").data(0, PICTURE)[0] == "check-circle-fill")
+    assert item(steps, "axis").data(0, RIGHT) == ""
+    fresh.edits.undo.trigger()
+    qtbot.waitUntil(lambda: item(steps, "axis").data(0, RIGHT) == "3")
+
+
+def test_findings_of_later_steps_wait_until_they_are_asked_for(fresh: MainWindow, qtbot: QtBot) -> None:
+    workspace, steps = fresh.workspace, fresh.page.left.steps
+    later = len(workspace.progress.deferred)
+    assert later > 20
+    assert steps.later.text() == f"{later} later findings held back"
+    assert fresh.findings.model.findings == workspace.listed
+    assert len(workspace.listed) == len(workspace.findings) - later
+    assert workspace.count("error") == 0
+    steps.show_later.click()
+    assert fresh.findings.model.findings == workspace.findings
+    assert workspace.count("error") > 10
+    qtbot.waitUntil(lambda: steps.show_later.text() == "Hide")
+    assert action(fresh, "Show Later Findings").isChecked()
+    action(fresh, "Show Later Findings").trigger()
+    assert workspace.count("error") == 0
+
+
+def test_the_findings_of_a_step_come_when_it_is_reached(fresh: MainWindow, qtbot: QtBot) -> None:
+    steps = fresh.page.left.steps
+    while fresh.workspace.progress.current.step.id in ("axis", "home", "zone"):
+        address = fresh.workspace.progress.current.open[0]
+        parameter = fresh.workspace.file.schema.parameters[address[0]]
+        first = parameter.choices[0].key if parameter.choices else ""
+        text = {"integer": "0", "real": str(-len(fresh.workspace.validator.not_set))}.get(parameter.type, first)
+        value = fresh.workspace.read(address, text)
+        fresh.workspace.edit("one", {address: value}, force="a test")
+        if fresh.workspace.progress.current.open == ():
+            break
+    fresh.page.left.steps.show_progress()
+    shown = [severity for severity, _ in item(steps, fresh.workspace.progress.current.step.id).data(0, COUNTS)]
+    assert "error" in shown
+
+
+def test_a_step_is_ticked_and_the_tick_is_undone_and_saved(fresh: MainWindow) -> None:
+    fresh.go_to(("dual.group", "1"))
+    action(fresh, "Mark Step as Done").trigger()
+    assert fresh.workspace.progress.steps[18].state == "done"
+    fresh.edits.undo.trigger()
+    assert fresh.workspace.progress.steps[18].state == "not begun"
+    fresh.edits.redo.trigger()
+    assert fresh.workspace.is_dirty
+    assert fresh.save()
+    assert "done:\n  dual: " in fresh.workspace.path.read_text("utf-8")
+    action(fresh, "Mark Step as Done").trigger()
+    assert fresh.workspace.file.header.done == {}
+
+
+def test_a_tick_on_an_unfinished_step_shows_what_is_left(fresh: MainWindow) -> None:
+    fresh.go_to(("axis.integrand_name", "1"))
+    action(fresh, "Mark Step as Done").trigger()
+    assert fresh.statusBar().currentMessage() == (
+        "Axis names and rollover is ticked. Left: 3 values not set, 0 errors."
+    )
+
+
+def test_the_defaults_of_a_step_are_kept_in_one_step_of_undo(fresh: MainWindow) -> None:
+    workspace = fresh.workspace
+    gone = [("feedrate.rapid", "1"), ("feedrate.max_cutting", "2")]
+    workspace.edit("clear", dict.fromkeys(gone))
+    fresh.go_to(gone[0])
+    action(fresh, "Keep Defaults of This Step").trigger()
+    assert [workspace.file.is_default(address) for address in gone] == [True, True]
+    fresh.edits.undo.trigger()
+    assert [workspace.file.get(address) for address in gone] == [None, None]
+
+
+def test_the_check_list_is_written_where_the_person_wants_it(
+    fresh: MainWindow, person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.ui.check_list_dialog.QDesktopServices.openUrl", lambda _: True)
+    person.chooses(tmp_path / "list.html")
+    fresh.page.left.steps.print.click()
+    assert "Axis Integrand Name" in (tmp_path / "list.html").read_text("utf-8")
+
+
+def test_groups_stand_under_their_areas_and_areas_are_no_pages(fresh: MainWindow) -> None:
+    groups = fresh.page.groups
+    heads = [i for i in groups._items if i.text(0) in ("Machine", "Drives", "Motion")]
+    assert [head.flags() & Qt.ItemFlag.ItemIsSelectable for head in heads] == [Qt.ItemFlag(0)] * 3
+    drives = heads[1]
+    assert [drives.child(n).text(0) for n in range(drives.childCount())] == ["Servo", "Axis Calibration"]
+    assert drives.child(0).childCount() == 6
+    jog = next(i for i in groups._items if i.text(0) == "Jog")
+    assert jog.parent() is heads[2]
+    assert jog.data(0, RIGHT) == "35"
+
+
+def test_the_side_that_was_chosen_last_is_that_of_the_next_file(fresh: MainWindow, path: Path) -> None:
+    QTest.mouseClick(fresh.page.left.segment.buttons["groups"], Qt.MouseButton.LeftButton)
+    assert "Axis Configuration" in fresh.page.list_title.text()
+    QTest.mouseClick(fresh.page.left.segment.buttons["steps"], Qt.MouseButton.LeftButton)
+    assert "Step 2" in fresh.page.list_title.text()
+    fresh.open_first(path)
+    assert fresh.page.left.side == "steps"
+
+
+def test_the_project_is_shown_in_its_place(fresh: MainWindow) -> None:
+    left = fresh.page.left
+    tree = QLabel("the machines")
+    left.set_project_tree(tree)
+    QTest.mouseClick(left.segment.buttons["project"], Qt.MouseButton.LeftButton)
+    assert tree.isVisible()
+    other = QLabel("another")
+    left.set_project_tree(other)
+    assert other.isVisible()
