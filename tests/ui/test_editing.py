@@ -265,7 +265,7 @@ def test_the_findings_follow_each_edit_and_equal_a_full_run(window: MainWindow, 
     for wanted in edits:
         workspace.edit("edit", wanted)
         assert workspace.findings == Validator(workspace.file).run()
-        assert window.findings.model.findings == workspace.listed
+        assert window.findings.model.findings == workspace.findings
     for _ in edits:
         workspace.undo_stack.undo()
         assert workspace.findings == Validator(workspace.file).run()

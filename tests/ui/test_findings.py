@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import QPoint, Qt, QUrl
 from PySide6.QtTest import QTest
@@ -26,6 +29,14 @@ def wrong(window: MainWindow) -> MainWindow:
     return window
 
 
+def with_all_findings(open_window: Callable[..., MainWindow], path: Path, bare: bytes) -> MainWindow:
+    """Return a window with a new file that lists the findings of later steps too."""
+    path.write_bytes(bare)
+    window = open_window(path)
+    window.workspace.show_later(True)
+    return window
+
+
 def test_errors_come_first_and_are_counted(wrong: MainWindow) -> None:
     model = wrong.findings.model
     assert model.index(0, 0).data().startswith("error: ")
@@ -45,8 +56,7 @@ def test_the_selected_finding_stays_selected(wrong: MainWindow) -> None:
 
 
 def test_when_a_rule_is_met_again_the_next_row_is_selected(path, bare: bytes, open_window) -> None:
-    path.write_bytes(bare)
-    panel = open_window(path).findings
+    panel = with_all_findings(open_window, path, bare).findings
     place = next(n for n, group in enumerate(panel.model.groups) if group.fixable and n)
     panel.view.setCurrentIndex(panel.model.index(place, 0))
     ended = panel.model.groups[place].key
@@ -106,8 +116,7 @@ def test_the_button_of_a_rule_fixes_it_on_every_axis_as_one_step(path, bare: byt
 
 
 def test_a_finding_below_its_rule_is_fixed_alone(path, bare: bytes, open_window) -> None:
-    path.write_bytes(bare)
-    wrong = open_window(path)
+    wrong = with_all_findings(open_window, path, bare)
     panel = wrong.findings
     panel.view.setExpanded(panel.model.index(0, 0), True)
     panel.view.setCurrentIndex(panel.model.index(2, 0, panel.model.index(0, 0)))
@@ -126,8 +135,7 @@ def test_a_link_goes_to_the_value_of_a_finding(path, bare: bytes, open_window) -
 
 
 def test_a_finding_without_a_fix_says_so(path, bare: bytes, open_window, person) -> None:
-    path.write_bytes(bare)
-    wrong = open_window(path)
+    wrong = with_all_findings(open_window, path, bare)
     panel = wrong.findings
     unable = next(n for n, group in enumerate(panel.model.groups) if not group.fixable)
     panel.view.setCurrentIndex(panel.model.index(unable, 0))
@@ -136,8 +144,7 @@ def test_a_finding_without_a_fix_says_so(path, bare: bytes, open_window, person)
 
 
 def test_findings_are_filtered_to_the_axis_and_the_group_in_front(path, bare: bytes, open_window) -> None:
-    path.write_bytes(bare)
-    wrong = open_window(path)
+    wrong = with_all_findings(open_window, path, bare)
     panel = wrong.findings
     wrong.go_to(("servo.loop_type", "5"))
     panel.scope.buttons["axis"].click()
@@ -154,8 +161,7 @@ def test_findings_are_filtered_to_the_axis_and_the_group_in_front(path, bare: by
 
 
 def test_a_severity_is_left_out_and_listed_again(path, bare: bytes, open_window) -> None:
-    path.write_bytes(bare)
-    panel = open_window(path).findings
+    panel = with_all_findings(open_window, path, bare).findings
     for severity in ("error", "warning", "advice"):
         panel.chips[severity].click()
     assert panel.model.groups == ()
@@ -165,8 +171,7 @@ def test_a_severity_is_left_out_and_listed_again(path, bare: bytes, open_window)
 
 
 def test_what_is_held_back_is_counted_and_not_listed(path, bare: bytes, open_window) -> None:
-    path.write_bytes(bare)
-    panel = open_window(path).findings
+    panel = with_all_findings(open_window, path, bare).findings
     panel.hold_back(lambda finding: finding.rule.startswith("9pc.accdec."))
     assert not any("accdec" in group.key for group in panel.model.groups)
     assert panel.note.text() == "8 of later steps left out"
