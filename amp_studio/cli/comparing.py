@@ -87,7 +87,7 @@ def _other_axis(file: ParameterFile, target: str, source: str) -> ParameterFile:
 
 
 def _by_letter(b: ParameterFile, a: ParameterFile) -> ParameterFile:
-    """Return B with its axes at the numbers that their letters have in A; says which moved."""
+    """Return B with its axes at the numbers that their letters have in A; which moved is a note."""
     from amp_studio.files.axis_match import matched_by_letter
 
     matched = matched_by_letter(b, a)

@@ -15,7 +15,7 @@ from .parameter_file import Change, ParameterFile
 Side = Literal["base", "a", "b"]
 Part = Literal["value", "header", "entry"]
 """What a row is about: a parameter, an entry of the header, or an entry that the schema does not know."""
-Kind = Literal["same", "a", "b", "both", "different", "conflict"]
+RowKind = Literal["same", "a", "b", "both", "different", "conflict"]
 """``a``, ``b``: only that side changed it (without a base: only that side has it); ``both``: to the same; ``different``: two
 values, and no base that would show who changed it; ``conflict``: both changed it, and not to the same."""
 
@@ -50,7 +50,7 @@ class Row:
     base: Value | None
     a: Value | None
     b: Value | None
-    kind: Kind
+    kind: RowKind
 
     @property
     def address(self) -> Address:
@@ -114,7 +114,9 @@ class Merge:
     def _row(self, row_id: RowId, base: Value | None, a: Value | None, b: Value | None) -> Row:
         return Row(row_id, base, a, b, self._kind(base, a, b))
 
-    def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> Kind:
+    def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> RowKind:
+        if a is b and (a is base or self.base is None):  # equal texts of files are one object
+            return "same"
         agree = same_value(a, b)
         if self.base is None:
             return "same" if agree else "a" if b is None else "b" if a is None else "different"
@@ -126,7 +128,7 @@ class Merge:
 
     @cached_property
     def differing(self) -> tuple[Row, ...]:
-        """The rows in which the sources are not all the same."""
+        """The rows in which the sources do not all agree."""
         return tuple(row for row in self.rows if row.kind != "same")
 
     @property

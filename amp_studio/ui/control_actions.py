@@ -36,6 +36,7 @@ class ControlActions:
         self.window, self._files = window, files
         self.emulated = EmulatedControl(window)
         self.exchanges = ControlExchange(window, self.emulated)
+        files.comparing.ask_address = self.exchanges.ask_address
         self.emulated.ready.connect(self._ready)
         self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
@@ -167,7 +168,7 @@ class ControlActions:
         from amp_studio.transfer.content import decode_content
         from amp_studio.transfer.image import ImageError
 
-        from .compare_dialog import DownloadPreview
+        from .download_preview import DownloadPreview
 
         image = self.exchanges.fetch(address, "Download", workspace.file.schema.family.family)
         if not image:
@@ -221,12 +222,9 @@ class ControlActions:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
             show_message(self.window, "Verify", found.summary(), icon)
             return
-        from .compare_dialog import CompareDialog
-
         page = self.window.page
         assert page is not None
-        outside = {a: workspace.file.values[a] for a in found.outside}
-        CompareDialog(workspace, outside | present.values, "the control", page.go_to, self.window).show()
+        self._files.comparing.with_control(page, image, address)
 
     def upload(self) -> None:
         """Read the parameters of the control, ask about each value out of range, and save them as a new file."""

@@ -1,4 +1,4 @@
-"""The file menu: new, open, save, save as, compare, recover, facts, report."""
+"""The file menu: new, open, save, save as, recover, facts, report."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from amp_studio.files import (
     same_file,
     write_atomic,
 )
-from amp_studio.files.by_schema import by_schema
 from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import EditLock
 from amp_studio.report.wording import counted
 from amp_studio.validate import Validator, rules_beside
 
+from .compare_actions import FILTER, CompareActions
 from .file_page import FilePage
 from .format_actions import FormatActions
 from .questions import ask
@@ -39,7 +39,6 @@ from .workspace import Workspace
 if TYPE_CHECKING:
     pass
 
-FILTER = "Parameter files (*.amp);;All files (*)"
 _RECENT, _IN_MENU = 24, 9
 
 CheckedDocument = tuple[Document, Validator]
@@ -51,7 +50,7 @@ Show = Callable[[Workspace, FilePage | None], FilePage]
 
 
 class FileActions:
-    """Everything that opens, saves, compares or prints the open file."""
+    """Everything that opens, saves or prints the open file."""
 
     def __init__(self, window: StudioWindow, show: Show) -> None:
         self.window, self._show_in_tab = window, show
@@ -70,8 +69,8 @@ class FileActions:
         menu.addMenu(self._recent_menu)
         menu.addActions([save, save_as, close])
         menu.addSeparator()
-        self.compare_action = act("Compare &With…", self.compare, None, "file", "git-diff", "Compare")
-        menu.addActions([self.compare_action, act("Recover &Backup…", self.recover, None, "edit")])
+        self.comparing = CompareActions(window, self.ask_path, self.write_new)
+        menu.addActions([self.comparing.action, act("Recover &Backup…", self.recover, None, "edit")])
         menu.addSeparator()
         self.formats = FormatActions(window, self.ask_path, self.write_new)
         menu.addActions(self.formats.actions)
@@ -232,24 +231,6 @@ class FileActions:
 
         self.window.guarded(work, "Open")
 
-    def compare_with_disk(self, page: FilePage) -> None:
-        """Show what differs from the file on disk, which another program has changed; from then on a save may replace it."""
-
-        def work() -> None:
-            workspace = page.workspace
-            on_disk = in_background(self.window, "Opening", lambda: open_file(workspace.path))
-            if on_disk.file.schema.family.family != workspace.file.schema.family.family:
-                raise ValueError(
-                    f"{workspace.path.name} is a file for {on_disk.file.schema.family.name} now. Save your work under a new name."
-                )
-            workspace.acknowledge(on_disk)
-            found = by_schema(on_disk.file, workspace.file.schema).values
-            CompareDialog(workspace, found, "the file on disk", page.go_to, self.window).show()
-
-        from .compare_dialog import CompareDialog
-
-        self.window.guarded(work, "Compare")
-
     def restore_session(self) -> None:
         """Open the files that were open when the program was left; what cannot be opened is named."""
         missing, self.last_session = [], []
@@ -333,23 +314,6 @@ class FileActions:
         self.write_new(path, lambda: workspace.document.save_as(path), page)
         if here:
             self.window.go_to(here)
-
-    def compare(self) -> None:
-        """List the differences from another file."""
-        workspace = self._workspace()
-        text, _ = QFileDialog.getOpenFileName(self.window, "Compare with", str(workspace.path.parent), FILTER)
-        if text:
-            from .compare_dialog import CompareDialog
-
-            other = in_background(self.window, "Opening", lambda: open_file(Path(text)).file)
-            if other.schema.family.family != workspace.file.schema.family.family:
-                raise ValueError(
-                    f"{Path(text).name} is a file for {other.schema.family.name}. Choose a file of the same control family."
-                )
-            page = self.window.page
-            assert page is not None
-            found = by_schema(other, workspace.file.schema).values
-            CompareDialog(workspace, found, Path(text).name, page.go_to, self.window).show()
 
     def recover(self) -> None:
         """Replace the open file by its backup."""

@@ -87,7 +87,7 @@ class MainWindow(StudioWindow):
 
     def _toolbar(self) -> None:
         undo = (self.edits.undo, self.edits.redo)
-        views = (self.pictures.action, *self.view.toolbar, self.files.compare_action)
+        views = (self.pictures.action, *self.view.toolbar, self.files.comparing.action)
         self.tools = MainToolBar(
             self, self.files.toolbar, undo, self.view.switch, views, self.control.toolbar
         )
@@ -116,7 +116,7 @@ class MainWindow(StudioWindow):
         if side := as_side(self.settings.left_side()):
             page.left.show_side(side)
         page.left.turned.connect(self.settings.keep_left_side)
-        DiskWatch(page, self.files.compare_with_disk, self.files.reload)
+        DiskWatch(page, self.files.comparing.with_disk, self.files.reload)
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
         self.finder.add(page)

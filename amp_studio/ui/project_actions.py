@@ -12,7 +12,7 @@ from amp_studio.files import ParameterFileError, Project
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 
-from .file_actions import FILTER
+from .compare_actions import FILTER
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import PATIENCE_MS, ProgressDialog, in_background

@@ -74,7 +74,7 @@ def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes)
     from amp_studio.transfer.content import decode_content
     from amp_studio.transfer.image import ImageError
 
-    from .compare_dialog import DownloadPreview
+    from .download_preview import DownloadPreview
 
     doubts = (
         []

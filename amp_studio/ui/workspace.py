@@ -11,7 +11,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from amp_studio.files import Change, Comparison, Document, Opened, ParameterFile, compare, describe, digest_of
+from amp_studio.files import Change, Document, Opened, ParameterFile, describe, digest_of
 from amp_studio.files.block_entry import BlockEntry, plan_entry
 from amp_studio.files.lock import now
 from amp_studio.files.parameter_file import Marks
@@ -308,8 +308,3 @@ class Workspace(QObject):
         """Store the values of the control, to be shown beside the values of the file."""
         self.control = (dict(values), when)
         self.changed.emit([])
-
-    def differences_to(self, values: Mapping[Address, Value]) -> Comparison:
-        """Return the comparison of the edited file with other values, as far as its schema knows them."""
-        known = {a: v for a, v in values.items() if a[0] in self.file.schema.parameters}
-        return compare(self.file.schema, self.file.values, known)

@@ -1,4 +1,4 @@
-"""What a file would have to be told that it has not been told before."""
+"""Findings that a changed file has and did not have before."""
 
 from __future__ import annotations
 

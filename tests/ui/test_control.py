@@ -13,8 +13,9 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import content_of, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
-from amp_studio.ui.compare_dialog import CompareDialog, DownloadPreview
+from amp_studio.ui.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_window import MergeWindow
 from amp_studio.ui.task import ProgressDialog
 
 from .conftest import WAIT_MS, Control, Person, action, during, on_disk
@@ -161,9 +162,9 @@ def test_differences_to_the_control_are_listed_and_shown_beside_the_value(
     person.types(control.address)
     action(window, "Verify With Control").trigger()
 
-    dialog = window.findChild(CompareDialog)
-    assert [[i.text(n) for n in range(3)] for i in dialog.list.items] == [
-        ["1750 Excess Error", "Axis 1", "different"]
+    shown = window.findChild(MergeWindow)
+    assert [(row.address, row.a, row.b) for row in shown.merge.differing] == [
+        (EXCESS, Value(3.0, "mm"), Value(11.0, "mm"))
     ]
     window.go_to(EXCESS)
     assert "11 mm in the control" in window.detail.pages["Help"].toPlainText()

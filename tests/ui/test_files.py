@@ -6,13 +6,12 @@ import os
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
 
 from amp_studio.files import Document, backup_path, content_of, open_file
 from amp_studio.schema import Value
 from amp_studio.ui import file_dialogs
-from amp_studio.ui.compare_dialog import CompareDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_window import MergeWindow
 from amp_studio.ui.new_file_dialog import NewFileDialog
 
 from .conftest import WAIT_MS, Person, action, on_disk
@@ -83,13 +82,11 @@ def test_after_a_comparison_with_the_file_on_disk_the_work_can_be_saved_and_neit
     qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
 
     click(window, "Compare…")
-    shown = window.findChild(CompareDialog)
-    assert {item.data(0, Qt.ItemDataRole.UserRole).address for item in shown.list.items} == {
-        EXCESS,
-        ("home.calibration", "2"),
-    }
-    shown.list.tick([("home.calibration", "2")])
-    shown.take()
+    shown = window.findChild(MergeWindow)
+    kinds = {row.address: row.kind for row in shown.merge.differing}
+    assert kinds == {EXCESS: "a", ("home.calibration", "2"): "b"}, "what was saved last is the base"
+    qtbot.waitUntil(shown.outcome.merge.isEnabled, timeout=WAIT_MS)
+    shown.outcome.merge.click()
     assert window.save()
 
     saved = on_disk(path)

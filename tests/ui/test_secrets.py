@@ -11,9 +11,10 @@ from PySide6.QtWidgets import QLineEdit
 
 from amp_studio.files import open_file
 from amp_studio.schema import MASKED, Value
-from amp_studio.ui.compare_dialog import CompareDialog
 from amp_studio.ui.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_model import A, B
+from amp_studio.ui.merge_sources import MergeSource
 from amp_studio.ui.quick_edit import QuickEdit
 
 from .conftest import Person, action
@@ -122,14 +123,18 @@ def test_quick_edit_does_not_show_a_secret(window: MainWindow) -> None:
 
 
 def test_a_comparison_says_that_secrets_differ_and_not_how(window: MainWindow) -> None:
-    other = dict(window.workspace.file.values) | {PASSWORD: Value(int(SECRET) + 1)}
-    dialog = CompareDialog(window.workspace, other, "other.amp", window.go_to, window)
-    (row,) = dialog.list.items
-    assert [row.text(column) for column in (2, 3, 4)] == ["different", MASKED, MASKED]
+    other = window.workspace.file.copy()
+    other.set(PASSWORD, Value(int(SECRET) + 1))
+    shown = window.files.comparing.open(window.page)
+    shown.use(B, MergeSource("other.amp", "", other))
+    (row,) = shown.merge.differing
+    assert [shown.model.text(row, column) for column in (A, B)] == [MASKED, MASKED]
+    assert shown.model.text_to_edit(row) == ""
     action(window, "Show Secrets").trigger()
-    (row,) = dialog.list.items
-    assert row.text(3) == SECRET
-    dialog.close()
+    assert shown.model.text(row, A) == SECRET
+    action(window, "Show Secrets").trigger()
+    assert shown.model.text(row, A) == MASKED
+    shown.close()
 
 
 def test_history_keeps_no_secret_and_unsaved_work_keeps_its_own(window: MainWindow) -> None:

@@ -1,0 +1,82 @@
+"""What a download or a restore changes in the control, shown before it starts."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import Comparison, ParameterFile
+from amp_studio.schema import show_value
+
+
+class DifferenceList(QTreeWidget):
+    """One row for each value that differs: parameter, axis, kind of difference and both values."""
+
+    def __init__(self, file: ParameterFile, found: Comparison, *, secrets: bool) -> None:
+        super().__init__()
+        self.setHeaderLabels(["Parameter", "Axis", "Difference", "This file", "The control"])
+        self.setRootIsDecorated(False)
+        self.setUniformRowHeights(True)
+        self.setAlternatingRowColors(True)
+        schema, machine = file.schema, file.machine
+        self.items = [
+            QTreeWidgetItem([
+                schema.on(machine).label(difference.address),
+                schema.on(machine).instance_label(difference.address),
+                "not in this file" if difference.a is None else "only in this file" if difference.b is None else "different",
+                *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
+                  for v in difference.in_one_unit()),
+            ])
+            for difference in found.differences
+        ]  # fmt: skip
+        self.addTopLevelItems(self.items)
+        for column, width in enumerate((290, 70, 105, 190, 190)):
+            self.setColumnWidth(column, width)
+
+
+def counts(found: Comparison) -> str:
+    """Return the counts of a comparison with a control in a sentence."""
+    different = len(found.differences) - found.not_set_in_a - found.not_set_in_b
+    not_set = f"{found.not_set_in_a} not set in this file, {found.not_set_in_b} not set in the control"
+    return f"{different} different, {found.same} the same, {not_set}."
+
+
+class DownloadPreview(QDialog):
+    """Shows what a download or a restore changes in the control, and asks before it starts."""
+
+    def __init__(
+        self,
+        file: ParameterFile,
+        found: Comparison,
+        parent: QWidget | None = None,
+        *,
+        secrets: bool = False,
+        title: str = "Download",
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(title)
+        self.resize(900, 500)
+        text = QLabel(f"{counts(found)} The download replaces all parameters in the control. Values that are not set in this file are "
+                      "not sent. The control's present parameters are saved beside the file first.\n\nThe control must be in E-stop.")  # fmt: skip
+        text.setWordWrap(True)
+        self.list = DifferenceList(file, found, secrets=secrets)
+        self.send, cancel = QPushButton(f"&{title}"), QPushButton("Cancel")
+        self.send.setDefault(True)
+        self.send.clicked.connect(self.accept)
+        cancel.clicked.connect(self.reject)
+        buttons = QHBoxLayout()
+        buttons.addStretch()
+        buttons.addWidget(self.send)
+        buttons.addWidget(cancel)
+        layout = QVBoxLayout(self)
+        layout.addWidget(text)
+        layout.addWidget(self.list)
+        layout.addLayout(buttons)

@@ -1,0 +1,341 @@
+"""The tree of a comparison: the groups of the manual, and in each a row for every value with all sources and the result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt, Signal
+
+from amp_studio.files import Merge, Row, RowGroup, Typed
+from amp_studio.files.axis_match import axis_letters
+from amp_studio.files.diff import in_one_unit
+from amp_studio.files.merging import Choice, RowId, Side
+from amp_studio.schema import MASKED, Value, fault, read_real, read_value, show_value, shown
+from amp_studio.schema.address import whole_of
+from amp_studio.schema.visible import visible
+
+Index = QModelIndex | QPersistentModelIndex
+NAME, AXIS, BASE, A, B, RESULT = range(6)
+"""Columns."""
+SIDES: dict[int, Side] = {BASE: "base", A: "a", B: "b"}
+"""Column -> the source it shows."""
+
+
+class Cell(NamedTuple):
+    """A value as it is painted: the number or the text, and the unit apart."""
+
+    text: str
+    unit: str = ""
+
+    @property
+    def whole(self) -> str:
+        """The text with its unit."""
+        return f"{self.text}{'' if self.unit == '°' or not self.unit else ' '}{self.unit}"
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Which rows are shown."""
+
+    text: str = ""
+    only_differences: bool = True
+    only_conflicts: bool = False
+    only_active: bool = False
+
+
+class MergeModel(QAbstractItemModel):
+    """Groups and rows of one merge. The text of a cell is in one unit for all sources of its row."""
+
+    chosen = Signal()
+    """What the result takes has changed."""
+
+    def __init__(self, merge: Merge, *, units: str | None, secrets: bool) -> None:
+        super().__init__()
+        self.merge = merge
+        self.units = units
+        """Unit system of the figures; None as they were entered."""
+        self.secrets = secrets
+        self.filter = Filter()
+        self.groups: list[RowGroup] = []
+        self._letters: dict[str, str] = {}
+        self._words: dict[RowId, str] = {}
+        self._cells: dict[RowId, dict[int, Cell]] = {}
+        self.set_merge(merge)
+
+    # -- what is shown -------------------------------------------------------------
+
+    def set_merge(self, merge: Merge) -> None:
+        """Show another merge."""
+        self.beginResetModel()
+        self.merge = merge
+        self._letters = axis_letters(merge.a)
+        self._words.clear()
+        self._cells.clear()
+        self.groups = merge.grouped(self._shown())
+        self.endResetModel()
+
+    def show_only(self, wanted: Filter) -> None:
+        """Show only some of the rows."""
+        self.beginResetModel()
+        self.filter = wanted
+        self.groups = self.merge.grouped(self._shown())
+        self.endResetModel()
+
+    def show_in(self, units: str | None, *, secrets: bool) -> None:
+        """Show figures in another unit system, and secrets in clear or masked."""
+        self.units, self.secrets = units, secrets
+        self._cells.clear()
+        self._refresh_all()
+
+    def _shown(self) -> Iterable[Row]:
+        wanted = self.filter
+        rows: Iterable[Row] = self.merge.differing if wanted.only_differences else self.merge.rows
+        if wanted.only_conflicts:
+            rows = self.merge.conflicts
+        words = wanted.text.casefold().split()
+        if words:
+            rows = [row for row in rows if all(word in self._searched(row) for word in words)]
+        if wanted.only_active:
+            state = self.merge.a.evaluation.state
+            rows = [
+                row
+                for row in rows
+                if row.id.part != "value" or (row.address in self._places and state(row.address).is_active)
+            ]
+        return rows
+
+    @property
+    def _places(self) -> Any:
+        return self.merge.a.machine_schema.places
+
+    def _searched(self, row: Row) -> str:
+        words = self._words.get(row.id)
+        if words is None:
+            words = f"{self.number(row)} {self.name(row)} {self.axis(row)} {row.address[0]}".casefold()
+            self._words[row.id] = words
+        return words
+
+    # -- a row in words --------------------------------------------------------------
+
+    def number(self, row: Row) -> str:
+        """Return the number that the manual prints for a row; empty where there is none."""
+        here = self.merge.a.machine_schema
+        if row.id.part != "value" or here.is_disputed(row.address[0]):
+            return ""
+        return here.number(row.address) or ""
+
+    def name(self, row: Row) -> str:
+        """Return the name of a row."""
+        if row.id.part == "value":
+            return self.merge.a.schema.parameters[row.address[0]].name
+        names = {
+            "application": self.tr("Application"), "revision": self.tr("Control software revision"),
+            "notes": self.tr("Notes"), "machine": self.tr("Machine type"),
+        }  # fmt: skip
+        return names.get(row.id.key, visible(row.id.key)) if row.id.part == "header" else visible(row.id.key)
+
+    def axis(self, row: Row) -> str:
+        """Return the axis of a row by its letter, or what else its instance is; empty for the only one."""
+        here, address = self.merge.a.machine_schema, row.address
+        if row.id.part != "value" or not address[1]:
+            return ""
+        if address[0] in here.scopes and here.kin(here.scopes[address[0]], "axis"):
+            whole = whole_of(address[1])
+            return self._letters.get(whole, whole) + address[1][len(whole) :]
+        return address[1]
+
+    def cell(self, row: Row, column: int) -> Cell:
+        """Return the value of a source, or of the result, as it is shown."""
+        cells = self._cells.get(row.id)
+        if cells is None:
+            cells = self._cells[row.id] = self._row_cells(row)
+        return cells[column]
+
+    def _row_cells(self, row: Row) -> dict[int, Cell]:
+        values = [row.base, row.a, row.b, self.merge.result_of(row)]
+        if row.id.part != "value":
+            texts = [None if value is None else str(value.value) for value in values]
+            cells = [Cell("–" if text is None else visible(text)) for text in texts]
+            return dict(zip((BASE, A, B, RESULT), cells, strict=True))
+        parameter = self.merge.a.schema.parameters[row.address[0]]
+        if self.units is not None and any(value is not None and value.unit for value in values):
+            values = in_one_unit(values, self.merge.a.evaluation.unit(row.address, self.units))
+        elif (first := next((v for v in values if v is not None and v.unit), None)) is not None:
+            values = in_one_unit(values, first.unit)
+        masked = parameter.secret and not self.secrets
+        made = []
+        for value in values:
+            if value is None:
+                made.append(Cell(self.tr("not set")))
+            elif masked:
+                made.append(Cell(MASKED))
+            elif isinstance(value.value, (str, bool)) or not value.unit:
+                text = show_value(parameter, value, secrets=True)
+                made.append(Cell(text if parameter.secret else _grouped(text)))
+            else:
+                bare = show_value(parameter, Value(value.value), secrets=True)
+                made.append(Cell(_grouped(bare), shown(value.unit)))
+        return dict(zip((BASE, A, B, RESULT), made, strict=True))
+
+    def text_to_edit(self, row: Row) -> str:
+        """Return the result as it is typed: plain figures with their unit; empty for a masked secret."""
+        if (
+            row.id.part == "value"
+            and self.merge.a.schema.parameters[row.address[0]].secret
+            and not self.secrets
+        ):
+            return ""
+        value = self.merge.result_of(row)
+        return "" if value is None else self.cell(row, RESULT).whole.replace("\u202f", "")
+
+    def read(self, row: Row, text: str) -> Typed:
+        """Read what was typed for the result; raises ValueError with what is allowed."""
+        if row.id.part != "value":
+            return Typed(Value(text.strip()) if text.strip() else None)
+        if not text.strip():
+            return Typed(None)
+        file, parameter = self.merge.a, self.merge.a.schema.parameters[row.address[0]]
+        unit = self._unit_of(row)
+        value = read_real(file.evaluation, row.address, text, unit) or read_value(parameter, text, unit)
+        message = fault(file.evaluation, row.address, value)
+        if message:
+            raise ValueError(message)
+        return Typed(value)
+
+    def _unit_of(self, row: Row) -> str:
+        """Return the unit in which a row is shown, which is meant by a number without one."""
+        usual = self.merge.a.evaluation.unit(row.address, self.units or self.merge.a.header.units)
+        if self.units is not None:
+            return usual
+        return next(
+            (v.unit for v in (self.merge.result_of(row), row.a, row.b) if v is not None and v.unit), usual
+        )
+
+    # -- choosing --------------------------------------------------------------------
+
+    def choose(self, rows: Iterable[Row], choice: Choice | None) -> None:
+        """Take a side, a typed value or the default again for rows; those that are the same have nothing to choose."""
+        for row in rows:
+            if row.kind != "same" and (choice != "base" or self.merge.base is not None):
+                self.merge.choose(row, choice)
+                self._cells.pop(row.id, None)
+        self._refresh_all()
+        self.chosen.emit()
+
+    def _refresh_all(self) -> None:
+        for n, group in enumerate(self.groups):
+            parent = self.index(n, NAME)
+            self.dataChanged.emit(parent, self.index(n, RESULT))
+            if group.rows:
+                last = self.index(len(group.rows) - 1, RESULT, parent)
+                self.dataChanged.emit(self.index(0, NAME, parent), last)
+
+    # -- Qt --------------------------------------------------------------------------
+
+    def group_at(self, index: Index) -> RowGroup | None:
+        """Return the group of a head; None for a row."""
+        return self.groups[index.row()] if index.isValid() and index.internalId() == 0 else None
+
+    def row_at(self, index: Index) -> Row | None:
+        """Return the row of an index; None for the head of a group."""
+        if not index.isValid() or index.internalId() == 0:
+            return None
+        return self.groups[int(index.internalId()) - 1].rows[index.row()]
+
+    def index_of(self, row_id: RowId, column: int = RESULT) -> QModelIndex:
+        """Return where a row is shown; invalid where it is not."""
+        for n, group in enumerate(self.groups):
+            for m, row in enumerate(group.rows):
+                if row.id == row_id:
+                    return self.index(m, column, self.index(n, NAME))
+        return QModelIndex()
+
+    def index(self, row: int, column: int, parent: Index = QModelIndex()) -> QModelIndex:  # noqa: B008  # Qt's own signature
+        if not self.hasIndex(row, column, parent):
+            return QModelIndex()
+        return self.createIndex(row, column, parent.row() + 1 if parent.isValid() else 0)
+
+    def parent(self, index: Index = QModelIndex()) -> QModelIndex:  # type: ignore[override]  # noqa: B008  # Qt's own signature
+        if not index.isValid() or index.internalId() == 0:
+            return QModelIndex()
+        return self.createIndex(int(index.internalId()) - 1, NAME, 0)
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+        if not parent.isValid():
+            return len(self.groups)
+        return len(self.groups[parent.row()].rows) if parent.internalId() == 0 and parent.column() == 0 else 0
+
+    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+        return RESULT + 1
+
+    def flags(self, index: Index) -> Qt.ItemFlag:
+        flags = super().flags(index)
+        row = self.row_at(index)
+        if row is not None and index.column() == RESULT and row.kind != "same" and row.id.part != "entry":
+            flags |= Qt.ItemFlag.ItemIsEditable
+        return flags
+
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
+        if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
+            return None
+        names = (self.tr("Parameter"), self.tr("Axis"), "0", "A", "B", self.tr("Result"))
+        return names[section]
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        group, row, column = self.group_at(index), self.row_at(index), index.column()
+        if group is not None:
+            is_text = role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole)
+            return self.group_text(group) if is_text and column == NAME else None
+        if row is None:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self.text(row, column)
+        if role == Qt.ItemDataRole.EditRole:
+            return self.text_to_edit(row)
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return self.text(row, column)
+        if role == Qt.ItemDataRole.AccessibleTextRole:
+            return self._spoken(row, column)
+        return None
+
+    def text(self, row: Row, column: int) -> str:
+        """Return the text of a cell."""
+        if column == NAME:
+            return f"{self.number(row)} {self.name(row)}".strip()
+        if column == AXIS:
+            return self.axis(row)
+        if column == RESULT and self.merge.choice(row) is None:
+            return self.tr("Both changed: choose")
+        return self.cell(row, column).whole
+
+    def group_text(self, group: RowGroup) -> str:
+        """Return the head of a group with how many of its rows differ."""
+        differ = sum(row.kind != "same" for row in group.rows)
+        text = self.tr("%n differ", "", differ)
+        if group.conflicts:
+            text += ", " + self.tr("conflicts: %n", "", group.conflicts)
+        return f"{group.title}  {text}"
+
+    def _spoken(self, row: Row, column: int) -> str:
+        """Return a cell for a screen reader: whose value it is, and whether the result takes it."""
+        text = self.text(row, column)
+        if column in SIDES:
+            taken = self.merge.choice(row) == SIDES[column] and row.kind != "same"
+            name = self.tr("base") if column == BASE else "A" if column == A else "B"
+            return f"{name}: {text}, {self.tr('taken')}" if taken else f"{name}: {text}"
+        return f"{self.tr('Result')}: {text}" if column == RESULT else text
+
+
+@lru_cache(maxsize=4096)
+def _grouped(text: str) -> str:
+    """Return a plain number with its thousands set apart from five digits on; any other text as it is."""
+    sign, digits = ("-", text[1:]) if text.startswith("-") else ("", text)
+    whole, point, rest = digits.partition(".")
+    if not whole.isdecimal() or len(whole) < 5 or (rest and not rest.isdecimal()):
+        return text
+    return f"{sign}{int(whole):,}".replace(",", "\u202f") + point + rest if whole[0] != "0" else text

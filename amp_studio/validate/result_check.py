@@ -1,0 +1,63 @@
+"""What would be found about the result of a merge, kept up to date choice by choice, before anything is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from amp_studio.files import Merge, Row
+from amp_studio.files.merging import Choice, Typed
+from amp_studio.schema import same_value
+
+from .builder_rules import NO_RULES, BuilderRules
+from .finding import Finding
+from .new_findings import new_findings
+from .validator import Validator
+
+
+class ResultCheck:
+    """Checks a copy of the result. ``before`` are the findings of the file that the result goes into."""
+
+    def __init__(self, merge: Merge, before: Sequence[Finding], own: BuilderRules = NO_RULES) -> None:
+        self._before = before
+        self._result = merge.result()
+        self._validator = Validator(self._result, own)
+        self.new: list[Finding] = new_findings(before, self._validator.run())
+        """Errors, warnings and recommendations that the file does not have now."""
+
+    def update(self, merge: Merge) -> None:
+        """Follow the choices of a merge of the same sources."""
+        wanted, file = merge.result(), self._result
+        changed = [a for a in {*wanted.values, *file.values} if wanted.get(a) != file.get(a)]
+        for address in changed:
+            file.set(address, wanted.get(address))
+        marked = {a for a, _ in wanted.forced.items() ^ file.forced.items()}
+        file.forced.clear()
+        file.forced.update(wanted.forced)
+        if wanted.header != file.header or wanted.unknown != file.unknown:
+            file.header, file.unknown = wanted.header, wanted.unknown
+            file.evaluation.forget()
+            found = self._validator.run()
+        else:
+            found = self._validator.update({*changed, *marked})
+        self.new = new_findings(self._before, found)
+
+    def with_choice(self, row: Row, choice: Choice) -> list[Finding]:
+        """Return the findings about a parameter in the result if that were chosen for it."""
+        if row.id.part != "value":
+            return []
+        value = choice.value if isinstance(choice, Typed) else row.of(choice)
+        address, kept = row.address, self._result.get(row.address)
+        mark = self._result.forced.get(address)
+        try:
+            if not same_value(kept, value):
+                self._result.set(address, value)
+            return [
+                f
+                for f in self._validator.update([address])
+                if address in f.addresses and f.rule != "schema.unset"
+            ]
+        finally:
+            self._result.set(address, kept)
+            if mark is not None:
+                self._result.forced[address] = mark
+            self._validator.update([address])
