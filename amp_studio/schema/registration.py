@@ -13,7 +13,10 @@ from functools import cache
 from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .model import Family
 
 TABLE = "amp_studio.families:FAMILIES"
 """Family -> where its record is; as every part of a record, ``module:NAME``."""
@@ -78,6 +81,13 @@ def registration_of(family: str) -> Registration:
     found = load_part(place) if place else Registration(family)
     assert isinstance(found, Registration)
     return found
+
+
+def why_not_simulated(family: Family) -> str:
+    """Return why no axis of a family can be simulated, and what there is instead; "" where axes can."""
+    if registration_of(family.family).law:
+        return ""
+    return f"{family.name} has no simulation: {family.without_motion or 'no law of its servo axes is known'}."
 
 
 def added_facts() -> dict[str, Path]:

@@ -38,7 +38,8 @@ import numpy as np
 import numpy.typing as npt
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema.registration import load_part, registered_families, registration_of
+from amp_studio.schema import load_schema
+from amp_studio.schema.registration import load_part, registered_families, registration_of, why_not_simulated
 
 from .axis_parameters import AxisParameters
 from .compiled import Sample
@@ -195,7 +196,7 @@ def law_of(family: str) -> Law:
     place = registration_of(family).law
     if not place:
         known = ", ".join(sorted(simulated_families()))
-        raise SimulationError(f"the servo of family '{family}' cannot be simulated yet; known: {known}")
+        raise SimulationError(f"{why_not_simulated(load_schema(family).family)} Simulated are: {known}")
     found = load_part(place)
     assert isinstance(found, Law)
     return found

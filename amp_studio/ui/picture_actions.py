@@ -26,7 +26,7 @@ class PictureActions(QObject):
         name = self.tr("&Pictures")
         self.action = window.action(name, self._toggle, KEY, "file", "frame-corners", self.tr("Pictures"))
         self.action.setCheckable(True)
-        self.save = window.action(self.tr("Sa&ve Picture As SVG…"), self._save)
+        self.save = window.action(self.tr("Save P&icture As SVG…"), self._save)
 
     def pages(self, page: FilePage) -> PicturesPage:
         """Return the pictures of a file, made when they are first asked for."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
+from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from amp_studio.schema import Value
+from amp_studio.schema.registration import why_not_simulated
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
@@ -97,6 +99,7 @@ class ViewActions:
 
     def check(self, workspace: Workspace | None) -> None:
         """Check the present options; an undo may have changed them, and another file has its own."""
+        self._show_motion(workspace)
         table = self.window.table
         if workspace is None or table is None or not self._groups:
             return
@@ -151,9 +154,22 @@ class ViewActions:
         if self.window.table_view is not None:
             self.window.table_view.setFocus()
 
-    def _motion(self) -> None:
-        from .motion_view import MotionView
+    def _show_motion(self, workspace: Workspace | None) -> None:
+        """Show in the menu whether the family in front can be simulated; the key gives the reason where it cannot."""
+        family = workspace.file.schema.family if workspace else None
+        reason, action = why_not_simulated(family) if family else "", self.motion_action
+        translate = QCoreApplication.translate
+        missing = translate("ViewActions", "&Motion… (not for {family})") if reason else "&Motion…"
+        action.setText(missing.format(family=family.short or family.name) if family else missing)
+        action.setIconText(translate("ViewActions", "Motion"))
+        action.setToolTip(reason or translate("ViewActions", "Motion (F9)"))
 
+    def _motion(self) -> None:
         page = self.window.page
         assert page is not None
+        if reason := why_not_simulated(page.workspace.file.schema.family):
+            page.bar.say(reason)
+            return
+        from .motion_view import MotionView  # takes the simulator along
+
         MotionView(page.workspace, self.window.selected(), page.go_to, self.window).show()

@@ -183,6 +183,8 @@ class Family(Model):
     """A name that a tab has room for; empty for the whole name."""
     what: str = ""
     """In a line what machines it is for."""
+    without_motion: str = ""
+    """Why its axes are not simulated and what there is instead, where that is so."""
     document: str
     title: str
     applications: tuple[str, ...] = ()
