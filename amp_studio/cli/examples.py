@@ -28,6 +28,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "get": (
         f"amp-studio get {MILL} 1300 home.calibration@Y",
         f"amp-studio get {MILL} --all --json",
+        f"amp-studio get {MILL} --changed --axes-differ",
     ),
     "axis": (
         f"amp-studio axis {MILL}",

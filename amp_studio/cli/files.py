@@ -35,6 +35,7 @@ from amp_studio.schema.storage import stored_number
 
 from .console import assignments, family, note, print_json
 from .errors import UsageError
+from .marked import marks_asked, with_marks
 from .output import check_new, note_all, write_new
 
 NOT_SET = "not-set"
@@ -177,6 +178,8 @@ def get_verb(options: argparse.Namespace) -> int:
     else:
         found = [Meant(a) for a in file.addresses()
                  if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")]  # fmt: skip
+    if marks := marks_asked(options):
+        found = with_marks(file, options.path, found, marks)
     for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):
         note(message)
     rows = []

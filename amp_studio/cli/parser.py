@@ -114,6 +114,14 @@ def _files(verbs: Verbs) -> None:
     sub.add_argument("path", type=path_of)
     sub.add_argument("params", nargs="*", metavar="PARAM")
     sub.add_argument("--all", action="store_true", help="also what is hidden or not set")
+    for name, meaning in (
+        ("changed", "only values that are not the printed default"),
+        ("axes-differ", "only parameters whose axes have different values"),
+        ("with-findings", "only values that cause a finding"),
+        ("since-download", "only what is not as in the last recorded download"),
+        ("restart", "only values that take effect after a restart"),
+    ):
+        sub.add_argument(f"--{name}", action="store_true", help=meaning)
     json_option(sub)
     secrets_option(sub)
 

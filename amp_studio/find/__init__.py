@@ -5,9 +5,11 @@ Typing errors are forgiven, each hit has its reason, and the words of a family a
 
 from .entries import Entry, HitKind
 from .finder import Finder, Hit, index_of
+from .marks import MARKS, Mark, Marks, rows_of_file
 from .message_page import LinkedParameter, LinkedRule, LinkedValue, MessagePage, message_page
 
 __all__ = [
+    "MARKS",
     "Entry",
     "Finder",
     "Hit",
@@ -15,7 +17,10 @@ __all__ = [
     "LinkedParameter",
     "LinkedRule",
     "LinkedValue",
+    "Mark",
+    "Marks",
     "MessagePage",
     "index_of",
     "message_page",
+    "rows_of_file",
 ]

@@ -1,0 +1,44 @@
+"""Values of a file by their marks, for ``get``: changed, with findings, unlike on the axes, newer than the last download."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from amp_studio.files import ParameterFile
+from amp_studio.find import Mark, Marks, rows_of_file
+from amp_studio.schema import Meant
+from amp_studio.validate import Validator, rules_beside
+
+_OPTIONS: dict[str, Mark] = {
+    "changed": "changed",
+    "axes_differ": "axes-differ",
+    "with_findings": "findings",
+    "since_download": "since-download",
+    "restart": "restart",
+}
+
+
+def marks_asked(options: argparse.Namespace) -> list[Mark]:
+    """Return the marks that the options name."""
+    return [mark for option, mark in _OPTIONS.items() if getattr(options, option)]
+
+
+def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: list[Mark]) -> list[Meant]:
+    """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
+    marks = Marks(file)
+    if "findings" in wanted:
+        marks.take_findings(Validator(file, rules_beside(path, file.schema)).run())
+    if "since-download" in wanted:
+        from amp_studio.transfer.client.last_download import last_download
+
+        marks.downloaded = last_download(file, path).file.values
+    row_of = {address: row for row in rows_of_file(file) for address in row}
+    alone = [mark for mark in wanted if mark != "axes-differ"]
+    return [
+        meant
+        for meant in found
+        if all(marks.has(mark, meant.address) for mark in alone)
+        and ("axes-differ" not in wanted or marks.differs(row_of.get(meant.address, ())))
+    ]

@@ -1,0 +1,52 @@
+"""``get`` by marks: changed, unlike on the axes, with findings, newer than the last download; together they are all demanded."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+
+
+@pytest.fixture
+def mill(tmp_path: Path) -> Path:
+    """Return the path of a copy of the example."""
+    return Path(shutil.copy(EXAMPLE, tmp_path))
+
+
+def numbers(said) -> set[str]:
+    return {row["param"] for row in said.json["values"]}
+
+
+def test_changed_values_are_those_that_are_not_the_default(amp, mill: Path) -> None:
+    every = amp("get", mill, "--json").json["values"]
+    assert numbers(amp("get", mill, "--changed", "--json")) == {
+        row["param"] for row in every if not row["default"]
+    }
+
+
+def test_axes_differ_lists_all_axes_of_a_parameter_with_different_values(amp, mill: Path) -> None:
+    before = numbers(amp("get", mill, "--axes-differ", "--json"))
+    assert "1735" not in before
+    assert amp("set", mill, "1735=0.03").code == 0
+    assert numbers(amp("get", mill, "--axes-differ", "--json")) - before == {
+        "1735",
+        "2735",
+        "3735",
+        "4735",
+        "5735",
+    }
+
+
+def test_marks_together_are_all_demanded(amp, mill: Path) -> None:
+    assert amp("set", mill, "1740=20", "1750=10").code == 0
+    found = numbers(amp("get", mill, "--with-findings", "--json"))
+    assert "1740" in found or "1750" in found
+    assert numbers(amp("get", mill, "--with-findings", "--changed", "--json")) <= found
+
+
+def test_without_a_download_nothing_can_be_newer_than_it(amp, mill: Path) -> None:
+    said = amp("get", mill, "--since-download")
+    assert (said.code, "No download of MILL_1394.amp is recorded" in said.err) == (2, True)
