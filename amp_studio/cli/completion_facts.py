@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from amp_studio.files import ParameterFile, axis_letter, fitted_axes, new_file, open_file
+from amp_studio.guide import steps_of
 from amp_studio.schema import Parameter, family_ids, label_of
 from amp_studio.validate import calculators
 
@@ -25,6 +26,8 @@ def facts(kind: str, named: str, current: str) -> Iterable[str]:
         return calculators(schema.family.family)
     if kind == "machine":
         return [machine.key for machine in schema.family.machines]
+    if kind in ("step", "at", "done", "not_done", "keep_defaults"):
+        return [step.id for step in steps_of(schema)]
     if kind == "rule":
         return [rule.id for rule in schema.rules]
     if kind == "axis":

@@ -29,6 +29,15 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio get {MILL} 1300 home.calibration@Y",
         f"amp-studio get {MILL} --all --json",
         f"amp-studio get {MILL} --changed --axes-differ",
+        f"amp-studio get {MILL} --not-set",
+    ),
+    "guide": (
+        "amp-studio guide 9pc",
+        f"amp-studio guide {MILL}",
+        f"amp-studio guide {MILL} home",
+        f"amp-studio guide {MILL} --next --json",
+        f"amp-studio guide {MILL} --done dual",
+        f"amp-studio guide {MILL} -o list.pdf",
     ),
     "axis": (
         f"amp-studio axis {MILL}",

@@ -170,6 +170,30 @@ def _real(file: ParameterFile, address: Address) -> dict[str, Any]:
     return {} if real is None else {"real": {"value": real.value, "unit": real.unit}}
 
 
+def _print_not_set(options: argparse.Namespace, file: ParameterFile, only: set[Address] | None) -> int:
+    """Print the active values that are not set, those of the first step first; ``only`` these addresses, where given."""
+    from amp_studio.guide import progress
+    from amp_studio.validate import Validator, rules_beside
+
+    validator, rows = Validator(file, rules_beside(options.path, file.schema)), []
+    for each in progress(validator, validator.run()).steps:
+        found = [address for address in each.open if only is None or address in only]
+        rows += [_row(file, address, options.secrets) | {"step": each.step.number} for address in found]
+        if found and not options.json:
+            print(f"Step {each.step.number}: {each.step.title}")
+            for address in found:
+                unit = file.evaluation.unit(address, file.header.units)
+                print(
+                    f"  {file.machine_schema.named(address):50} not set"
+                    + (f" (in {unit_shown(unit)})" if unit else "")
+                )
+    if options.json:
+        print_json({"values": rows})
+    elif not rows:
+        print("Every active value is set.")
+    return 0
+
+
 def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
     file = open_file(options.path).file
@@ -178,6 +202,8 @@ def get_verb(options: argparse.Namespace) -> int:
     else:
         found = [Meant(a) for a in file.addresses()
                  if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")]  # fmt: skip
+    if options.not_set:
+        return _print_not_set(options, file, {m.address for m in found} if options.params else None)
     if marks := marks_asked(options):
         found = with_marks(file, options.path, found, marks)
     for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):

@@ -41,6 +41,7 @@ def parser(asked: str = "") -> argparse.ArgumentParser:
     for some in (
         _facts,
         _files,
+        _guide,
         _axes,
         _checks,
         _comparing,
@@ -122,8 +123,37 @@ def _files(verbs: Verbs) -> None:
         ("restart", "only values that take effect after a restart"),
     ):
         sub.add_argument(f"--{name}", action="store_true", help=meaning)
+    sub.add_argument(
+        "--not-set",
+        action="store_true",
+        help="only active values that are not set, step by step of the guide",
+    )
     json_option(sub)
     secrets_option(sub)
+
+
+def _guide(verbs: Verbs) -> None:
+    """Add the verb that leads through commissioning."""
+    sub = verbs.add("guide", "guide", "the steps of commissioning in the manual's order: what is set, what is not, what is next",
+                    writes="path output")  # fmt: skip
+    sub.add_argument(
+        "path", type=path_of, metavar="FILE", help="parameter file (.amp), or a family for its steps alone"
+    )
+    sub.add_argument(
+        "step", nargs="?", metavar="STEP", help="only this step, by number or id, with its values"
+    )
+    sub.add_argument("--step", dest="at", metavar="STEP", help="the same")
+    sub.add_argument("--next", action="store_true", help="the next value that is not set, with its help")
+    sub.add_argument("--after", metavar="PARAM", help="with --next: the one that comes after this parameter")
+    sub.add_argument(
+        "--done", action="append", metavar="STEP", help="tick a step as done; it is kept in the file"
+    )
+    sub.add_argument("--not-done", action="append", metavar="STEP", help="take that tick away")
+    sub.add_argument(
+        "--keep-defaults", metavar="STEP", help="set what is not set in a step to the printed defaults"
+    )
+    sub.add_argument("-o", "--output", type=path_of, help="write the check list as .pdf, .html or .txt")
+    json_option(sub)
 
 
 def _axes(verbs: Verbs) -> None:

@@ -74,6 +74,5 @@ def find_step(schema: Schema, text: str) -> SetupStep:
     for step in steps:
         if text in (str(step.number), step.id):
             return step
-    raise ValueError(
-        f"{unknown_name('step', text, [step.id for step in steps])}; or a number, 1 to {len(steps)}"
-    )
+    nearest = unknown_name("step", text, [step.id for step in steps])
+    raise ValueError(f"{nearest}. The steps have the numbers 1 to {len(steps)}")

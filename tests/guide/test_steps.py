@@ -109,7 +109,9 @@ def test_a_family_without_an_order_has_its_groups_as_steps() -> None:
 def test_a_step_is_found_by_its_number_and_by_its_id_and_a_wrong_one_names_the_nearest() -> None:
     schema = load_schema("9pc")
     assert find_step(schema, "9") is find_step(schema, "jog")
-    with pytest.raises(ValueError, match=r"^Unknown step 'jogg'\. Did you mean: jog; or a number, 1 to 23$"):
+    with pytest.raises(
+        ValueError, match=r"^Unknown step 'jogg'\. Did you mean: jog. The steps have the numbers 1 to 23$"
+    ):
         find_step(schema, "jogg")
 
 

@@ -1,0 +1,252 @@
+"""The verb that leads through commissioning: steps, what is not set, what comes next, ticks, the check list."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from amp_studio.files import Document, ParameterFile, open_file
+from amp_studio.files.local_time import with_local_times
+from amp_studio.files.lock import now as stamp
+from amp_studio.files.lock import user
+from amp_studio.guide import (
+    GuideProgress,
+    SetupStep,
+    StepProgress,
+    find_step,
+    next_open,
+    progress,
+    step_of,
+    steps_of,
+    tick,
+)
+from amp_studio.report.check_list import OpenValue, open_value
+from amp_studio.report.finding_lines import finding_json
+from amp_studio.report.wording import counted
+from amp_studio.schema import Address, Schema, addresses_meant, family_ids, show_value
+from amp_studio.validate import SEVERITIES, Validator, rules_beside
+
+from .console import family, note, print_json
+from .errors import UsageError
+from .output import check_replaced, note_all
+
+_MARKS = {"not begun": " ", "begun": "~", "done": "x", "not needed": "-"}
+_CHANGING = ("done", "not_done", "keep_defaults")
+_MOST = 12
+"""Open values that the overview lists; the step alone lists all of them."""
+
+
+def guide_verb(options: argparse.Namespace) -> int:
+    """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults, print the check list."""
+    asked_for = options.step or options.at
+    if str(options.path) in family_ids():
+        if any(getattr(options, key) for key in (*_CHANGING, "next", "output")):
+            raise UsageError(
+                f"{options.path} is a family: only the guide of a file has ticks and open values"
+            )
+        return _family(options, family(str(options.path)), asked_for)
+    path = options.path
+    if options.output:
+        check_replaced(options.output, path)
+    if any(getattr(options, key) for key in _CHANGING):
+        with Document.open(path) as document:
+            _change(options, document.file)
+            if document.is_dirty:
+                document.save("guide")
+                note_all(document.notes)
+            file = document.file
+    else:
+        file = open_file(path).file
+    step = _step(file.schema, asked_for) if asked_for else None
+    validator = Validator(file, rules_beside(path, file.schema))
+    come = progress(validator, validator.run())
+    if options.output:
+        return _write(options, file, come, path)
+    if options.next:
+        return _next(options, file, come, options.after)
+    if options.json:
+        print_json(_as_json(file, come, path, step))
+    elif changed := [
+        *(options.done or ()),
+        *(options.not_done or ()),
+        *filter(None, [options.keep_defaults]),
+    ]:
+        print("\n".join(_step_line(come.of(_step(file.schema, name)), 0) for name in changed))
+    elif step is not None:
+        print("\n".join(_step_lines(file, come.of(step))))
+    else:
+        print("\n".join(_overview(file, come, path)))
+    return 0
+
+
+def _step(schema: Schema, text: str) -> SetupStep:
+    try:
+        return find_step(schema, text)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
+
+
+# -- of a family ---------------------------------------------------------------------------------------------------
+
+
+def _family(options: argparse.Namespace, schema: Schema, asked_for: str | None) -> int:
+    steps = (_step(schema, asked_for),) if asked_for else steps_of(schema)
+    if options.json:
+        print_json({"family": schema.family.family, **_order(schema), "steps": [_facts(s) for s in steps]})
+        return 0
+    order = _order(schema)
+    if not asked_for and order["order"]:
+        page = f" (page {order['page']})" if order["order"] == "manual" else ""
+        print(f"{order['why']}{page}")
+    for step in steps:
+        print(f"{step.number:>3}  {step.title}" + (f" (page {step.page})" if step.page else ""))
+        if asked_for:
+            here = schema.on(schema.family.default_machine)
+            instances = ((p, here.instances(p)) for p in step.parameters)
+            print("\n".join(f"     {here.label((p.id, each[0]))}" for p, each in instances if each))
+    return 0
+
+
+def _order(schema: Schema) -> dict[str, Any]:
+    """Return whose order the steps have, and where it comes from."""
+    order = schema.commissioning
+    if order is None:
+        return {"order": None, "why": None, "page": None}
+    return {"order": order.order, "why": order.why, "page": order.page}
+
+
+def _facts(step: SetupStep) -> dict[str, Any]:
+    return {
+        "step": step.number, "id": step.id, "title": step.title, "what": step.what, "page": step.page or None,
+        "parameters": [p.id for p in step.parameters], "again": [p.id for p in step.again],
+    }  # fmt: skip
+
+
+# -- of a file -----------------------------------------------------------------------------------------------------
+
+
+def _change(options: argparse.Namespace, file: ParameterFile) -> None:
+    """Tick steps, take ticks away, and set open values to their defaults."""
+    for names, by in ((options.done, f"{stamp()} by {user()}"), (options.not_done, None)):
+        for name in names or ():
+            tick(file, _step(file.schema, name), by)
+    if not options.keep_defaults:
+        return
+    step = _step(file.schema, options.keep_defaults)
+    validator = Validator(file)
+    come = progress(validator, validator.run())
+    wanted = {a: value for a in come.of(step).open if (value := file.default(a)) is not None}
+    file.set_many(wanted)
+    note(f"{step.title}: {counted(len(wanted), 'value')} set to the default")
+
+
+def _write(options: argparse.Namespace, file: ParameterFile, come: GuideProgress, path: Path) -> int:
+    from amp_studio.report.check_list import build_check_list, write_check_list
+
+    write_check_list(build_check_list(file, come, path), options.output, note)
+    print(options.output)
+    return 0
+
+
+def _next(options: argparse.Namespace, file: ParameterFile, come: GuideProgress, after: str | None) -> int:
+    """Print the next open value, and what is known about it."""
+    behind = addresses_meant(file.evaluation, after)[-1] if after else None
+    found = next_open(come, behind)
+    if options.json:
+        print_json({"next": None if found is None else _open_json(file, found)})
+    elif found is None:
+        print("Every active value is set.")
+    else:
+        step, value = step_of(file.schema)[found[0]], open_value(file, found)
+        print(f"Step {step.number} {step.title}: {_shown(value)}")
+        parameter = file.schema.parameters[found[0]]
+        for text in (parameter.help.what, parameter.help.find):
+            if text:
+                print(text)
+        print(f"Set it with: {file.machine_schema.short(found)}=…")
+    return 0
+
+
+def _shown(value: OpenValue) -> str:
+    about = "; ".join(filter(None, (value.allowed, f"page {value.page}")))
+    return f"{' '.join(filter(None, (value.number, value.name, value.place)))} ({about})"
+
+
+def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
+    yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
+    width = max(len(each.step.title) for each in come.steps)
+    for each in come.steps:
+        yield _step_line(each, width)
+        if each is come.current:
+            for value in (open_value(file, address) for address in each.open[:_MOST]):
+                yield f"        {' '.join(filter(None, (value.number, value.name, value.place)))}"
+            if len(each.open) > _MOST:
+                yield f"        and {len(each.open) - _MOST} more"
+    if come.deferred:
+        yield f"{counted(len(come.deferred), 'finding')} of later steps left out here; validate lists every finding"
+
+
+def _step_line(each: StepProgress, width: int) -> str:
+    parts = [f"{each.set} of {each.total} set"] if each.total else []
+    parts += [counted(n, severity) for severity in SEVERITIES if (n := each.count(severity))]
+    parts += ["not needed on this machine"] if each.state == "not needed" else []
+    parts += [f"ticked {with_local_times(each.ticked)}"] if each.ticked else []
+    step = each.step
+    text = (
+        f"[{_MARKS[each.state]}] {step.number:>2}  {step.title:{width}}  {step.page:>7}  {', '.join(parts)}"
+    )
+    return text.rstrip()
+
+
+def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
+    """Yield a step with every value of it that is active."""
+    step, here = each.step, file.machine_schema
+    yield f"Step {step.number}: {step.title}" + (f" (page {step.page})" if step.page else "")
+    if step.what:
+        yield step.what
+    ticked = f", ticked {with_local_times(each.ticked)}" if each.ticked else ""
+    yield f"{each.state}, {each.set} of {each.total} set{ticked}"
+    open_values = set(each.open)
+    for parameter in step.parameters:
+        for instance in here.instances(parameter):
+            address = (parameter.id, instance)
+            if address in open_values:
+                yield f"  {here.named(address):52} not set  {open_value(file, address).allowed}".rstrip()
+            elif address in file.values and file.evaluation.state(address).is_active:
+                mark = "" if file.is_default(address) else " *"
+                yield f"  {here.named(address):52} {show_value(parameter, file.get(address))}{mark}"
+    if step.again:
+        yield f"Check again: {', '.join(parameter.name for parameter in step.again)}"
+    for finding in each.findings:
+        yield f"{finding.severity}: {finding.message}" + (f" ({finding.cited})" if finding.page else "")
+
+
+def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupStep | None) -> dict[str, Any]:
+    following = next_open(come)
+    return {
+        "file": str(path), "family": file.schema.family.family, **_order(file.schema),
+        "steps_done": come.done, "steps_needed": len(come.needed), "set": come.set, "total": come.total,
+        "current": come.current.step.id if come.current else None,
+        "next": None if following is None else _open_json(file, following),
+        "later": {f"{key}s" if key != "advice" else key: sum(f.severity == key for f in come.deferred) for key in SEVERITIES},
+        "steps": [_step_json(file, each) for each in come.steps if only in (None, each.step)],
+    }  # fmt: skip
+
+
+def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:
+    return _facts(each.step) | {
+        "state": each.state, "set": each.set, "total": each.total, "active": each.active, "own": each.own,
+        "ticked": each.ticked or None, "errors": each.count("error"), "warnings": each.count("warning"),
+        "advice": each.count("advice"), "open": [_open_json(file, address) for address in each.open],
+        "findings": [finding_json(file, finding) for finding in each.findings],
+    }  # fmt: skip
+
+
+def _open_json(file: ParameterFile, address: Address) -> dict[str, Any]:
+    value = open_value(file, address)
+    return {
+        "param": file.machine_schema.short(address), "id": address[0], "instance": address[1], "name": value.name,
+        "step": step_of(file.schema)[address[0]].number, "unit": value.unit, "allowed": value.allowed, "page": value.page,
+    }  # fmt: skip

@@ -1,0 +1,140 @@
+"""``guide`` and ``get --not-set``: the steps of commissioning without a display."""
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import open_file
+
+
+@pytest.fixture
+def fresh(amp, tmp_path: Path) -> Path:
+    """Return the path of a new mill with the axes X, Y and Z."""
+    path = tmp_path / "mill.amp"
+    assert amp("new", "9pc", path, "--machine", "mill", "--axes", "X,Y,Z").code == 0
+    return path
+
+
+def test_the_overview_has_each_step_with_its_counts_and_the_open_values_of_the_present_one(
+    amp, fresh: Path
+) -> None:
+    said = amp("guide", fresh)
+    assert said.code == 0
+    lines = said.out.splitlines()
+    assert lines[0] == f"{fresh}: 0 of 19 steps done, 3 of 339 values set"
+    assert lines[1] == "[~]  1  Control, axes and servos            3-1  3 of 3 set, 6 errors"
+    assert lines[2].startswith("[ ]  2  Axis names and rollover             4-1  0 of ")
+    assert "not needed on this machine" in next(line for line in lines if "Position loop" in line)
+    assert lines[-1].endswith("findings of later steps left out here; validate lists every finding")
+
+
+def test_what_guide_leaves_out_validate_lists(amp, fresh: Path) -> None:
+    later = amp("guide", fresh, "--json").json["later"]
+    listed = amp("guide", fresh, "--json").json["steps"]
+    found = amp("validate", fresh, "--json").json
+    for key, severity in (("errors", "error"), ("warnings", "warning")):
+        shown = {f["message"] for step in listed for f in step["findings"] if f["severity"] == severity}
+        every = {f["message"] for f in found["findings"] if f["severity"] == severity}
+        assert shown <= every
+        assert found[key] >= later[key]
+    assert later["warnings"] > 0
+
+
+def test_the_json_has_every_step_with_its_parameters_and_open_values(amp, fresh: Path) -> None:
+    said = amp("guide", fresh, "--json").json
+    assert (said["family"], said["order"], said["page"]) == ("9pc", "manual", "1-2")
+    assert [step["step"] for step in said["steps"]] == list(range(1, 24))
+    assert sum(len(step["open"]) for step in said["steps"]) == said["total"] - said["set"]
+    first = next(value for step in said["steps"] for value in step["open"])
+    assert said["next"] == first
+    assert first == {
+        "param": "185", "id": "axis.integrand_name", "instance": "1", "name": "Axis Integrand Name", "step": 2, "unit": "",
+        "allowed": "I / J / K / None", "page": "4-3",
+    }  # fmt: skip
+    tuning = next(step for step in said["steps"] if step["id"] == "tuning")
+    assert "servo.reversal_error" in tuning["again"]
+
+
+def test_a_step_is_shown_by_number_and_by_id(amp, fresh: Path) -> None:
+    said = amp("guide", fresh, "home").out
+    assert said == amp("guide", fresh, "3").out == amp("guide", fresh, "--step", "3").out
+    assert said.startswith("Step 3: Homing (page 5-1)\n")
+    assert "1010 G28 Direction to Home                           not set  plus / minus" in said
+    only = amp("guide", fresh, "home", "--json").json["steps"]
+    assert [step["id"] for step in only] == ["home"]
+
+
+def test_the_next_value_comes_with_its_help_and_the_one_after_it_on_request(amp, fresh: Path) -> None:
+    said = amp("guide", fresh, "--next").out
+    assert said.startswith(
+        "Step 2 Axis names and rollover: 185 Axis Integrand Name X (I / J / K / None; page 4-3)\n"
+    )
+    assert said.endswith("Set it with: 185=…\n")
+    assert amp("guide", fresh, "--next", "--after", "185", "--json").json["next"]["param"] == "186"
+
+
+def test_a_walk_of_next_and_set_comes_to_the_end_of_a_step(amp, fresh: Path) -> None:
+    while (found := amp("guide", fresh, "--next", "--json").json["next"])["step"] == 2:
+        assert amp("set", fresh, f"{found['param']}={found['allowed'].split(' ')[0]}").code == 0
+    assert found["id"] == "home.g28_direction"
+    assert amp("guide", fresh, "axis", "--json").json["steps"][0]["state"] == "done"
+
+
+def test_a_step_is_ticked_in_the_file_and_the_tick_taken_away(amp, fresh: Path) -> None:
+    said = amp("guide", fresh, "--done", "dual", "--done", "5")
+    assert [line[:6] for line in said.out.splitlines()] == ["[x] 19", "[x]  5"]
+    assert set(open_file(fresh).file.header.done) == {"dual", "servo"}
+    assert amp("guide", fresh, "--not-done", "dual", "--not-done", "servo").code == 0
+    assert open_file(fresh).file.header.done == {}
+
+
+def test_the_defaults_of_a_step_are_kept(amp, fresh: Path) -> None:
+    amp("set", fresh, "feedrate.rapid@X=not-set", "feedrate.rapid@Y=not-set")
+    said = amp("guide", fresh, "--keep-defaults", "feedrate")
+    file = open_file(fresh).file
+    assert said.err.startswith("Feedrates: 2 values set to the default")
+    assert file.is_default(("feedrate.rapid", "1"))
+
+
+def test_a_family_has_its_steps_without_a_file(amp) -> None:
+    said = amp("guide", "num").out
+    assert said.startswith(
+        "Chapter 3 of the manual is this order. (page 3-1)\n  1  3.1 Axis Declaration (page 3-3)\n"
+    )
+    assert amp("guide", "grblhal", "--json").json["order"] == "ours"
+    assert "     P97N0 " in amp("guide", "num", "axes").out
+
+
+def test_what_makes_no_sense_is_refused_and_changes_nothing(amp, fresh: Path) -> None:
+    before = fresh.read_bytes()
+    for arguments in (
+        ("guide", fresh, "heating"),
+        ("guide", fresh, "--done", "heating"),
+        ("guide", fresh, "--done", "home", "--done", "heating"),
+        ("guide", fresh, "--next", "--after", "4711x"),
+        ("guide", fresh, "-o", fresh),
+        ("guide", fresh, "-o", fresh.with_name("list.doc")),
+        ("guide", "9pc", "--next"),
+        ("guide", "9pc", "--done", "home"),
+        ("guide", "9px"),
+    ):
+        assert amp(*arguments).code == 2, arguments
+    assert fresh.read_bytes() == before
+
+
+def test_get_has_what_is_not_set_step_by_step(amp, fresh: Path) -> None:
+    rows = amp("get", fresh, "--not-set", "--json").json["values"]
+    assert len(rows) == 336
+    assert [row["step"] for row in rows] == sorted(row["step"] for row in rows)
+    assert {row["value"] for row in rows} == {None}
+    assert {row["state"] for row in rows} == {"in-force"}
+    said = amp("get", fresh, "--not-set").out
+    assert said.startswith("Step 2: Axis names and rollover\n  185 Axis Integrand Name ")
+    assert amp("get", fresh, "1011", "--not-set").out.splitlines()[0] == "Step 3: Homing"
+    assert amp("get", fresh, "control.type", "--not-set").out == "Every active value is set.\n"
+
+
+def test_the_check_list_is_written_in_the_format_of_its_ending(amp, fresh: Path, tmp_path: Path) -> None:
+    for name, start in (("a.pdf", b"%PDF"), ("a.html", b"<!DOCTYPE html>"), ("a.txt", b"====")):
+        assert amp("guide", fresh, "-o", tmp_path / name).out == f"{tmp_path / name}\n"
+        assert (tmp_path / name).read_bytes().startswith(start)
