@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 
+from amp_studio.dossier import write_dossier
 from amp_studio.files import open_file, real_path
-from amp_studio.report import Contents, write_report
+from amp_studio.report import Contents
 from amp_studio.validate import RULES_FILE, rules_beside
 
 from .console import note
@@ -17,10 +18,16 @@ def report_verb(options: argparse.Namespace) -> int:
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
     file = open_file(options.path).file
     own = rules_beside(options.path, file.schema)
-    write_report(
+    write_dossier(
         file,
         options.output,
-        Contents(options.sort, options.changed_only, options.inactive, options.units),
+        Contents(
+            options.sort,
+            options.changed_only,
+            options.inactive,
+            options.units,
+            frozenset(options.without or ()),
+        ),
         source=options.path,
         own=own,
         notify=note,

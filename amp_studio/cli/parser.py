@@ -249,8 +249,14 @@ def _documents(verbs: Verbs) -> None:
     sub = verbs.add("report", "documentation", "documentation as .pdf, .html, .csv or .txt", writes="output")
     sub.add_argument("path", type=path_of)
     sub.add_argument("-o", "--output", type=path_of, required=True)
-    sub.add_argument("--sort", choices=("axis", "number", "group"), default="group")
+    sub.add_argument("--sort", choices=("axis", "number", "group", "steps"), default="group")
     sub.add_argument("--changed-only", action="store_true")
+    sub.add_argument(
+        "--without",
+        action="append",
+        choices=("pictures", "motion", "exchanges", "signatures"),
+        help="leave out a chapter; again for more",
+    )
     sub.add_argument("--inactive", action="store_true", help="also what the control ignores on this machine")
     sub.add_argument(
         "--units",

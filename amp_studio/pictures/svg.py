@@ -27,15 +27,16 @@ WRAP = 118
 """Letters in a line of notes."""
 
 
-def scene_svg(scene: Scene) -> str:
-    """Return the SVG text of a scene, with its notes under it."""
-    notes = [line for note in scene.notes for line in _wrapped(("! " if note.wrong else "") + note.text)]
-    height = HEAD + HEIGHT + NOTE * len(notes) + (8.0 if notes else 0.0)
-    frame = Placement.within(scene, WIDTH, HEIGHT)
+def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, notes: bool = True) -> str:
+    """Return the SVG text of a scene in a width and, without title and notes, a height in points; ``notes`` are under it."""
+    shown = scene.notes if notes else ()
+    lines = [line for note in shown for line in _wrapped(("! " if note.wrong else "") + note.text)]
+    height = HEAD + drawn + NOTE * len(lines) + (8.0 if lines else 0.0)
+    frame = Placement.within(scene, width, drawn)
     parts = [
-        _opened(height),
+        _opened(width, height),
         _patterns(),
-        f'<rect width="{WIDTH:g}" height="{height:g}" fill="{BASE}"/>',
+        f'<rect width="{width:g}" height="{height:g}" fill="{BASE}"/>',
         _title(scene),
         f'<g transform="translate(0 {HEAD:g})">',
         *_grid(frame),
@@ -50,17 +51,17 @@ def scene_svg(scene: Scene) -> str:
         *(_text(frame, text) for text in scene.texts),
         "</g>",
         *(
-            f'<text x="16" y="{HEAD + HEIGHT + NOTE * (n + 0.7):g}" fill="{INKS["error"] if line.startswith("! ") else DIM}">{escape(line.removeprefix("! "))}</text>'
-            for n, line in enumerate(notes)
+            f'<text x="16" y="{HEAD + drawn + NOTE * (n + 0.7):g}" fill="{INKS["error"] if line.startswith("! ") else DIM}">{escape(line.removeprefix("! "))}</text>'
+            for n, line in enumerate(lines)
         ),
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
 
 
-def _opened(height: float) -> str:
+def _opened(width: float, height: float) -> str:
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {height:g}" width="{WIDTH:g}"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}"'
         f' height="{height:g}" font-family="Inter, Helvetica, Arial, DejaVu Sans, sans-serif" font-size="11">'
     )
 

@@ -16,14 +16,29 @@ if TYPE_CHECKING:
     from .finding_lines import finding_json, finding_text, suppressed_text
     from .findings import alike, same_finding_text
     from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
-    from .model import SORTS, UNIT_CHOICES, Contents, Report, Sort, UnitChoice
+    from .model import (
+        CHAPTERS,
+        SORTS,
+        UNIT_CHOICES,
+        Chapter,
+        Contents,
+        Drawing,
+        ExchangeLine,
+        Report,
+        Sort,
+        UnitChoice,
+    )
     from .printed_table import cells_of, table_lines, tables_of
     from .why import why_parts, why_text
     from .wording import counted
     from .write import FORMATS, write_report
 
 _PLACES = {
+    "CHAPTERS": "model",
+    "Chapter": "model",
     "Contents": "model",
+    "ExchangeLine": "model",
+    "Drawing": "model",
     "FORMATS": "write",
     "FindingGroup": "by_rule",
     "finding_axes": "by_rule",
@@ -67,10 +82,14 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "CHAPTERS",
     "FORMATS",
     "SORTS",
     "UNIT_CHOICES",
+    "Chapter",
     "Contents",
+    "Drawing",
+    "ExchangeLine",
     "FindingGroup",
     "Report",
     "Sort",

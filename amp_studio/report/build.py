@@ -25,9 +25,10 @@ from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
 from .axes import printed_axes, scope_of
+from .drawings import drawings
 from .findings import joined_places, notes_of, suppressed_notes
 from .manual_page import help_parts
-from .model import SORTS, UNIT_CHOICES, Contents, Report, ReportRow
+from .model import SORTS, UNIT_CHOICES, Contents, Drawing, ExchangeLine, Report, ReportRow
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
 from .wording import counted
@@ -44,11 +45,13 @@ def build_report(
     project: ProjectInfo | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
+    motion: Sequence[Drawing] = (),
+    exchanges: Sequence[ExchangeLine] = (),
 ) -> Report:
     """Return the report of a file as it is in memory; secrets are masked.
 
     ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed, the present
-    time if left out.
+    time if left out. ``motion`` are drawings of the simulator, ``exchanges`` what the record has of this file.
     """
     contents = contents or Contents()
     found = rows_of(file, contents.units)
@@ -76,6 +79,9 @@ def build_report(
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, contents.sort),
+        pictures=() if "pictures" in contents.without else drawings(file),
+        motion=() if "motion" in contents.without else tuple(motion),
+        exchanges=() if "exchanges" in contents.without else tuple(exchanges),
         help={i: tuple(_help(file.schema, i)) for i in dict.fromkeys(row.id for row in printed)},
     )
 

@@ -14,14 +14,20 @@ from amp_studio.schema.model import ParameterState
 
 from .note import Note, NoteKind
 
-Sort = Literal["axis", "number", "group"]
-"""The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files)."""
+Sort = Literal["axis", "number", "group", "steps"]
+"""The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files), and that of commissioning."""
 
 SORTS: dict[Sort, str] = {
     "axis": "by axis, then non-axis parameters",
     "number": "by parameter number",
     "group": "by group",
+    "steps": "by step of commissioning",
 }
+
+Chapter = Literal["pictures", "motion", "exchanges", "signatures"]
+
+CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "exchanges", "signatures")
+"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last two, or none."""
 
 UnitChoice = Literal["file", "metric", "inch", "both"]
 """The units of a report: those of the file, one system, or the file's with the other system's beside them."""
@@ -55,6 +61,8 @@ class Contents:
     inactive: bool = False
     """Also what the control ignores or cannot use on this machine."""
     units: UnitChoice = "file"
+    without: frozenset[Chapter] = frozenset()
+    """Chapters that are left out."""
 
     def __post_init__(self) -> None:
         if self.sort not in SORTS:
@@ -224,6 +232,31 @@ def _reasons(rows: Iterable[ReportRow]) -> tuple[tuple[str, str], ...]:
 
 
 @dataclass(frozen=True, slots=True)
+class Drawing:
+    """One drawing."""
+
+    title: str
+    svg: str
+    notes: tuple[str, ...] = ()
+    """The text below it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ExchangeLine:
+    """One exchange with a control, as the record has it."""
+
+    when: str
+    who: str
+    verb: str
+    control: str
+    before: str
+    """Digest of what the control contained, shortened; empty where it is not known."""
+    after: str
+    text: str
+    """How it ended."""
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
     """One chapter of the report."""
 
@@ -257,6 +290,9 @@ class Report:
     not_set: tuple[tuple[str, str, str], ...]
     """(number, parameter, places) of each active parameter without a value."""
     sections: tuple[Section, ...]
+    pictures: tuple[Drawing, ...]
+    motion: tuple[Drawing, ...]
+    exchanges: tuple[ExchangeLine, ...]
     help: dict[str, tuple[tuple[str, str], ...]]
     """Id of a printed parameter -> (title, text) of its help and its page."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from pathlib import Path
 
 from .model import MARKS, Listing, Report, printable
@@ -25,8 +26,14 @@ def filled_page(name: str, **values: object) -> bytes:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["drawing"] = _drawing
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     return environment.get_template(name).render(values).encode("utf-8")
+
+
+def _drawing(svg: str) -> str:
+    """Return a drawing as the address of an image that is in the page itself: what it names stays apart from the page."""
+    return f"data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}"
 
 
 def _cleaned(value: object) -> object:

@@ -22,6 +22,9 @@ _FOREIGN = re.compile(
     r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
 )
 """Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin, Greek and Cyrillic."""
+FONT = "Libertinus Serif"
+"""The font of a PDF, also in its drawings."""
+_FAMILY = re.compile(r'font-family="[^"]*"')
 _BRIEF = 40
 """Most characters of a text in the page header."""
 
@@ -32,8 +35,16 @@ class Exact(str):
     __slots__ = ()
 
 
+class _Source(str):
+    """Typst source that a macro of a template has written."""
+
+    __slots__ = ()
+
+
 def typst_literal(value: object) -> str:
     """Return a value of the template as a Typst literal, so that no text can become markup."""
+    if isinstance(value, _Source):
+        return value
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
@@ -65,10 +76,19 @@ def filled_template(name: str, **values: object) -> str:
         lstrip_blocks=True,
     )
     environment.filters["exact"] = Exact
+    environment.filters["source"] = _Source
+    environment.filters["drawing"] = _drawing
     environment.filters["brief"] = lambda text: text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
     environment.filters["tied"] = lambda text: text.replace(" ", "\u00a0").replace(",\u00a0", ", ")
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     return environment.get_template(name).render(values)
+
+
+def _drawing(svg: str) -> Exact:
+    """Return a drawing in the font of the page, with spaces that stay."""
+    return Exact(
+        _FAMILY.sub(f'font-family="{FONT}"', svg).translate({0x2002: "\u00a0", 0x2003: "\u00a0\u00a0"})
+    )
 
 
 def render_pdf(report: Report) -> bytes:

@@ -1,4 +1,4 @@
-"""The three orders of a report: by axis, by number, by group."""
+"""The orders of a report: by axis, by number, by group, by step of commissioning."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from itertools import groupby
 
 from amp_studio.files import ParameterFile
+from amp_studio.guide import steps_of
 
 from .axes import axis_label, axis_note, printed_axes, scope_of
 from .model import Column, Grid, GridLine, Listing, ReportRow, Section, Sort
@@ -17,9 +18,11 @@ _WIDEST_GRID = 8
 
 
 def sections_of(file: ParameterFile, rows: Sequence[ReportRow], sort: Sort) -> tuple[Section, ...]:
-    """Return the rows in one of the three orders; empty sections are left out."""
+    """Return the rows in one of the orders; empty sections are left out."""
     if sort == "number":
         return _by_number(rows)
+    if sort == "steps":
+        return _by_step(file, rows)
     return _by_axis(file, rows) if sort == "axis" else _by_group(file, rows)
 
 
@@ -76,6 +79,23 @@ def _listings(file: ParameterFile, rows: Iterable[ReportRow], by_place: bool) ->
 def _group_title(file: ParameterFile, row: ReportRow) -> str:
     group = file.schema.group_of[row.id]
     return f"{group.name}: {group.section}" if group.section else group.name
+
+
+# -- by step of commissioning --------------------------------------------------
+
+
+def _by_step(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, ...]:
+    """Return one section for each step, its values in the order in which they are set."""
+    by_parameter: dict[str, list[ReportRow]] = {}
+    for row in rows:
+        by_parameter.setdefault(row.id, []).append(row)
+    sections = []
+    for step in steps_of(file.schema):
+        own = [row for parameter in step.parameters for row in by_parameter.get(parameter.id, ())]
+        if own:
+            title = f"{step.number} {step.title}"
+            sections.append(Section(f"step-{step.number}", title, tuple(_group_parts(file, "", own))))
+    return tuple(sections)
 
 
 # -- by group ------------------------------------------------------------------

@@ -36,10 +36,17 @@ def _lines(report: Report) -> Iterator[str]:
             for mark, why in part.reasons:
                 yield from _wrapped(why, f"  {mark} ")
             yield ""
-    yield from _heading("SIGNATURES")
-    for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
+    if report.exchanges:
+        yield from _heading("EXCHANGES WITH CONTROLS")
+        for each in report.exchanges:
+            yield from _wrapped(f"{each.when}  {each.who}  {each.verb}  {each.control}", "")
+            yield from _wrapped(f"{each.before or '?'} → {each.after or '?'}  {each.text}", "    ")
         yield ""
-        yield f"{label + ' ':_<60}  {'Date ':_<38}"
+    if "signatures" not in report.contents.without:
+        yield from _heading("SIGNATURES")
+        for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
+            yield ""
+            yield f"{label + ' ':_<60}  {'Date ':_<38}"
 
 
 # -- before the values ---------------------------------------------

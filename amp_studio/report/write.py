@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import datetime
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from amp_studio.files import Notify, ParameterFile, Project, ProjectInfo, real_p
 from amp_studio.validate import NO_RULES, BuilderRules
 
 from .build import build_report
-from .model import Contents, Report
+from .model import Contents, Drawing, ExchangeLine, Report
 from .page import render_html
 from .pdf import render_pdf
 from .table_csv import render_csv
@@ -32,20 +32,24 @@ def write_report(
     source: Path | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
+    motion: Sequence[Drawing] = (),
+    exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
 ) -> None:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
 
     ``source`` is the path of the file on disk, from beside which the project's information is taken; ``date`` is printed
     (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute of a replaced file that
-    could not be kept. Raises ValueError for an unknown file extension, ParameterFileError for a project that cannot be
+    could not be kept. ``motion`` and ``exchanges`` are those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that cannot be
     read, SaveError when it cannot be written.
     """
     render = FORMATS.get(path.suffix.lower())
     if render is None:
         raise ValueError(f"{path.name}: unknown report format. Use the file extension {', '.join(FORMATS)}")
     project = project_beside(source)
-    report = build_report(file, contents, source=source, project=project, date=date, own=own)
+    report = build_report(
+        file, contents, source=source, project=project, date=date, own=own, motion=motion, exchanges=exchanges
+    )
     write_atomic(path, render(report), keep_backup=False, notify=notify)
 
 

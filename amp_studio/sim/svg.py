@@ -14,7 +14,9 @@ from .series import Series
 from .trace import Trace
 
 WIDTH = 960
-LEFT, RIGHT, TOP = 84, 930, 84
+LEFT, TOP = 84, 84
+MARGIN = 30
+"""Room at the right."""
 UNIT, GAP = 132, 34
 """Height of a panel of share 1, and between two panels."""
 BALL = 520
@@ -36,53 +38,63 @@ WRAP = 150
 """Characters in a line of small print."""
 
 
-def plot_svg(trace: Trace, before: Trace | None = None) -> str:
-    """Return the SVG text of a trace, with the trace before a change under it."""
+def plot_svg(
+    trace: Trace,
+    before: Trace | None = None,
+    *,
+    width: int = WIDTH,
+    unit: int = UNIT,
+    small_print: bool = True,
+) -> str:
+    """Return the SVG text of a trace, with the trace before a change under it; ``unit`` is
+    the height of a panel of share 1, ``small_print`` what was assumed.
+    """
+    right = width - MARGIN
     picture = picture_of(trace, before)
     parts: list[str] = []
     y = float(TOP)
     if picture.rings:
-        parts += _ball(picture, y)
+        parts += _ball(picture, y, right)
         y += BALL + GAP + 14
     for n, panel in enumerate(picture.panels):
-        frame = _Frame(panel, y, picture.x_log)
+        frame = _Frame(panel, y, unit, picture.x_log, right)
         parts += frame.drawn(picture.alarms, numbered=n == len(picture.panels) - 1)
         if panel.label == "following error" and (outside := limits_outside(trace)):
             words = "above the plot: " + ", ".join(
                 f"{name} {level}" for name, level in outside.items()
             ).replace("_", " ")
-            parts.append(_text(RIGHT, frame.top - 6, words, anchor="end", size=11, fill=DIM))
+            parts.append(_text(right, frame.top - 6, words, anchor="end", size=11, fill=DIM))
         y += frame.height + GAP
         if n == len(picture.panels) - 1:
             parts.append(
-                _text((LEFT + RIGHT) / 2, y - 2, picture.x_label, anchor="middle", size=11, fill=DIM)
+                _text((LEFT + right) / 2, y - 2, picture.x_label, anchor="middle", size=11, fill=DIM)
             )
     if picture.close is not None:
         y += 28
-        frame = _Frame(picture.close, y, False)
+        frame = _Frame(picture.close, y, unit, False, right)
         parts += frame.drawn((), numbered=True)
         y += frame.height + GAP
         parts.append(
             _text(
-                (LEFT + RIGHT) / 2, y - 2, "time (s), the end of the move", anchor="middle", size=11, fill=DIM
+                (LEFT + right) / 2, y - 2, "time (s), the end of the move", anchor="middle", size=11, fill=DIM
             )
         )
     y += 18
-    for line in _small_print(picture):
+    for line in _small_print(picture) if small_print else ():
         parts.append(_text(LEFT, y, line, size=10.5, fill=DIM))
         y += 14
-    return "\n".join([*_head(picture, math.ceil(y + 6)), *parts, "</svg>"]) + "\n"
+    return "\n".join([*_head(picture, width, math.ceil(y + 6)), *parts, "</svg>"]) + "\n"
 
 
-def _head(picture: Picture, height: int) -> Iterator[str]:
+def _head(picture: Picture, width: int, height: int) -> Iterator[str]:
     yield (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}"'
         f' height="{height}" font-family="Inter, Helvetica, Arial, DejaVu Sans, sans-serif" font-size="12">'
     )
-    yield f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>'
+    yield f'<rect width="{width}" height="{height}" fill="#ffffff"/>'
     yield _text(LEFT, 28, picture.title, size=17, weight="bold")
     colour = ERROR if picture.alarms else DIM
-    yield _text(LEFT, 48, _elided(" · ".join(picture.facts), WRAP - 14), fill=colour)
+    yield _text(LEFT, 48, _elided(" · ".join(picture.facts), round(WRAP * width / WIDTH) - 14), fill=colour)
 
 
 def _small_print(picture: Picture) -> list[str]:
@@ -132,9 +144,9 @@ def decades(low: float, high: float) -> list[float]:
 class _Frame:
     """One panel: its place and the ranges it shows."""
 
-    def __init__(self, panel: Panel, top: float, log: bool) -> None:
-        self.panel, self.top, self.log = panel, top, log
-        self.height = UNIT * panel.height
+    def __init__(self, panel: Panel, top: float, unit: int, log: bool, right: float) -> None:
+        self.panel, self.top, self.log, self.right = panel, top, log, right
+        self.height = unit * panel.height
         xs = [c.x for c in panel.curves if len(c.x)]
         first = min((float(x[0]) for x in xs), default=0.0)
         last = max((float(x[-1]) for x in xs), default=1.0)
@@ -162,7 +174,7 @@ class _Frame:
             if self.log
             else (value - self.first) / (self.last - self.first)
         )
-        return LEFT + share * (RIGHT - LEFT)
+        return LEFT + share * (self.right - LEFT)
 
     def y(self, value: float) -> float:
         return self.top + (self.high - value) / (self.high - self.low) * self.height
@@ -173,7 +185,7 @@ class _Frame:
         for _, at in alarms:
             yield _line(self.x(at), self.top, self.x(at), self.top + self.height, ERROR, width=1.2)
         for _, level in self.panel.levels:
-            yield _line(LEFT, self.y(level), RIGHT, self.y(level), DIM, dash="2 3")
+            yield _line(LEFT, self.y(level), self.right, self.y(level), DIM, dash="2 3")
         for curve in self.panel.curves:
             yield from self._curve(curve)
         yield from self._levels()
@@ -193,12 +205,12 @@ class _Frame:
         about = max(4, round(self.height / 32))
         values = multiples(step, self.low, self.high) if step else ticks(self.low, self.high, about)
         for value in values:
-            yield _line(LEFT, self.y(value), RIGHT, self.y(value), GRID)
+            yield _line(LEFT, self.y(value), self.right, self.y(value), GRID)
             yield _text(LEFT - 7, self.y(value) + 4, _number(value), anchor="end", size=11, fill=DIM)
         if self.low < 0.0 < self.high:
-            yield _line(LEFT, self.y(0.0), RIGHT, self.y(0.0), EDGE)
+            yield _line(LEFT, self.y(0.0), self.right, self.y(0.0), EDGE)
         yield (
-            f'<rect x="{LEFT}" y="{_n(self.top)}" width="{RIGHT - LEFT}" height="{_n(self.height)}" fill="none"'
+            f'<rect x="{LEFT}" y="{_n(self.top)}" width="{self.right - LEFT}" height="{_n(self.height)}" fill="none"'
             f' stroke="{EDGE}"/>'
         )
         unit = f" ({self.panel.unit})" if self.panel.unit else ""
@@ -222,7 +234,7 @@ class _Frame:
         for y, words in labels:
             below = y - self.top < LABEL + 4  # no room above the line
             yield _text(
-                RIGHT - 6, y + 12 if below else y - 4, words, anchor="end", size=11, fill=DIM, over=True
+                self.right - 6, y + 12 if below else y - 4, words, anchor="end", size=11, fill=DIM, over=True
             )
 
     def _marks(self) -> Iterator[str]:
@@ -248,7 +260,7 @@ class _Frame:
             yield from self._dots(curve, colour)
             return
         dash = DASH if curve.role == "command" else ""
-        columns = RIGHT - LEFT
+        columns = int(self.right - LEFT)
         x, y = unheld(curve.x, curve.y) if curve.held else (curve.x, curve.y)
         if (curve.held or curve.dense) and len(x) > 2 * columns:
             x, y, least, most = banded(x, y, columns)
@@ -279,15 +291,19 @@ class _Frame:
         named = [c for c in self.panel.curves if c.name and len(c.x)]
         if len(named) < 2:
             return
-        x = RIGHT - sum(_width(c.name) for c in named)
+        x, y, wide = self.right - sum(_width(c.name) for c in named), self.top - 8, 1.0
+        if x < LEFT + _width(self.panel.label):  # beside the label there is no room: above it, once
+            if self.top > TOP:
+                return
+            x, y, wide = float(LEFT), self.top - 24, 0.82
         for curve in named:
             dash = DASH if curve.role == "command" else ""
             if curve.dots:
-                yield _dot(x + 14, self.top - 12, COLOURS[curve.role])
+                yield _dot(x + 14, y - 4, COLOURS[curve.role])
             else:
-                yield _line(x, self.top - 12, x + 22, self.top - 12, COLOURS[curve.role], width=2, dash=dash)
-            yield _text(x + 28, self.top - 8, curve.name, size=11)
-            x += _width(curve.name)
+                yield _line(x, y - 4, x + 22, y - 4, COLOURS[curve.role], width=2, dash=dash)
+            yield _text(x + 28, y, curve.name, size=11)
+            x += wide * _width(curve.name)
 
 
 def _width(words: str) -> float:
@@ -297,9 +313,9 @@ def _width(words: str) -> float:
 # -- ball-bar ----------------------------------------------------------------
 
 
-def _ball(picture: Picture, top: float) -> Iterator[str]:
+def _ball(picture: Picture, top: float, right: float) -> Iterator[str]:
     """Yield the ball-bar plot: rings of equal deviation, the paths magnified between them."""
-    middle, centre, base = (LEFT + RIGHT) / 2, top + BALL / 2, 0.32 * BALL
+    middle, centre, base = (LEFT + right) / 2, top + BALL / 2, 0.32 * BALL
     lines, most = ring_levels(picture.rings)
     scale = 0.16 * BALL / most
 

@@ -26,9 +26,9 @@ def print_report(window: StudioWindow, workspace: Workspace) -> None:
     notes: list[str] = []
 
     def work(_: TaskProgress, __: threading.Event) -> None:
-        from amp_studio.report import write_report
+        from amp_studio.dossier import write_dossier
 
-        write_report(
+        write_dossier(
             file,
             path,
             contents,

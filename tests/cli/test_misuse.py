@@ -21,7 +21,7 @@ import pytest
         ("validate mill.amp --rules", "--rules needs a value (see"),
         ("validate mill.amp --jobs two", "--jobs: two is no number from 1 to 100000 (see"),
         ("validate mill.amp --jobs ²", "--jobs: ² is no number from 1 to 100000 (see"),
-        ("report mill.amp -o mill.txt --sort axs", "Unknown sort 'axs'. Known: axis, number, group. Did you mean: axis"),
+        ("report mill.amp -o mill.txt --sort axs", "Unknown sort 'axs'. Known: axis, number, group, steps. Did you mean: axis"),
         ("nwe 9pc", "Unknown verb 'nwe'. Did you mean: new (see 'amp-studio --help')"),
         ("import notes.txt -o new.amp", "notes.txt: Unrecognised file format. Known: csv, patch, num, "),
         ("import notes.txt -o new.amp --format nun", "Did you mean: num"),

@@ -98,7 +98,7 @@ class Browser:
     def go(self, address: str) -> None:
         """Open an address and wait until it is complete."""
         self._ask("Page.navigate", url=address)
-        self.until("document.readyState === 'complete' && location.href !== 'about:blank'")
+        self.until(f"document.readyState === 'complete' && location.href === {json.dumps(address)}")
 
     def value(self, expression: str) -> Any:
         """Return what an expression is on the page."""

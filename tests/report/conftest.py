@@ -77,7 +77,11 @@ def printed(
     def path_of(which: str, sort: Sort) -> Path:
         path = folder / f"{which}-{sort}.pdf"
         write_report(
-            files[which].copy(), path, Contents(sort, inactive=True), source=folder / "mill.amp", date=DATE
+            files[which].copy(),
+            path,
+            Contents(sort, inactive=True, without=frozenset({"pictures"})),
+            source=folder / "mill.amp",
+            date=DATE,
         )
         return path
 

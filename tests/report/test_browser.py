@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from amp_studio.report import write_report
 
 from .browser import CHROMIUM, Browser
 
+_VISITS = count(1)
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium")
 
 
@@ -30,9 +32,7 @@ def browser(page: Path) -> Iterator[Browser]:
 
 @pytest.fixture(autouse=True)
 def reload(browser: Browser, page: Path) -> None:
-    browser.go("about:blank#")
-    browser.value("location.href = 'about:blank'")
-    browser.go(page.as_uri())
+    browser.go(f"{page.as_uri()}?{next(_VISITS)}")
 
 
 def found(browser: Browser) -> str:

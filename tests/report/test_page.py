@@ -29,7 +29,9 @@ class Reader(HTMLParser):
         known = dict(attrs)
         self.ids += [v for k, v in attrs if k == "id" and v]
         self.links += [v for k, v in attrs if k == "href" and v]
-        self.loaded += [k for k in ("src", "srcset", "data") if k in known] + ([tag] if tag == "link" else [])
+        self.loaded += [
+            k for k in ("src", "srcset", "data") if k in known and not str(known[k]).startswith("data:")
+        ] + ([tag] if tag == "link" else [])
         if tag not in VOID:
             self._open.append(tag)
 

@@ -54,7 +54,7 @@ def test_every_value_is_printed_and_table_heads_are_repeated(
     path = printed("eight axes", sort)
     text = said_by("pdftotext", "-raw", path, "-")
     words = set(text.split())
-    if sort != "group":
+    if sort not in ("group", "steps"):
         assert {
             r.number for r in build_report(eight_axes, Contents(inactive=True)).rows() if r.number
         } <= words

@@ -1,0 +1,77 @@
+"""The documentation of a file with what the simulator and the record of exchanges add to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import Notify, ParameterFile, real_path, text_of_name
+from amp_studio.files.local_time import local_time
+from amp_studio.report import Contents, Drawing, ExchangeLine, write_report
+from amp_studio.validate import NO_RULES, BuilderRules
+
+_DRAWN = (".pdf", ".html")
+_WIDTH, _UNIT = 640, 92
+"""Of a drawing: in the width of a page its letters are 8.5 points, and it is no longer than the page."""
+_SCENARIOS = ("step", "frequency")
+_SHORT = 12
+
+
+def write_dossier(
+    file: ParameterFile,
+    path: Path,
+    contents: Contents | None = None,
+    *,
+    source: Path | None = None,
+    date: datetime | None = None,
+    own: BuilderRules = NO_RULES,
+    notify: Notify = lambda _note: None,
+) -> None:
+    """Write the documentation of a file, as ``write_report`` does, with its motion and its exchanges.
+
+    Raises as ``write_report`` does, and OSError for a record of exchanges that cannot be read.
+    """
+    contents = contents or Contents()
+    has_drawings = path.suffix.lower() in _DRAWN and "motion" not in contents.without
+    write_report(
+        file, path, contents, source=source, date=date, own=own, notify=notify,
+        motion=tuple(motion_figures(file)) if has_drawings else (),
+        exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
+    )  # fmt: skip
+
+
+def motion_figures(file: ParameterFile) -> Iterator[Drawing]:
+    """Yield step and frequency response of each axis that can be simulated; why one cannot is a figure without a drawing."""
+    from amp_studio.sim import SimulationError, listing, plot_svg, simulate
+
+    try:
+        known = listing(file)
+    except SimulationError:  # a family without a law
+        return
+    scenarios = {each.name for each in known.scenarios}
+    assumed: dict[str, None] = {}
+    for axis in known.axes:
+        for scenario in (name for name in _SCENARIOS if name in scenarios):
+            try:
+                trace = simulate(file, scenario, axis)
+            except SimulationError as error:
+                yield Drawing(f"{scenario.capitalize()}, axis {axis}", "", (f"Not simulated: {error}",))
+                continue
+            named = f"{axis} ({trace.letter})" if trace.letter and trace.letter != axis else axis
+            drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False)
+            assumed |= dict.fromkeys(trace.assumptions)
+            yield Drawing(f"{scenario.capitalize()}, axis {named}", drawn)
+    if assumed:
+        yield Drawing("What was assumed", "", tuple(assumed))
+
+
+def exchanges_of(source: Path) -> Iterator[ExchangeLine]:
+    """Yield what the record of exchanges has of a file, oldest first; raises OSError."""
+    from amp_studio.transfer.client.record import read_exchanges
+
+    real = real_path(source)
+    for each in read_exchanges(real.parent, text_of_name(real.name)):
+        yield ExchangeLine(
+            local_time(each.when), each.who, each.verb, each.control, each.before[:_SHORT], each.after[:_SHORT], each.text
+        )  # fmt: skip

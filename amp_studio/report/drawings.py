@@ -1,0 +1,43 @@
+"""The pictures of a file as drawings on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from amp_studio.files import ParameterFile
+from amp_studio.pictures import FilePicture, Scene, pictures_of, scene_svg
+
+from .model import Drawing
+
+WIDTH, HEIGHT = 620.0, 360.0
+"""Size of a drawing in points of its letters: in the width of a page they are 8.5 points or more."""
+_MOST_PARTS = 8
+"""Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
+
+
+def drawings(file: ParameterFile) -> tuple[Drawing, ...]:
+    """Return each picture of a file that shows something, part by part."""
+    return tuple(figure for picture in pictures_of(file) for figure in _drawn(picture))
+
+
+def _drawn(picture: FilePicture) -> Iterator[Drawing]:
+    for part in _parts(picture):
+        scene = picture.scene(part)
+        if _shows(scene):
+            title = f"{scene.title} {scene.subtitle.partition(',')[0]}".strip() if part else scene.title
+            yield Drawing(
+                title, scene_svg(scene, WIDTH, HEIGHT, notes=False), tuple(n.text for n in scene.notes)
+            )
+
+
+def _shows(scene: Scene) -> bool:
+    return bool(scene.handles or scene.areas)
+
+
+def _parts(picture: FilePicture) -> Iterator[str]:
+    drawn: set[str] = set()
+    for part, _ in picture.parts:
+        axes = set(part.split("+"))
+        if len(picture.parts) <= _MOST_PARTS or not axes & drawn:
+            drawn |= axes
+            yield part

@@ -1,0 +1,74 @@
+"""The documentation with what the simulator and the record of exchanges add to it."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from amp_studio.dossier import exchanges_of, motion_figures, write_dossier
+from amp_studio.files import open_file
+from amp_studio.report import CHAPTERS, Contents
+from amp_studio.transfer.client.record import add_exchange, exchange_now
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+MILL = EXAMPLES / "mill-1394" / "MILL_1394.amp"
+
+
+@pytest.fixture
+def mill(tmp_path: Path) -> Path:
+    return Path(shutil.copy(MILL, tmp_path / "mill.amp"))
+
+
+def test_each_axis_has_its_responses_and_what_they_assume_is_said_once() -> None:
+    figures = tuple(motion_figures(open_file(MILL).file))
+    assert [f.title for f in figures[:2]] == ["Step, axis 1 (X)", "Frequency, axis 1 (X)"]
+    assert figures[-1].title == "What was assumed"
+    assert len(set(figures[-1].notes)) == len(figures[-1].notes) > 0
+    assert all(f.svg.startswith("<svg") for f in figures if not f.notes)
+
+
+def test_a_family_without_a_law_has_no_motion() -> None:
+    assert tuple(motion_figures(open_file(EXAMPLES / "grblhal-router" / "GRBL_ROUTER.amp").file)) == ()
+
+
+def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> None:
+    add_exchange(
+        mill,
+        exchange_now(
+            "download", mill, "9pc", "tcp://10.0.0.1:9600", after="ab" * 32, state="new", text="9 values sent"
+        ),
+    )
+    assert [(e.verb, e.control, e.after, e.text) for e in exchanges_of(mill)] == [
+        ("download", "tcp://10.0.0.1:9600", "abababababab", "9 values sent")]  # fmt: skip
+    for ending in (".html", ".txt"):
+        out = tmp_path / f"r{ending}"
+        write_dossier(open_file(mill).file, out, Contents(without=frozenset({"motion"})), source=mill)
+        assert "9 values sent" in out.read_text("utf-8")
+        write_dossier(open_file(mill).file, out, Contents(without=frozenset(CHAPTERS)), source=mill)
+        assert "9 values sent" not in out.read_text("utf-8")
+        assert "Released by" not in out.read_text("utf-8")
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs poppler's tools")
+def test_the_contents_have_the_page_of_each_chapter(mill: Path, tmp_path: Path) -> None:
+    out = tmp_path / "r.pdf"
+    write_dossier(open_file(mill).file, out, source=mill, date=datetime(2026, 7, 1, tzinfo=UTC))
+    done = subprocess.run(["pdftotext", "-layout", out, "-"], capture_output=True, text=True, check=True)
+    pages = done.stdout.split("\f")
+    first = next(n for n, page in enumerate(pages) if "Marks" in page)
+    contents = "\n".join(pages[1:first])
+    told = dict(
+        line.strip().rsplit(None, 1)
+        for line in contents.splitlines()
+        if line.strip() and line.split()[-1].isdigit()
+    )
+    told = {title: number for title, number in told.items() if not title.startswith("AMP Studio")}
+    assert {"Machine", "Findings", "Pictures", "Home Parameters", "Motion, simulated", "Signatures"} <= set(
+        told
+    )
+    for title, number in told.items():
+        assert title in " ".join(pages[int(number) - 1].split()), (title, number)
