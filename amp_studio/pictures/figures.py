@@ -26,7 +26,7 @@ from amp_studio.schema import (
 from amp_studio.schema.model import Direction, ParameterId
 from amp_studio.schema.storage import exact
 
-from .scene import Drag, Handle, PictureNote, Point
+from .scene import LEAST, MOST, Drag, Handle, PictureNote, Point
 
 STEPS = 1000
 """Steps of a key over the length of a picture, at most."""
@@ -107,7 +107,7 @@ class ValueReader:
                 None,
                 unit,
                 shown,
-                f"{shown} cannot be given in {unit or 'numbers'}",
+                f"{shown} cannot be drawn in {unit or 'numbers'}",
                 wrong=True,
             )
         wrong = fault(self.evaluation, address, value) or ""
@@ -122,7 +122,7 @@ class ValueReader:
         if dimension(real.unit) != dimension(unit) or isinstance(real.value, (str, bool)):
             return None
         number = convert(float(real.value), real.unit, unit)
-        return number if math.isfinite(number) else None
+        return number if number == 0.0 or LEAST <= abs(number) <= MOST else None
 
     def _in_file(self, address: Address, value: Value | None) -> Value | None:
         """Return a value in the unit system of the file, as the table shows it."""

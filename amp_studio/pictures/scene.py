@@ -32,6 +32,10 @@ DotKind = Literal["point", "home", "switch", "marker", "left", "right", "up", "d
 """``left`` to ``down`` are arrows, ``end`` is a short bar across."""
 
 
+LEAST, MOST = 1e-9, 1e12
+"""Figures between which something is drawn; 0 is drawn too."""
+
+
 @dataclass(frozen=True)
 class Polyline:
     """A line through points."""
@@ -134,6 +138,17 @@ class Scale:
     log: bool = False
     rows: tuple[tuple[float, str, str], ...] = ()
     """In place of figures: where, name at the left and at the right end."""
+
+    def __post_init__(self) -> None:
+        """Give a scale without length one, so that whatever a file sets can be drawn."""
+        low, high = sorted((self.low, self.high))
+        if self.log:
+            low = max(low, LEAST)
+        least = LEAST * max(abs(low), abs(high), 1.0)
+        if high - low < least and not (self.log and high > low):
+            high = low * 10.0 if self.log else low + least
+        object.__setattr__(self, "low", low)
+        object.__setattr__(self, "high", high)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,26 @@
+"""Whatever numbers a file contains, its pictures are drawn or have a note."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import open_file
+from amp_studio.pictures import pictures_of, scene_svg
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
+
+
+@pytest.mark.parametrize("number", [-123456.789, 0.0, 1e300, -1e300, 1e-300, 5e-324])
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_every_number_the_same(example: Path, number: float) -> None:
+    file = open_file(example).file
+    for address, value in list(file.values.items()):
+        if not isinstance(value.value, (str, bool)):
+            file.set(address, type(value)(number, value.unit))
+    for picture in pictures_of(file):
+        for part, _ in picture.parts:
+            svg = scene_svg(picture.scene(part))
+            assert "nan" not in svg, (picture.name, part)
+            assert "inf" not in svg.replace("infinit", ""), (picture.name, part)
