@@ -17,6 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import cold
+import comparing
 import exchange
 import find
 import grid
@@ -57,6 +58,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from sim_laws.measures(times)
     yield from screen.measures(folder, full, times)
     yield from grid.measures(folder, times)
+    yield from comparing.measures(folder, times)
     yield from exchange.measures(folder, full, example, max(1, times // 3))
 
 

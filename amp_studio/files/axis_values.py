@@ -88,6 +88,11 @@ def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
             f"axis {source} is {axis_kind(file, source)} and axis {target} is {axis_kind(file, target)}: "
             "only axes of the same type can be copied"
         )
+    return [change for a, v in copied_values(file, source, target).items() if (change := file.set(a, v))]
+
+
+def copied_values(file: ParameterFile, source: str, target: str) -> dict[Address, Value | None]:
+    """Return what an axis has after it was copied from another: values and bits, without name and what it is fitted by."""
     own, wanted = _own(file), dict[Address, Value | None]()
     for parameter_id, instance in axis_addresses(file, target):
         if parameter_id not in own:
@@ -99,7 +104,7 @@ def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
         word = int(float(value.value))
         is_set = bool(word >> bits[source] & 1)
         wanted[parameter_id, ""] = Value(word | 1 << bits[target] if is_set else word & ~(1 << bits[target]))
-    return [change for a, v in wanted.items() if (change := file.set(a, v))]
+    return wanted
 
 
 def _own(file: ParameterFile) -> set[str]:

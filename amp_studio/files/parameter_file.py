@@ -278,8 +278,10 @@ class ParameterFile:
         changes = []
         scopes = self.machine_schema.scopes
         for address in self.addresses():
+            if address[1] != axis or scopes[address[0]] != "axis":
+                continue
             value = self.get(address)
-            if address[1] != axis or value is None or not value.unit or scopes[address[0]] != "axis":
+            if value is None or not value.unit:
                 continue
             metric = self.evaluation.unit(address, "metric")
             unit = _refitted(value.unit, self.evaluation.turns(address), metric)

@@ -33,6 +33,22 @@ def test_an_axis_with_another_number_is_compared_with_the_one_of_its_letter() ->
     assert [d.address for d in differences] == [("feedrate.rapid", "3")]
 
 
+def test_axes_of_a_num_are_matched_by_the_letters_that_its_file_gives_them() -> None:
+    mill, other = (new_file("num", axes=axes) for axes in (["X", "Y", "Z"], ["X", "Z", "Y"]))
+    speed = ("servo.loop_gain", "1")
+    other.set(speed, other.read(speed, "77"))
+    matched = matched_by_letter(other, mill)
+    assert matched.moved == (("Z", "1", "2"), ("Y", "2", "1"))
+    assert matched.file.get(("servo.loop_gain", "2")) == other.get(speed)
+    assert axis_letters(matched.file) == axis_letters(mill)
+
+
+def test_a_mark_of_a_value_out_of_range_goes_with_its_axis() -> None:
+    mill, other = (new_file("9pc", "mill", axes) for axes in (["X", "Y"], ["Y", "X"]))
+    other.set_many({("feedrate.rapid", "1"): Value(1e9, "mm/min")}, force="on site")
+    assert matched_by_letter(other, mill).file.forced == {("feedrate.rapid", "2"): "on site"}
+
+
 def test_an_axis_that_the_other_machine_does_not_have_gets_a_free_number() -> None:
     mill = new_file("9pc", "mill", ["X", "Z"])
     other = with_rapid(new_file("9pc", "mill", ["X", "Y", "Z"]), Y=2000)
