@@ -125,9 +125,9 @@ class MergeDetail(QFrame):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(12, 10, 12, 8)
         layout.setSpacing(24)
-        layout.addLayout(left, 3)
-        layout.addLayout(grid, 4)
-        layout.addWidget(self.facts, 2)
+        layout.addLayout(left, 2)
+        layout.addLayout(grid, 5)
+        layout.addWidget(self.facts, 1)
         self.show_row(None)
 
     def show_row(self, row: Row | None) -> None:

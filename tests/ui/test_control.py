@@ -15,6 +15,7 @@ from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.ui.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_model import BASE, B
 from amp_studio.ui.merge_window import MergeWindow
 from amp_studio.ui.task import ProgressDialog
 
@@ -151,8 +152,8 @@ def test_a_header_that_differs_is_told_by_verify(
     assert person.reads() == "All values are the same; only the header (revision) differs."
 
 
-def test_differences_to_the_control_are_listed_and_shown_beside_the_value(
-    window: MainWindow, start_control: Start, person: Person, accept
+def test_differences_to_the_control_are_listed_with_its_last_download_and_shown_beside_the_value(
+    window: MainWindow, start_control: Start, person: Person, accept, qtbot: QtBot
 ) -> None:
     control = start_control()
     accept(DownloadPreview)
@@ -166,6 +167,15 @@ def test_differences_to_the_control_are_listed_and_shown_beside_the_value(
     assert [(row.address, row.a, row.b) for row in shown.merge.differing] == [
         (EXCESS, Value(3.0, "mm"), Value(11.0, "mm"))
     ]
+    assert shown.chosen[B].title == control.address
+    person.types(control.address)
+    for name in ("Control Now…", "Last Download"):
+        shown.head.buttons[BASE].fill()
+        offers = {a.text().replace("&", ""): a for a in shown.head.buttons[BASE].menu().actions()}
+        shown.use_base(None)
+        offers[name].trigger()
+        qtbot.waitUntil(lambda: BASE in shown.chosen, timeout=WAIT_MS)
+        assert [(row.address, row.kind) for row in shown.merge.differing] == [(EXCESS, "a")], name
     window.go_to(EXCESS)
     assert "11 mm in the control" in window.detail.pages["Help"].toPlainText()
 
