@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema.registration import load_part, registration_of
 
 from .curve import ErrorCurve
-from .measurement import Points
+from .measurement import MeasuredPoints
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class CalibrationTable:
     """
 
     unit: str
-    points: Points
+    points: MeasuredPoints
     input: str = ""
     start: str = ""
 

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from .measurement import Measurement, Points
+from .measurement import MeasuredPoints, Measurement
 
 
 @dataclass(frozen=True)
 class ErrorCurve:
-    """Points of one unit with rising positions; an empty curve is zero everywhere."""
+    """MeasuredPoints of one unit with rising positions; an empty curve is zero everywhere."""
 
-    points: Points
+    points: MeasuredPoints
 
     @cached_property
     def _positions(self) -> list[Fraction]:

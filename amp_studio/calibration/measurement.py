@@ -11,7 +11,7 @@ POSITION_UNITS = ("mm", "in", "um", "deg", "counts")
 ERROR_UNITS = (*POSITION_UNITS, "arcsec")
 DECIMALS = ("point", "comma")
 
-Points = tuple[tuple[Fraction, Fraction], ...]
+MeasuredPoints = tuple[tuple[Fraction, Fraction], ...]
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class MeasuredRun:
     """One pass over the targets: position and error (measured less target) in the unit of the measurement."""
 
     rising: bool
-    points: Points
+    points: MeasuredPoints
 
 
 @dataclass(frozen=True)

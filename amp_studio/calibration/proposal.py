@@ -1,7 +1,7 @@
 """From measured points to what is set in a file: calibration table, reversal error, and what error is expected to remain.
 
 Motion that is lost at a reversal leaves a rising run behind by half of it and a falling run ahead by the other half; the
-mean of both directions is what the table takes away. Points measured with compensation on are what it has left over, so
+mean of both directions is what the table takes away. MeasuredPoints measured with compensation on are what it has left over, so
 what it takes away already is added again.
 """
 

@@ -23,6 +23,7 @@ from .restore import restore
 from .sheet_actions import enter_by_hand
 from .studio_window import StudioWindow
 from .task import TaskProgress
+from .tuning_actions import tune
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -51,7 +52,9 @@ class ControlActions:
         exchanges = act("E&xchanges of This File…", self.recorded, None, "file")
         menu.addActions([download, verify, upload, put_back, by_hand])
         menu.addSeparator()
+        tuning = act("&Tuning…", lambda: tune(self.window, self.exchanges), "Shift+F9", "file")
         menu.addActions([several, exchanges])
+        menu.addAction(tuning)
         menu.addSeparator()
         self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
         self.estop_action = act("Emulated Control in &E-Stop", self._estop, None, "")

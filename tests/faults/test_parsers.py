@@ -75,6 +75,7 @@ READERS = {
     "sim/compiled.py": "",  # one switch of numba, compared with "0"
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
+    "transfer/client/live.py": "damaged control image",
     "transfer/client/record.py": "damaged record of exchanges",
     "transfer/client/parameters.py": "damaged digests",
     "transfer/client/verification.py": "damaged control image",

@@ -1,0 +1,339 @@
+"""The Tuning window: chapter 36 of the 9/PC on the open file, measured points, and values in a connected control."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QWidget
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import Document, new_file, open_file
+from amp_studio.schema import Value
+from amp_studio.transfer.client.live import LiveTuning
+from amp_studio.ui.calibration_page import CalibrationPage
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.measured_dialog import MeasuredDialog
+from amp_studio.ui.tuning_values import ValuesPage
+from amp_studio.ui.tuning_window import TuningWindow
+from amp_studio.ui.workspace import Workspace
+from tests.families.grblhal.bench import Bench, sent
+from tests.ui.conftest import WAIT_MS, Person, action
+
+REVERSAL, TABLE = ("servo.reversal_error", "1"), ("calibration.table", "1")
+POINTS = "position [mm],error [um]\n0,0\n100,4\n200,7\n200,13\n100,10\n0,6\n"
+
+
+@pytest.fixture
+def tuning(workspace: Workspace, qtbot: QtBot, person: Person) -> TuningWindow:
+    return shown(TuningWindow(workspace, lambda: None), qtbot)
+
+
+def shown(window: TuningWindow, qtbot: QtBot) -> TuningWindow:
+    window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)  # qtbot closes it once more
+    qtbot.addWidget(window, before_close_func=lambda w: setattr(w, "control", None))
+    window.show()
+    with qtbot.waitActive(window, timeout=WAIT_MS):
+        window.activateWindow()
+    return window
+
+
+def page(tuning: TuningWindow, key: str) -> ValuesPage:
+    """Bring a page of values to the front."""
+    (found,) = [p for p in tuning.values if p.page.key == key]
+    row = next(
+        n
+        for n in range(tuning.stack.count())
+        if tuning.stack.widget(n).isAncestorOf(found) or tuning.stack.widget(n) is found
+    )
+    tuning.pages.setCurrentRow(row)
+    return found
+
+
+def calibration(tuning: TuningWindow) -> CalibrationPage:
+    assert tuning.calibration is not None
+    tuning.pages.setCurrentRow(tuning.stack.indexOf(tuning.calibration))
+    return tuning.calibration
+
+
+def put_cursor(values: ValuesPage, address: tuple[str, str]) -> None:
+    values.table.setCurrentCell(values.addresses().index(address), 2)
+
+
+def test_the_command_opens_the_pages_of_the_manual(window: MainWindow, qtbot: QtBot) -> None:
+    action(window, "Tuning").trigger()
+    (tuning,) = window.findChildren(TuningWindow)
+    pages = [tuning.pages.item(n).text() for n in range(tuning.pages.count())]
+    assert pages == ["Reversal Error", "Home Calibration", "Axis Calibration", "Servo", "Spindle"]
+    tuning.close()
+
+
+def test_plus_and_minus_change_the_value_by_a_step_and_each_is_undone(
+    tuning: TuningWindow, workspace
+) -> None:
+    values = page(tuning, "reversal")
+    put_cursor(values, REVERSAL)
+    assert values.step.currentText() == "0.001 mm"
+    for key in ("+", "+", "+", "-"):
+        QTest.keyClicks(values.table, key)
+    assert workspace.file.get(REVERSAL) == Value(0.002, "mm")
+    QTest.keyClick(tuning, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert workspace.file.get(REVERSAL) == Value(0.003, "mm")
+    assert workspace.undo_stack.index() == 3
+
+
+def test_a_value_stops_at_the_end_of_its_range(tuning: TuningWindow, workspace) -> None:
+    values = page(tuning, "reversal")
+    put_cursor(values, REVERSAL)
+    workspace.edit("set", {REVERSAL: Value(9.9985, "mm")})
+    for _ in range(3):
+        values.increase.click()
+    assert workspace.file.get(REVERSAL) == Value(9.999, "mm")
+
+
+def test_a_typed_value_replaces_and_one_out_of_range_is_refused_in_the_bar(
+    tuning: TuningWindow, workspace
+) -> None:
+    values = page(tuning, "home")
+    put_cursor(values, ("home.calibration", "2"))
+    item = values.table.item(values.table.currentRow(), 2)
+    item.setText("0.5 in")
+    assert workspace.file.get(("home.calibration", "2")) == Value(0.5, "in")
+    values.table.item(values.table.currentRow(), 2).setText("99999999")
+    assert "home" in tuning.message.text.text().casefold()
+    assert tuning.message.isVisible()
+    assert workspace.file.get(("home.calibration", "2")) == Value(0.5, "in")
+    assert "99999999" not in values.table.item(values.table.currentRow(), 2).text()
+
+
+def test_a_number_is_added_to_a_value(tuning: TuningWindow, workspace, person: Person) -> None:
+    values = page(tuning, "home")
+    put_cursor(values, ("home.calibration", "1"))
+    before = workspace.file.get(("home.calibration", "1")).value
+    person.types("-1.25")
+    QTest.keyClick(values.table, Qt.Key.Key_A)
+    assert workspace.file.get(("home.calibration", "1")).value == before - 1.25
+
+
+def test_a_tuned_velocity_gain_takes_the_motor_table_off_in_the_same_step(
+    tuning: TuningWindow, workspace
+) -> None:
+    workspace.edit("set", {("servo.standard_motor_values", ""): Value(True)}, force="test")
+    values = page(tuning, "servo")
+    address = ("servo.velocity_proportional_gain", "1")
+    if not workspace.file.evaluation.state(address).is_active:
+        workspace.undo_stack.undo()
+    steps = workspace.undo_stack.index()
+    tuning.target.set("Tune", {address: Value(6500)})
+    assert workspace.file.get(("servo.standard_motor_values", "")) == Value(False)
+    assert workspace.undo_stack.index() == steps + 1
+    assert values.addresses()
+
+
+# -- the table ------------------------------------------------------------------------------------
+
+
+def test_points_are_put_in_replaced_and_deleted_and_the_first_one_decides_input_and_start(
+    tuning: TuningWindow, workspace, person: Person
+) -> None:
+    table = calibration(tuning)
+    table.input.setCurrentIndex(table.input.findData("deviation"))
+    table.input.activated.emit(table.input.currentIndex())
+    table.start.setCurrentIndex(table.start.findData("-"))
+    table.start.activated.emit(table.start.currentIndex())
+    for text in ("0 0", "100 0.004", "50=0.001"):
+        person.types(text)
+        table.table.setFocus()
+        QTest.keyClick(table.table, Qt.Key.Key_Insert)
+    assert workspace.file.get(TABLE) == Value("deviation - mm 0:0 50:0.001 100:0.004")
+    assert not table.input.isEnabled()
+    table.table.item(1, 1).setText("0.002")
+    assert workspace.file.get(TABLE) == Value("deviation - mm 0:0 50:0.002 100:0.004")
+    table.table.item(2, 1).setText("5")
+    assert "PARAMETER OUT OF RANGE" in tuning.message.text.text()
+    table.table.setCurrentCell(1, 1)
+    QTest.keyClick(table.table, Qt.Key.Key_Delete)
+    assert workspace.file.get(TABLE) == Value("deviation - mm 0:0 100:0.004")
+    table.clear.click()
+    assert workspace.file.get(TABLE) is None
+    assert table.input.isEnabled()
+    tuning.target.undo()
+    assert workspace.file.get(TABLE) == Value("deviation - mm 0:0 100:0.004")
+
+
+def test_measured_points_are_asked_about_and_become_one_step(
+    tuning: TuningWindow, workspace, person: Person, accept: Callable[..., None], tmp_path: Path
+) -> None:
+    path = tmp_path / "laser.csv"
+    path.write_text(POINTS)
+
+    def answer(dialog: MeasuredDialog) -> None:
+        assert not dialog.set_button.isEnabled()
+        assert "what an error is" in dialog.missing.text()
+        dialog.sign.setCurrentIndex(1)
+        assert dialog.set_button.isEnabled()
+        assert "0.01300 mm measured, 0.00000 mm expected" in dialog.summary.text()
+
+    person.chooses(path)
+    accept(MeasuredDialog, answer)
+    steps = workspace.undo_stack.index()
+    calibration(tuning).read.click()
+    assert workspace.file.get(TABLE) == Value("deviation - mm 0:0 100:0.004 200:0.007")
+    assert workspace.file.get(REVERSAL) == Value(0.006, "mm")
+    assert workspace.undo_stack.index() == steps + 1
+
+
+def test_a_file_that_is_no_measurement_is_named_in_the_dialog(
+    workspace, tmp_path: Path, qtbot: QtBot
+) -> None:
+    path = tmp_path / "laser.csv"
+    path.write_text("0,000;0,001\n100,000;0,004\n")
+    dialog = MeasuredDialog(workspace.file, "1", path)
+    qtbot.addWidget(dialog)
+    assert "decimal comma" in dialog.missing.text()
+    assert not dialog.set_button.isEnabled()
+    dialog.decimal.setCurrentIndex(1)
+    assert "does not name" in dialog.missing.text()
+
+
+# -- a control ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def router(qapp: QApplication, tmp_path: Path) -> Workspace:
+    path = tmp_path / "router.amp"
+    Document.create(new_file("grblhal"), path).close()
+    workspace = Workspace(Document.open(path))
+    yield workspace
+    workspace.close()
+
+
+@pytest.fixture
+def live(router: Workspace, tmp_path: Path, qtbot: QtBot, person: Person) -> tuple[TuningWindow, Bench]:
+    bench = Bench(tmp_path / "control")
+    tuning = TuningWindow(router, lambda: LiveTuning(bench.driver, tmp_path, "router", address="bench"))
+    shown(tuning, qtbot)
+    tuning.switch.buttons["control"].click()
+    assert tuning.control is not None
+    return tuning, bench
+
+
+ACCELERATION = ("axis.acceleration", "X")
+
+
+def test_a_live_value_goes_into_the_control_at_once_and_not_into_the_file(live, router: Workspace) -> None:
+    tuning, bench = live
+    values = page(tuning, "steps")
+    put_cursor(values, ACCELERATION)
+    values.table.item(values.table.currentRow(), 2).setText("25")
+    assert sent(bench) == ["$120=25.000"]
+    assert "read back equal" in tuning.message.text.text()
+    assert "1 value" in tuning.state.text()
+    assert not router.is_dirty
+    tuning.undo_action.trigger()
+    assert sent(bench) == ["$120=25.000", "$120=10.000"]
+    tuning.redo_action.trigger()
+    assert sent(bench)[-1] == "$120=25.000"
+    tuning.take.click()
+    assert router.file.get(ACCELERATION).value == 25
+    assert router.undo_stack.index() == 1
+
+
+def test_the_old_values_are_offered_when_the_control_is_left(live, router: Workspace, person: Person) -> None:
+    tuning, bench = live
+    tuning.target.set("Tune", {ACCELERATION: Value(25.0, "mm/s2")})
+    person.answers("Cancel")
+    assert not tuning.close()
+    person.answers("Put the Old Values Back")
+    assert tuning.close()
+    assert sent(bench) == ["$120=25.000", "$120=10.000"]
+    assert all("differ" in question for question in person.asked)
+
+
+def test_after_a_lost_line_the_window_shows_what_is_known_and_reads_again(live, person: Person) -> None:
+    tuning, bench = live
+    plain = bench.spoil_in
+
+    def cut(data: bytes) -> bytes:
+        bench.is_cut = bench.is_cut or b"$120=" in data
+        return plain(data)
+
+    bench.spoil_in = cut
+    tuning.guarded(lambda: tuning.target.set("Tune", {ACCELERATION: Value(25.0, "mm/s2")}))
+    assert "is not known" in tuning.message.text.text()
+    assert "not known what the control contains" in tuning.state.text()
+    assert not page(tuning, "steps").increase.isEnabled()
+    bench.is_cut, bench.spoil_in = False, plain
+    tuning.look.click()
+    assert page(tuning, "steps").increase.isEnabled()
+    person.answers("Keep Them in the Control")
+    tuning.close()
+
+
+def test_a_control_that_takes_everything_at_once_gets_the_values_together(
+    tuning: TuningWindow, workspace, start_house: Callable[[], LiveTuning]
+) -> None:
+    tuning._connect = start_house
+    tuning.switch.buttons["control"].click()
+    tuning.guarded(lambda: tuning.target.set("Tune", {REVERSAL: Value(0.004, "mm")}))
+    tuning.guarded(lambda: tuning.target.set("Tune", {TABLE: Value("deviation - mm 0:0 100:0.004")}))
+    assert tuning.send.text() == "Do&wnload 2 Values"
+    tuning.send.click()
+    assert tuning.control is not None
+    assert tuning.control.waiting == 0
+    assert tuning.control.file.get(TABLE) == Value("deviation - mm 0:0 100:0.004")
+    assert "Restart" in tuning.message.text.text() or "restarted" in tuning.message.text.text()
+    assert workspace.file.get(REVERSAL) == Value(0.0, "mm")
+    tuning.control.put_back()
+    assert tuning.control.file.get(REVERSAL) == Value(0.0, "mm")
+
+
+@pytest.fixture
+def start_house(tmp_path: Path, path: Path) -> Callable[[], LiveTuning]:
+    """Return what connects to an emulated 9/PC in E-stop that contains the example."""
+    from amp_studio.transfer.client.drivers import open_driver
+    from amp_studio.transfer.client.parameters import download_file
+    from tests.ui.conftest import Control
+
+    control = Control(tmp_path / "control")
+    download_file(open_file(path).file, control.address, tmp_path, "mill")
+    made: list[LiveTuning] = []
+
+    def connect() -> LiveTuning:
+        made.append(
+            LiveTuning(open_driver(control.address, "9pc"), tmp_path, "mill", address=control.address)
+        )
+        return made[-1]
+
+    yield connect
+    for each in made:
+        each.close()
+    control.stop()
+
+
+# -- manners --------------------------------------------------------------------------------------
+
+
+def test_every_view_has_a_name_and_no_two_buttons_of_a_page_share_a_letter(tuning: TuningWindow) -> None:
+    for n in range(tuning.stack.count()):
+        tuning.pages.setCurrentRow(n)
+        letters = [
+            text[text.index("&") + 1].upper()
+            for button in tuning.findChildren(QAbstractButton)
+            if button.isVisible() and "&" in (text := button.text())
+        ]
+        assert len(set(letters)) == len(letters), (tuning.pages.item(n).text(), letters)
+        for view in tuning.stack.widget(n).findChildren(QWidget):
+            if view.isVisible() and view.metaObject().className() in ("QTableWidget", "QComboBox"):
+                assert view.accessibleName(), view
+
+
+def test_a_family_whose_manual_tunes_nothing_names_that(open_window, person: Person, tmp_path: Path) -> None:
+    path = tmp_path / "syntec.amp"
+    Document.create(new_file("syntec"), path).close()
+    window = open_window(path)
+    action(window, "Tuning").trigger()
+    assert "tuned on line" in person.reads()
