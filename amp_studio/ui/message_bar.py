@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
-from .theme import severity_ink
+from .theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, severity_icon, severity_ink
 
 MessageKind = Literal["information", "advice", "warning", "error"]
 READING_MS = 8_000
@@ -21,25 +21,30 @@ class MessageBar(QFrame):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setAccessibleName("Message")
+        self.setAccessibleName(self.tr("Message"))
+        self.setMinimumHeight(MESSAGE)
+        self._kind: MessageKind = "information"
+        self._icon = QLabel()
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.buttons: list[QPushButton] = []
         self._close = QToolButton()
-        self._close.setText("×")
-        self._close.setAutoRaise(True)
-        self._close.setToolTip("Close this message (Escape)")
-        self._close.setAccessibleName("Close message")
+        self._close.setIcon(icon("x", "dim"))
+        self._close.setToolTip(self.tr("Close this message (Escape)"))
+        self._close.setAccessibleName(self.tr("Close message"))
         self._close.clicked.connect(self.hide)
         self._layout = QHBoxLayout(self)
-        self._layout.setContentsMargins(12, 4, 8, 4)
+        self._layout.setContentsMargins(GAP3, 3, GAP2, 3)
+        self._layout.setSpacing(GAP2)
+        self._layout.addWidget(self._icon)
         self._layout.addWidget(self.text, 1)
         self._layout.addWidget(self._close)
         self._leave = QTimer(self)
         self._leave.setSingleShot(True)
         self._leave.timeout.connect(self.hide)
+        scheme().changed.connect(self._colour)
         self.hide()
 
     def say(
@@ -53,11 +58,12 @@ class MessageBar(QFrame):
         for name, act in answers:
             button = QPushButton(name)
             button.setAutoDefault(False)
+            button.setProperty("primary", kind in ("warning", "error") and not self.buttons)
             button.clicked.connect(lambda *_, act=act: (self.hide(), act()))
             self._layout.insertWidget(self._layout.count() - 1, button)
             self.buttons.append(button)
-        ink = severity_ink(kind).name() if kind != "information" else "palette(mid)"
-        self.setStyleSheet(f"MessageBar {{ border: 0; border-left: 3px solid {ink}; }}")
+        self._kind = kind
+        self._colour()
         self.text.setText(text)
         self.setAccessibleDescription(text)
         self.show()
@@ -66,6 +72,14 @@ class MessageBar(QFrame):
             self._leave.start(READING_MS)
         else:
             self._leave.stop()
+
+    def _colour(self) -> None:
+        """Show the severity by the left edge and by the shape of the icon."""
+        ink = severity_ink(self._kind).name()
+        self.setStyleSheet(
+            f"MessageBar {{ border: 0; border-left: 3px solid {ink}; border-bottom: 1px solid palette(midlight); }}"
+        )
+        self._icon.setPixmap(severity_icon(self._kind).pixmap(ICON, ICON))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape:
