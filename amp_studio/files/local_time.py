@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from datetime import datetime
 
+_MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 _STAMP = re.compile(r"\b\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\+00:00|Z)")
 
 
@@ -23,3 +24,20 @@ def local_time(stamp: str) -> str:
 def with_local_times(text: str) -> str:
     """Return a text with every stored time in it as local time."""
     return _STAMP.sub(lambda found: local_time(found[0]), text)
+
+
+def day_and_time(stamp: str, now: datetime | None = None) -> str:
+    """Return a stored time in the words of a person: ``today 14:35``, ``yesterday 17:48``, ``18 Nov 16:20``, ``18 Nov 2024``.
+
+    ``now`` is the present moment unless given; a text that is no time is returned unchanged.
+    """
+    try:
+        moment = datetime.fromisoformat(stamp).astimezone()
+    except (ValueError, OverflowError, OSError):
+        return stamp
+    present = (now or datetime.now().astimezone()).astimezone(moment.tzinfo)
+    days = (present.date() - moment.date()).days
+    if days in (0, 1):
+        return f"{'yesterday' if days else 'today'} {moment:%H:%M}"
+    day = f"{moment.day} {_MONTHS[moment.month - 1]}"
+    return f"{day} {moment:%H:%M}" if moment.year == present.year else f"{day} {moment.year}"

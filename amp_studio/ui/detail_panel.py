@@ -1,207 +1,240 @@
-"""The right side: help, range, state, rules and history of the selected parameter."""
+"""The right side: the selected parameter with its value in its range, rules, help, where else it has a value, and facts."""
 
 from __future__ import annotations
 
-import html
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
-from PySide6.QtCore import Qt, QUrl, Signal
-from PySide6.QtWidgets import QSplitter, QTabWidget, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, QTimer, QUrl, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTextBrowser, QVBoxLayout, QWidget
 
-from amp_studio.files.local_time import local_time
-from amp_studio.files.storage_text import storage_text
-from amp_studio.report import facts, formula_lines, help_parts, tables_of
-from amp_studio.report.wording import severity_name, state_name
-from amp_studio.schema import (
-    Address,
-    Value,
-    limits,
-    read_address,
-    real_value,
-    same_value,
-    show_value,
-    shown,
-    written,
-)
+from amp_studio.files import axis_letter, real_path, shown_axes
+from amp_studio.schema import Address, Value, convert, limits
+from amp_studio.validate import NOT_SET, SEVERITIES
 
-from .pages import LINK, drawn, link
-from .theme import severity_ink
+from .detail_page import CALCULATE, DOWNLOAD, FOLD, USE, DetailPage
+from .pages import LINK
+from .range_bar import RangeBar, ValueInRange
+from .segment import Segment
+from .task import Task
+from .theme import GAP2, GAP3, font, scheme
 from .word_panel import WordPanel
 from .workspace import Workspace
 
+_MOST_AXES = 8
+"""Axes that the segment has room for; the others are chosen in the table."""
+_REST_MS = 150
+"""Milliseconds that a selection must rest before the rules are asked which values they allow."""
+
 
 class DetailPanel(QWidget):
-    """Shows one address; links lead to other parameters. Only the visible page is filled."""
+    """Shows one address; links lead to other parameters."""
 
     linked = Signal(str)
     """A parameter id that was clicked."""
+    axis_wanted = Signal(object)
+    """The same parameter of another axis is to be selected."""
+    calculator_wanted = Signal()
+    """The formulas of the parameter are to be opened."""
 
     def __init__(self, workspace: Workspace, commit: Callable[[Address, str], bool]) -> None:
         super().__init__()
         self._workspace = workspace
         self._address: Address | None = None
-        self.tabs = QTabWidget()
-        self.tabs.setDocumentMode(True)
-        self._write = {
-            "Help": self._help,
-            "Facts": self._facts,
-            "Rules": self._rules,
-            "History": self._history,
-        }
-        self.pages = {name: QTextBrowser() for name in self._write}
-        for name, page in self.pages.items():
-            page.setOpenLinks(False)
-            page.anchorClicked.connect(self._follow)
-            self.tabs.addTab(page, name)
-        self.tabs.currentChanged.connect(self._show)
-        self.setFocusProxy(self.tabs)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
+        self._writer = DetailPage(workspace)
+        self.head = self._make_head()
+        self.axes = Segment(self.tr("Axis"))
+        self.axes.chosen.connect(self._choose_axis)
+        self.value = QLabel()
+        self.value.setFont(font("title"))
+        self.value.setAccessibleName(self.tr("Value"))
+        self.value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.bar = RangeBar()
+        self.page = QTextBrowser()
+        self.page.setOpenLinks(False)
+        self.page.setAccessibleName(self.tr("Parameter"))
+        self.page.document().setDocumentMargin(GAP3)
+        self.page.anchorClicked.connect(self._follow)
         self.word = WordPanel(workspace, commit)
+        top = QHBoxLayout()
+        top.setContentsMargins(GAP3, GAP2, GAP3, 0)
+        top.addWidget(self.axes)
+        top.addStretch(1)
+        top.addWidget(self.value)
         split = QSplitter(Qt.Orientation.Vertical)
         split.setChildrenCollapsible(False)
         split.addWidget(self.word)
-        split.addWidget(self.tabs)
-        layout.addWidget(split)
+        split.addWidget(self.page)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(GAP2)
+        layout.addLayout(top)
+        layout.addWidget(self.bar)
+        layout.addWidget(split, 1)
+        self.setFocusProxy(self.page)
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(_REST_MS)
+        self._rest.timeout.connect(self._ask_rules)
         workspace.changed.connect(self._show)
         workspace.changed.connect(lambda _: self.word.refresh())
         workspace.saved.connect(self._show)
+        scheme().changed.connect(self._show)
+        self._show()
+
+    def _make_head(self) -> QWidget:
+        head = QWidget()
+        self.number, self.name = QLabel(), QLabel()
+        self.number.setForegroundRole(self.number.palette().ColorRole.PlaceholderText)
+        self.name.setFont(font("text", own=True))
+        self.tools = QHBoxLayout()
+        row = QHBoxLayout(head)
+        row.setContentsMargins(GAP3, 0, GAP2, 0)
+        row.setSpacing(GAP2)
+        row.addWidget(self.number)
+        row.addWidget(self.name, 1)
+        row.addLayout(self.tools)
+        return head
+
+    def take_others(self, others: Callable[[], Iterable[Workspace]]) -> None:
+        """Show the values of these open files too."""
+        self._writer.others = others
 
     def show_address(self, address: Address | None) -> None:
         """Show an address, or nothing."""
+        if address != self._address:
+            self._writer.last_download = None
         self._address = address
         self.word.show_address(address)
         self._show()
 
     def _show(self, *_: object) -> None:
-        name = self.tabs.tabText(self.tabs.currentIndex())
-        page, address = self.pages[name], self._address
+        address, file = self._address, self._workspace.file
+        self._rest.stop()
         if address is None:
-            page.clear()
+            self.number.clear()
+            self.name.setText(self.tr("Parameter"))
+            self.value.clear()
+            self.axes.hide()
+            self.bar.show_range(None)
+            self.page.clear()
+            self.page.setProperty("written", "")
             return
-        text = self._head(address) + self._write[name](address)
-        if page.property("written") != text:  # a page that did not change stays where it was scrolled to
-            page.setProperty("written", text)
-            page.setHtml(text)
+        number = file.machine_schema.number(address)
+        self.number.setText(number or "")
+        self.number.setVisible(bool(number))
+        self.name.setText(file.schema.parameters[address[0]].name)
+        self.name.setToolTip(file.machine_schema.label(address))
+        self.value.setText(self._writer.shown(address, file.get(address)))
+        self._show_axes(address)
+        self.bar.show_range(self._in_range(address))
+        if self.bar.isVisibleTo(self):
+            self._rest.start()
+        self._writer.may_have_download = real_path(self._workspace.path).with_name("exchanges.jsonl").exists()
+        text = self._writer.write(address)
+        if self.page.property("written") != text:  # a page that did not change stays where it was scrolled to
+            self.page.setProperty("written", text)
+            self.page.setHtml(text)
 
-    def _follow(self, url: QUrl) -> None:
-        self.linked.emit(url.toString().removeprefix(LINK))
-
-    # -- the head of every page ------------------------------------------------
-
-    def _head(self, address: Address) -> str:
+    def _show_axes(self, address: Address) -> None:
         file = self._workspace.file
-        title = html.escape(file.machine_schema.label(address))
-        place = html.escape(file.machine_schema.instance_label(address))
-        value = self._shown(address, file.get(address))
-        default = file.default(address)
-        default_text = (
-            f"default {self._shown(address, default)}" if default is not None else "no default printed"
-        )
-        lines = [
-            f"<h3>{title}</h3>",
-            f"<p><b>{value}</b> &nbsp; <small>{', '.join(t for t in (place, default_text) if t)}</small>",
-        ]
-        if (used := self._workspace.effective().get(address)) is not None:
-            lines.append(
-                f"<br><b>{self._shown(address, used)}</b> <small>effective value in the control</small>"
-            )
-        if stored := storage_text(file, address):
-            lines.append(f"<br>{html.escape(stored)} <small>as stored in the control</small>")
-        lines += [f"<br>{line}" for line in self._elsewhere(address)]
-        lines.append("</p>")
-        state = file.evaluation.state(address)
-        if not state.is_active:
-            page = f" (page {state.page})" if state.page else ""
-            lines.append(
-                f"<p><i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i></p>"
-            )
-        allowed = self._allowed(address)
-        if allowed:
-            lines.append(f"<p>Allowed here: <b>{html.escape(allowed)}</b></p>")
-        for finding in self._workspace.findings_of(address):
-            if finding.rule != "schema.unset":
-                colour = severity_ink(finding.severity).name()
-                lines.append(f'<p style="color:{colour}">{html.escape(finding.message)}</p>')
-        return "".join(lines)
+        axes = shown_axes(file) if file.evaluation.scope(address) == "axis" else ()
+        self.axes.setVisible(1 < len(axes) <= _MOST_AXES)
+        if 1 < len(axes) <= _MOST_AXES:
+            self.axes.offer([(axis, axis_letter(file, axis) or axis, "") for axis in axes])
+            self.axes.show_choice(address[1])
 
-    def _elsewhere(self, address: Address) -> list[str]:
-        """Return the values on disk and in the control where they differ from the value shown."""
-        workspace, value = self._workspace, self._workspace.file.get(address)
-        found: list[tuple[str, Value | None]] = [("on disk", workspace.document.saved.get(address))]
-        if workspace.control is not None:
-            values, when = workspace.control
-            found.append((f"in the control at {when}", values.get(address)))
-        return [f"<b>{self._shown(address, v)}</b> <small>{where}</small>" for where, v in found
-                if not same_value(v, value)]  # fmt: skip
+    def _choose_axis(self, axis: str) -> None:
+        if self._address is not None:
+            self.axis_wanted.emit((self._address[0], axis))
 
-    def _shown(self, address: Address, value: Value | None) -> str:
-        """Return a value; one in units whose size another parameter sets with its length or angle: 1000 BLU = 1 mm."""
+    # -- the bar -----------------------------------------------------------------
+
+    def _in_range(self, address: Address) -> ValueInRange | None:
+        """Return the value in its range; None where there is no range with two ends, and for choices, words and secrets."""
         file = self._workspace.file
         parameter = file.schema.parameters[address[0]]
-        shown = show_value(parameter, value, secrets=self._workspace.secrets)
-        real = None if parameter.secret else real_value(file.evaluation, address, value)
-        return html.escape(f"{shown} = {show_value(parameter, real)}" if real else shown)
-
-    def _allowed(self, address: Address) -> str:
-        file = self._workspace.file
-        if file.schema.parameters[address[0]].choices:
-            return ""
+        if parameter.choices or parameter.secret or parameter.type not in ("integer", "real"):
+            return None
         unit = self._workspace.typed_unit(address)
         found = limits(file.evaluation, address, unit)
-        if found is None:
-            return f"no bounds printed, in {shown(unit)}" if unit else ""
-        sources = [s for s in (found.low_from, found.high_from) if s]
-        text = found.text() + "".join(f" (set by {file.machine_schema.label(s)})" for s in sources)
-        return text + (
-            " — no range in degrees is printed; the metric numbers are used" if found.borrowed else ""
-        )
+        if found is None or found.low is None or found.high is None or found.low >= found.high:
+            return None
+        severities = {
+            f.severity
+            for f in self._workspace.findings_of(address)
+            if f.rule != NOT_SET and address in f.causes
+        }
+        worst = next((severity for severity in SEVERITIES if severity in severities), "")
+        value, default = (_number(v, unit) for v in (file.get(address), file.default(address)))
+        return ValueInRange(found.low, found.high, unit, value, default, worst)
 
-    # -- pages -----------------------------------------------------------------
+    def _ask_rules(self) -> None:
+        """Ask in the background which values the rules allow; an answer for what is no longer shown is not used."""
+        address = self._address
+        found = self._in_range(address) if address else None
+        if address is None or found is None:
+            return
+        search = self._workspace.validator.allowed(address, found.unit)
+        near = [x for x in (found.value, found.default) if x is not None]
+        task = Task(lambda *_: search.around(found.low, found.high, near), self)
 
-    def _help(self, address: Address) -> str:
-        schema = self._workspace.file.schema
-        parameter = schema.parameters[address[0]]
-        lines = []
-        for title, text in help_parts(schema, parameter):
-            related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
-            lines.append(
-                f"<h4>{title}</h4><p>{', '.join(related) if title == 'Related' else html.escape(text)}</p>"
-            )
-        formulas = formula_lines(schema, parameter)
-        if formulas:
-            lines.append("<h4>Formulas</h4>" + "".join(f"<p>{html.escape(line)}</p>" for line in formulas))
-        lines += [drawn(table) for table in tables_of(schema, parameter)]
-        lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
-        return "".join(lines)
+        def show(allowed: tuple[float, float] | None) -> None:
+            if self._address == address and self._in_range(address) == found:
+                self.bar.show_allowed(allowed)
 
-    def _facts(self, address: Address) -> str:
-        schema, machine = self._workspace.file.schema, self._workspace.file.machine
-        return "<table cellpadding=2>" + "".join(
-            f"<tr><td><b>{html.escape(k)}</b>&nbsp;</td><td>{html.escape(v)}</td></tr>"
-            for k, v in facts(schema, schema.parameters[address[0]], machine)
-        ) + "</table>"  # fmt: skip
+        task.done.connect(show)
+        task.begin()
 
-    def _rules(self, address: Address) -> str:
-        schema = self._workspace.file.schema
-        broken = {f.rule for f in self._workspace.findings_of(address)}
-        lines = []
-        for rule in self._workspace.validator.rules_of(address):
-            names = ", ".join(f"{n} = {link(schema, read_address(t)[0])}" for n, t in rule.reads.items())
-            mark = "✗" if rule.id in broken else "✓"
-            cited = ", ".join(filter(None, (severity_name(rule.severity), html.escape(rule.cited))))
-            when = f" where {html.escape(rule.when)}" if rule.when != "true" else ""
-            lines.append(
-                f"<p>{mark} <b>{html.escape(rule.title)}</b> <small>({cited})</small><br>"
-                f"<code>{html.escape(rule.check)}</code>{when}<br><small>{names}</small></p>"
-            )
-        return "".join(lines) or "<p>No rule uses this parameter.</p>"
+    # -- links -------------------------------------------------------------------
 
-    def _history(self, address: Address) -> str:
-        entries = self._workspace.document.history(address)
-        lines = [
-            f"<p><small>{local_time(entry.when)} {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
-            f"<br>{html.escape(entry.old or 'not set')} → {html.escape(entry.new or 'not set')}</p>"
-            for entry in entries
-        ]
-        return "".join(lines) or f"<p>No saved changes of {html.escape(written(address))} yet.</p>"
+    def _follow(self, url: QUrl) -> None:
+        text, address = url.toString(), self._address
+        if text.startswith(FOLD):
+            self._writer.opened ^= {text.removeprefix(FOLD)}
+            self._show()
+        elif text.startswith(CALCULATE):
+            self.calculator_wanted.emit()
+        elif text.startswith(USE) and address is not None:
+            self._use(address, int(text.removeprefix(USE)))
+        elif text.startswith(DOWNLOAD) and address is not None:
+            self._read_download(address)
+        else:
+            self.linked.emit(text.removeprefix(LINK))
+
+    def _use(self, address: Address, place: int) -> None:
+        """Take the value that a fix gives this parameter, and only that one."""
+        finding = self._writer.findings(address)[place]
+        wanted = {setting.address: setting.value for setting in finding.fix if setting.address == address}
+        self._workspace.edit(self.tr("Use the calculated value"), wanted)
+
+    def _read_download(self, address: Address) -> None:
+        from amp_studio.files.local_time import day_and_time
+        from amp_studio.transfer.client.last_download import NoDownloadError, last_download
+
+        file, path = self._workspace.file.copy(), self._workspace.path
+
+        def show(last: object) -> None:
+            if self._address == address:
+                self._writer.last_download = last if isinstance(last, tuple) else ("", None)
+                self._show()
+
+        def work(*_: object) -> tuple[str, Value | None]:
+            try:
+                last = last_download(file, path)
+            except (NoDownloadError, OSError):
+                return self.tr("not known"), None
+            return day_and_time(last.when), last.file.get(address)
+
+        task = Task(work, self)
+        task.done.connect(show)
+        task.begin()
+
+
+def _number(value: Value | None, unit: str) -> float | None:
+    """Return the number of a value in a unit; None for anything that is no number there."""
+    if value is None or isinstance(value.value, str | bool):
+        return None
+    try:
+        return convert(value.value, value.unit, unit) if unit and value.unit else float(value.value)
+    except (ValueError, KeyError):
+        return None

@@ -73,6 +73,7 @@ class FilePage(QWidget):
         self.table_view.range_changed.connect(lambda: self.selected.emit(self.table_view.address()))
         self.table.modelReset.connect(self._update_title)
         self.detail.linked.connect(self.follow)
+        self.detail.axis_wanted.connect(self.go_to)
         self.findings.activated.connect(self._show_finding)
         self.findings.not_set_requested.connect(self.show_not_set)
         self.table.modelReset.connect(self._tell_findings)
@@ -157,14 +158,14 @@ class FilePage(QWidget):
     # -- selection -------------------------------------------------------------
 
     def address_text(self) -> str:
-        """Return the selected value for the status bar: what it is, where, and the id."""
+        """Return the selected value for the status bar: what it is, and where."""
         address, file = self.table_view.address(), self.workspace.file
         if address is None:
             return ""
         if len(chosen := self.table_view.selected_addresses()) > 1:
             return self._range_text(chosen)
         place = file.machine_schema.instance_label(address)
-        return "   ".join(text for text in (describe(file, address), place, address[0]) if text)
+        return "   ".join(text for text in (describe(file, address), place) if text)
 
     def _range_text(self, chosen: list[Address]) -> str:
         """Return how many cells are selected, and the least and largest number where all have one unit."""

@@ -108,6 +108,8 @@ class MainWindow(StudioWindow):
         page.front_wanted.connect(self.tabs.bring)
         page.selected.connect(self._show_value)
         page.noted.connect(self.show_status)
+        page.detail.take_others(lambda: [p.workspace for p in self.tabs.pages() if p is not page])
+        page.detail.calculator_wanted.connect(lambda: self.guarded(self.edits.calculator, "Calculator"))
         page.findings.fix_requested.connect(self._fix)
         page.findings.several_requested.connect(lambda: self.guarded(self.edits.fix_several, "Fix Several"))
         page.findings.explanation_requested.connect(self._why)

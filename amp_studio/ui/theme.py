@@ -269,6 +269,18 @@ def paint_icon(painter: QPainter, place: QRect | QRectF, name: str, ink: QColor)
     painter.restore()
 
 
+def icon_html(name: str, ink: Token) -> str:
+    """Return an icon as a letter in a page of HTML."""
+    letter = f"&#{ord(found)};" if (found := _glyphs().get(name)) else ""
+    return f'<span style="font-family:{_icon_font()}; color:{colour(ink).name()}">{letter}</span>'
+
+
+def severity_html(severity: str) -> str:
+    """Return the icon of a severity in a page of HTML."""
+    ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    return icon_html(name, ink)
+
+
 class _Glyph(QIconEngine):
     """A letter of the icon font, painted in the colours of the moment and sharp at every scale."""
 

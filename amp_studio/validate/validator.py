@@ -9,6 +9,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule
 from amp_studio.schema.cel_engine import Context
 
+from .allowed import AllowedByRules
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .checks import Checks, Place
 from .finding import SEVERITIES, Finding
@@ -124,6 +125,10 @@ class Validator:
             places = (place for place in self._filed if isinstance(place, int))
             self._checks_of = {self._filed[place][1].key: self._plan.checks[place] for place in places}
         return self._checks_of.get(finding.key)
+
+    def allowed(self, address: Address, unit: str) -> AllowedByRules:
+        """Return what finds the values of an address, in ``unit``, that the rules allow now, all others as they are."""
+        return AllowedByRules(self.file, self._plan, self.own.places, address, unit)
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from datetime import datetime, timedelta
 
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.files.local_time import local_time, with_local_times
+from amp_studio.files.local_time import day_and_time, local_time, with_local_times
 from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Validator
 
@@ -52,3 +53,13 @@ def test_the_finding_of_a_forced_value_shows_when_in_local_time() -> None:
     (finding,) = [f for f in Validator(file).run() if f.rule == "schema.range"]
     assert finding.message.endswith("It was forced on 2026-11-22 20:21 by 'set --force'.")
     assert file.forced == {("zone.group_count", ""): "on 2026-11-22T18:21:04+00:00 by 'set --force'"}
+
+
+def test_a_time_is_said_as_a_person_says_it() -> None:
+    zone = datetime(2026, 11, 22, 15, 0).astimezone()
+    said = [day_and_time(f"{stamp}", zone) for stamp in (
+        zone.replace(hour=14, minute=35).isoformat(), (zone - timedelta(days=1)).isoformat(),
+        (zone - timedelta(days=4)).isoformat(), (zone - timedelta(days=400)).isoformat(), "no time", "0001-01-01T00:00:00+00:00",
+    )]  # fmt: skip
+    assert said[:5] == ["today 14:35", "yesterday 15:00", "18 Nov 15:00", "18 Oct 2025", "no time"]
+    assert said[5]

@@ -63,13 +63,13 @@ def test_bits_are_ticked_by_name_and_help_is_that_of_the_control(board: MainWind
         "Enable",
         "Enable single axis commands",
     ]
-    assert "Homes the machine." in board.detail.pages["Help"].toPlainText()
+    assert "Homes the machine." in board.detail.page.toPlainText()
 
 
 def test_what_the_control_keeps_and_shows_is_at_the_value(board: MainWindow) -> None:
     assert board.edits.commit(("general.junction_deviation", ""), "0.0004")
     board.go_to(("general.junction_deviation", ""))
-    assert "0.0004, shown as 0.000 as stored in the control" in board.detail.pages["Help"].toPlainText()
+    assert "0.0004, shown as 0.000 as stored in the control" in board.detail.page.toPlainText()
 
 
 def test_it_is_saved_and_opened_again_without_the_control(board: MainWindow) -> None:

@@ -60,7 +60,7 @@ def test_searching_shows_what_is_found_and_clearing_the_group_again(window: Main
     window.groups.search.setText("marzipan")
     assert window.table.rowCount() == 0
     assert "no parameters" in window.page.list_title.text()
-    assert not window.detail.pages["Help"].toPlainText()
+    assert not window.detail.page.toPlainText()
     assert not window.groups.tree.selectedItems()
 
     window.groups.search.clear()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QLineEdit
 
@@ -41,11 +41,9 @@ def texts_of_table(window: MainWindow) -> str:
 
 
 def texts_of_detail(window: MainWindow) -> str:
-    pages = []
-    for n, page in enumerate(window.detail.pages.values()):
-        window.detail.tabs.setCurrentIndex(n)
-        pages.append(page.toHtml())
-    return " ".join(pages)
+    detail = window.detail
+    detail.page.anchorClicked.emit(QUrl("fold:facts"))
+    return " ".join((detail.value.text(), detail.bar.accessibleDescription(), detail.page.toHtml()))
 
 
 def test_table_panel_findings_and_undo_mask_a_secret(window: MainWindow) -> None:

@@ -68,4 +68,4 @@ def test_a_code_that_is_not_printed_is_entered_as_a_code(mill: MainWindow, file:
 
 def test_a_speed_without_a_range_says_its_unit(mill: MainWindow) -> None:
     mill.go_to(("feed.rapid", "1"))
-    assert "no bounds printed, in mm/min" in mill.detail.pages["Help"].toPlainText()
+    assert "no bounds printed, in mm/min" in mill.detail.page.toPlainText()

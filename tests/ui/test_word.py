@@ -119,7 +119,7 @@ def test_engineering_units_are_edited_and_the_registers_seen(module: MainWindow)
     """40 units/s of 4000 counts are 160000 counts/s: 10485760 in the two registers (page 4-13)."""
     velocity = ("command.velocity", "X")
     module.go_to(velocity)
-    assert "10485760: R19 = 160 (0x00A0), R20 = 0 (0x0000)" in module.detail.pages["Help"].toPlainText()
+    assert "10485760: R19 = 160 (0x00A0), R20 = 0 (0x0000)" in module.detail.page.toPlainText()
     assert module.edits.commit(velocity, "1 counts/s")
     assert storage_text(module.workspace.file, velocity) == "66: R19 = 0 (0x0000), R20 = 66 (0x0042)"
 

@@ -1,0 +1,231 @@
+"""The sections of the parameter panel as one page of HTML: Calculated, Rules, Help, Where else, History, Facts."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Iterable, Iterator
+
+from PySide6.QtCore import QCoreApplication
+
+from amp_studio.files import axis_letter
+from amp_studio.files.local_time import day_and_time, with_local_times
+from amp_studio.files.storage_text import storage_text
+from amp_studio.report import facts, formula_lines, help_parts, tables_of
+from amp_studio.report.wording import severity_name, state_name
+from amp_studio.schema import Address, Value, limits, real_value, same_value, show_value, shown
+from amp_studio.validate import NOT_SET, Finding, rule_title
+
+from .pages import drawn, link
+from .theme import colour, icon_html, severity_html
+from .workspace import Workspace
+
+USE, FOLD, DOWNLOAD, CALCULATE = "use:", "fold:", "download:", "calculate:"
+"""What a link begins with that is no parameter: take a calculated value, open a section, read the last download, calculate."""
+
+
+def tr(text: str) -> str:
+    """Translate a text of the page."""
+    return QCoreApplication.translate("DetailPage", text)
+
+
+class DetailPage:
+    """Writes the page of one address; what it needs besides the file is set by the panel."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self.others: Callable[[], Iterable[Workspace]] = tuple
+        """The other open files."""
+        self.opened: set[str] = set()
+        """Sections that are unfolded."""
+        self.last_download: tuple[str, Value | None] | None = None
+        """When the last download was, and the value it had; None while nobody has asked."""
+        self.may_have_download = False
+
+    def write(self, address: Address) -> str:
+        """Return the page of an address."""
+        dim, line = colour("dim").name(), colour("line").name()
+        parts = [self._value(address)]
+        for title, text in self._sections(address):
+            head = (
+                f'<p style="color:{dim}; margin-top:0; margin-bottom:2px"><b><small>{title}</small></b></p>'
+            )
+            rule = f'<table width="100%" cellspacing="0" cellpadding="0"><tr><td style="background-color:{line}; font-size:1px">&nbsp;</td></tr></table>'
+            parts.append(f"{rule}{head}{text}")
+        return f"<html><style>a {{ color: {colour('sel').name()}; }} p {{ margin-top:0; margin-bottom:6px; }}</style>{''.join(parts)}</html>"
+
+    def _sections(self, address: Address) -> Iterator[tuple[str, str]]:
+        if calculated := self._calculated(address):
+            yield tr("Calculated"), calculated
+        yield self._rules(address)
+        yield tr("Help"), self._help(address)
+        yield tr("Where else"), self._where_else(address)
+        yield tr("History"), self._history(address)
+        yield self._facts(address)
+
+    # -- the value -------------------------------------------------------------
+
+    def shown(self, address: Address, value: Value | None, workspace: Workspace | None = None) -> str:
+        """Return a value; one in units whose size another parameter sets with its length or angle: 1000 BLU = 1 mm."""
+        file = (workspace or self._workspace).file
+        parameter = file.schema.parameters[address[0]]
+        text = show_value(parameter, value, secrets=self._workspace.secrets)
+        real = None if parameter.secret else real_value(file.evaluation, address, value)
+        return html.escape(f"{text} = {show_value(parameter, real)}" if real else text)
+
+    def _value(self, address: Address) -> str:
+        file, lines = self._workspace.file, []
+        if (used := self._workspace.effective().get(address)) is not None:
+            lines.append(
+                f"<b>{self.shown(address, used)}</b> <small>{tr('effective value in the control')}</small>"
+            )
+        if stored := storage_text(file, address):
+            lines.append(f"{html.escape(stored)} <small>{tr('as stored in the control')}</small>")
+        state = file.evaluation.state(address)
+        if not state.is_active:
+            page = f" (page {state.page})" if state.page else ""
+            lines.append(f"<i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i>")
+        if allowed := self._allowed(address):
+            lines.append(f"{tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
+        return f"<p>{'<br>'.join(lines)}</p>" if lines else ""
+
+    def _allowed(self, address: Address) -> str:
+        file = self._workspace.file
+        if file.schema.parameters[address[0]].choices:
+            return ""
+        unit = self._workspace.typed_unit(address)
+        found = limits(file.evaluation, address, unit)
+        if found is None:
+            return f"no bounds printed, in {shown(unit)}" if unit else ""
+        sources = [s for s in (found.low_from, found.high_from) if s]
+        text = found.text() + "".join(f" (set by {file.machine_schema.label(s)})" for s in sources)
+        return text + (
+            " — no range in degrees is printed; the metric numbers are used" if found.borrowed else ""
+        )
+
+    # -- sections --------------------------------------------------------------
+
+    def findings(self, address: Address) -> list[Finding]:
+        """Return what is wrong with an address."""
+        return [f for f in self._workspace.findings_of(address) if f.rule != NOT_SET]
+
+    def _calculated(self, address: Address) -> str:
+        """Return the values that the suggested fixes give this parameter, and the way to its formulas."""
+        file, lines = self._workspace.file, []
+        for n, finding in enumerate(self.findings(address)):
+            for setting in finding.fix:
+                if setting.address == address:
+                    use = f' <a href="{USE}{n}">{tr("Use")}</a>' if self._workspace.may_edit else ""
+                    title = html.escape(rule_title(self._workspace.validator, finding))
+                    lines.append(
+                        f"<p><b>{self.shown(address, setting.value)}</b> <small>{title}</small>{use}</p>"
+                    )
+        if file.schema.parameters[address[0]].formulas:
+            lines.append(f'<p><a href="{CALCULATE}">{tr("Calculate…")}</a></p>')
+        return "".join(lines)
+
+    def _rules(self, address: Address) -> tuple[str, str]:
+        """Return the title and the rules: those that are not met with what is wrong, then those that are."""
+        workspace, lines = self._workspace, []
+        dim = colour("dim").name()
+        broken = self.findings(address)
+        for finding in broken:
+            cited = f' <span style="color:{dim}">{html.escape(finding.cited)}</span>' if finding.page else ""
+            mark = f"{severity_html(finding.severity)} <b>{severity_name(finding.severity).capitalize()}:</b>"
+            lines.append(f"<p>{mark} {html.escape(finding.message)}{cited}</p>")
+        rules = workspace.validator.rules_of(address)
+        unmet = {finding.rule for finding in broken}
+        for rule in rules:
+            if rule.id not in unmet:
+                page = f'<span style="color:{dim}">{html.escape(rule.cited)}</span>'
+                lines.append(f"<p>{icon_html('check', 'text')} {html.escape(rule.title)} {page}</p>")
+        title = tr("Rules")
+        if rules or broken:
+            count = tr("{unmet} of {number} not met").format(
+                unmet=len(unmet), number=len({r.id for r in rules} | unmet)
+            )
+            title += f" &nbsp; {count}"
+        return title, "".join(lines) or f"<p>{tr('No rule uses this parameter.')}</p>"
+
+    def _help(self, address: Address) -> str:
+        schema = self._workspace.file.schema
+        parameter = schema.parameters[address[0]]
+        lines = []
+        for title, text in help_parts(schema, parameter):
+            related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
+            body = ", ".join(related) if title == "Related" else html.escape(text)
+            lines.append(f"<p><b>{title}</b><br>{body}</p>")
+        if formulas := formula_lines(schema, parameter):
+            lines.append(
+                f"<p><b>{tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
+            )
+        lines += [drawn(table) for table in tables_of(schema, parameter)]
+        lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
+        return "".join(lines)
+
+    def _where_else(self, address: Address) -> str:
+        """Return the value on disk, in the control, at the last download and in the other open files."""
+        workspace, value = self._workspace, self._workspace.file.get(address)
+        rows: list[tuple[str, Value | None]] = [(tr("Saved"), workspace.document.saved.get(address))]
+        if workspace.control is not None:
+            values, when = workspace.control
+            rows.append(
+                (tr("In the control, {time}").format(time=with_local_times(when)), values.get(address))
+            )
+        if self.last_download is not None:
+            rows.append(
+                (tr("Last download, {time}").format(time=self.last_download[0]), self.last_download[1])
+            )
+        cells = [(name, self._compared(address, each, value)) for name, each in rows]
+        if self.may_have_download and self.last_download is None:
+            cells.append((tr("Last download"), f'<a href="{DOWNLOAD}">{tr("Show")}</a>'))
+        found = ((html.escape(other.path.stem), self._in_other(other, address)) for other in self.others())
+        cells += [(name, text) for name, text in found if text]
+        dim = colour("dim").name()
+        return "<table cellpadding=2>" + "".join(
+            f'<tr><td style="color:{dim}">{name}&nbsp;&nbsp;</td><td>{text}</td></tr>' for name, text in cells
+        ) + "</table><p></p>"  # fmt: skip
+
+    def _compared(self, address: Address, found: Value | None, value: Value | None) -> str:
+        text = self.shown(address, found)
+        return f"<b>{text}</b>" if not same_value(found, value) else text
+
+    def _in_other(self, other: Workspace, address: Address) -> str:
+        """Return the values of this parameter in another open file of the family, with the letters of its axes."""
+        parameter = other.file.schema.parameters.get(address[0])
+        if parameter is None or other.file.schema.family.family != self._workspace.file.schema.family.family:
+            return ""
+        found = [
+            (a, v)
+            for a in other.file.machine_schema.instances(parameter)[:8]
+            if (v := other.file.get((address[0], a)))
+        ]
+        texts = (
+            f"{axis_letter(other.file, a) or a} {self.shown((address[0], a), v, other)}".strip()
+            for a, v in found
+        )
+        return ", ".join(texts)
+
+    def _history(self, address: Address) -> str:
+        lines = [
+            f"<p><small>{day_and_time(entry.when)}, {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
+            f"<br>{html.escape(entry.old or 'not set')} → {html.escape(entry.new or 'not set')}</p>"
+            for entry in self._workspace.document.history(address)
+        ]
+        label = html.escape(self._workspace.file.machine_schema.label(address))
+        return "".join(lines) or f"<p>{tr('No saved changes of {name} yet.').format(name=label)}</p>"
+
+    def _facts(self, address: Address) -> tuple[str, str]:
+        schema, machine = self._workspace.file.schema, self._workspace.file.machine
+        found = facts(schema, schema.parameters[address[0]], machine)
+        is_open = "facts" in self.opened
+        ink = colour("dim").name()
+        arrow = icon_html("caret-down" if is_open else "caret-right", "dim")
+        title = f'<a href="{FOLD}facts" style="color:{ink}; text-decoration:none">{arrow} {tr("Facts")}</a>'
+        if not is_open:
+            brief = ", ".join(text for name, text in found if name in ("Takes effect", "Access"))
+            return title, f'<p style="color:{ink}">{html.escape(brief)}</p>'
+        rows = "".join(
+            f'<tr><td style="color:{ink}">{html.escape(k)}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
+            for k, v in found
+        )
+        return title, f"<table cellpadding=2>{rows}</table>"
