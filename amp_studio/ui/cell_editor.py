@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QWidget
 
 from .theme import GAP2, SMALL_ICON, colour, font, severity_icon
 
-_WIDEST = 460
+_WIDEST = 540
 
 
 class Preview(NamedTuple):

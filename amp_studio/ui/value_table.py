@@ -32,8 +32,8 @@ _NAMES = (240, 302, 420)
 _WIDE = 620
 _AXIS, _AXIS_AT_MOST, _CONTROL_ALONE, _COMMAND = 100, 150, (240, 460), 230
 """Widths of columns: of an axis at least and at most, of the control where it is alone, of the command that reads a value."""
-_MIXED = 190
-"""Width of the control's column beside axes, where they leave room."""
+_MIXED = 140, 190
+"""Width of the control's column beside axes, and where they leave room for more."""
 _MARGIN = 18
 """Room for the scroll bar."""
 _WIDEST_UNIT = 64
@@ -424,7 +424,8 @@ class ValueTable(QTableView):
             widths = [max(_CONTROL_ALONE[0], min(_CONTROL_ALONE[1], room))]
         else:
             each = max(_AXIS, min(_AXIS_AT_MOST, room // max(1, len(columns))))
-            mixed = max(each, min(_MIXED, room - each * (len(columns) - 1)))
+            left = room - each * (len(columns) - 1)
+            mixed = _MIXED[1] if left >= _MIXED[1] else max(each, _MIXED[0])
             widths = [mixed if column == CONTROL else each for column in columns]
         for column, width in enumerate([*widths, _COMMAND] if self._table.shows_commands else widths):
             self.setColumnWidth(column, width)
