@@ -24,6 +24,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio set {MILL} 1300=1.5",
         f'amp-studio set {MILL} home.calibration@X="0.05 in" 1350=300',
         f"amp-studio set {MILL} 1300=not-set",
+        f"amp-studio set {MILL} 1340=25.4/5000 1750='=Y*1.1'",
     ),
     "get": (
         f"amp-studio get {MILL} 1300 home.calibration@Y",
@@ -38,6 +39,12 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio guide {MILL} --next --json",
         f"amp-studio guide {MILL} --done dual",
         f"amp-studio guide {MILL} -o list.pdf",
+    ),
+    "note": (
+        f'amp-studio note {MILL} 1750 "11.5 needed with the long spindle, see order 4711"',
+        f"amp-studio note {MILL} 1750",
+        f'amp-studio note {MILL} group:home "Switches renewed"',
+        f"amp-studio note {MILL} --json",
     ),
     "axis": (
         f"amp-studio axis {MILL}",

@@ -32,6 +32,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema import shown as unit_shown
 from amp_studio.schema.storage import stored_number
+from amp_studio.validate.cell_expression import enter
 
 from .console import assignments, family, note, print_json
 from .errors import UsageError
@@ -102,7 +103,7 @@ def wanted(
             if bit is not None:
                 value: Value | None = _with_bit(trial, address, bit, text)
             else:
-                value = None if _clears(text) else trial.read(address, text)
+                value = None if _clears(text) else _entered(trial, address, text)
                 if address in found and found[address] != value:
                     raise ValueError("it is given two values")
             found[address] = value
@@ -120,6 +121,11 @@ def wanted(
         slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
         raise UsageError("; ".join(slips))
     return found
+
+
+def _entered(file: ParameterFile, address: Address, text: str) -> Value | None:
+    """Read a value or an expression: ``25.4/5``, ``=Y*1.1``; raises InvalidValueError."""
+    return enter(file, address, text, lambda a: file.evaluation.unit(a, file.header.units)).value
 
 
 def _clears(text: str) -> bool:

@@ -21,7 +21,7 @@ EXIT_CODES = (
     "4  it is not known whether the control changed; the message explains how to find out",
 )
 _FAMILY = ("schema", "show", "tables", "find", "calculate", "new", "import", "emulate")
-_PARAM = ("show", "set", "get", "fix", "simulate")
+_PARAM = ("show", "set", "get", "note", "fix", "simulate")
 _ADDRESS = ("diff", "emulate", "identify", "download", "verify", "upload", "restore", "send", "receive")
 _PARAMETERS = (
     "1300                 the number in the manual",

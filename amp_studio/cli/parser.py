@@ -130,6 +130,19 @@ def _files(verbs: Verbs) -> None:
     )
     json_option(sub)
     secrets_option(sub)
+    sub = verbs.add(
+        "note", "notes", "read and write notes about values, groups and the machine", writes="path"
+    )
+    sub.add_argument("path", type=path_of)
+    sub.add_argument(
+        "about",
+        nargs="?",
+        metavar="PARAM|group:KEY|machine",
+        help="what it is about; without it all notes are listed",
+    )
+    sub.add_argument("text", nargs="?", help="the note; without it the present one is printed")
+    sub.add_argument("--remove", action="store_true", help="remove the note")
+    json_option(sub)
 
 
 def _guide(verbs: Verbs) -> None:

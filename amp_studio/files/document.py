@@ -19,7 +19,7 @@ from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
 from .parameter_file import Change, Header, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
-from .reading import Opened, open_file, read_content, read_stored
+from .reading import NOTE_SECTIONS, Opened, open_file, read_content, read_stored
 from .storage import save_file
 
 _TYPED = ("name", "application", "revision", "notes")
@@ -45,8 +45,8 @@ class Unsaved:
     when: str
     who: str
     changes: tuple[Change, ...]
-    header: dict[str, str]
-    """Changed entries of the header (name, notes, …)."""
+    header: dict[str, str | dict[str, str]]
+    """Changed entries of the header (name, notes, …), and the notes about values and groups."""
     fits: bool
     """Whether the file is still the one the work was done on."""
 
@@ -257,12 +257,12 @@ class Document:
         write_atomic(self.journal_path, content.encode(), keep_backup=False, companion_of=self.path)
         self._journal_is_ours = True
 
-    def _unsaved_header(self) -> dict[str, str]:
+    def _unsaved_header(self) -> dict[str, str | dict[str, str]]:
         """Return the header entries that differ from the file on disk."""
         saved = self._saved_rest[0]
-        return {
-            key: text for key in _TYPED if (text := getattr(self.file.header, key)) != getattr(saved, key)
-        }
+        changed = (k for k in (*_TYPED, *NOTE_SECTIONS) if getattr(self.file.header, k) != getattr(saved, k))
+        texts = {key: getattr(self.file.header, key) for key in changed}
+        return {key: text if isinstance(text, str) else dict(text) for key, text in texts.items()}
 
     def _drop_journal(self) -> None:
         """Remove the journal, if it is this document's: one that a killed program left waits for its offer."""
@@ -281,11 +281,12 @@ class Document:
         try:
             left = json.loads(read_file(self.journal_path, follow=False))
             changes = [self._left_change(entry, text) for entry, text in left["changes"]]
-            header = {key: text for key, text in left.get("header", {}).items() if key in _TYPED}
+            known = (*_TYPED, *NOTE_SECTIONS)
+            header = {key: text for key, text in left.get("header", {}).items() if key in known}
             when, who, digest = left["when"], left["who"], left["digest"]
         except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
             return None
-        if not all(isinstance(text, str) for text in (when, who, *header.values())):
+        if not all(isinstance(text, str) for text in (when, who)) or not all(map(_is_entry, header.items())):
             return None
         return Unsaved(when, who, tuple(filter(None, changes)), header, digest == self.digest)
 
@@ -309,6 +310,14 @@ class Document:
     def discard_unsaved(self) -> None:
         """Throw away the work a killed program left."""
         self.journal_path.unlink(missing_ok=True)
+
+
+def _is_entry(entry: tuple[str, object]) -> bool:
+    """Return whether an entry of a journal is one of a header: a text, or notes by what they are about."""
+    key, found = entry
+    if key in _TYPED:
+        return isinstance(found, str)
+    return isinstance(found, dict) and all(isinstance(text, str) for text in found.values())
 
 
 def _rest_of(file: ParameterFile) -> tuple[Header, dict[Address, str], dict[str, str]]:

@@ -11,6 +11,7 @@ from amp_studio.schema import Address, Schema, Value, read_address, same_value
 
 from .by_schema import by_schema
 from .parameter_file import Change, ParameterFile
+from .reading import NOTE_SECTIONS
 
 Side = Literal["base", "a", "b"]
 Part = Literal["value", "header", "entry"]
@@ -252,6 +253,12 @@ class Merge:
         key, value, choice = row.id.key, self.result_of(row), self.choice(row) or "a"
         if key == MACHINE:
             file.set_machine("" if value is None else str(value.value))
+        elif (section := key.partition(" ")[0]) in NOTE_SECTIONS:
+            notes = dict(getattr(file.header, section))
+            notes.pop(key.partition(" ")[2], None)
+            if value is not None:
+                notes[key.partition(" ")[2]] = str(value.value)
+            setattr(file.header, section, notes)
         elif key in HEADER_TEXTS:
             setattr(file.header, key, "" if value is None else str(value.value))
             file.evaluation.forget()  # conditions may name the model of the control
@@ -280,6 +287,8 @@ def _header_texts(file: ParameterFile | None) -> dict[str, Value]:
     found = {key: Value(text) for key in HEADER_TEXTS if (text := getattr(header, key))}
     if not family.machine_parameter and len(family.machines) > 1:
         found[MACHINE] = Value(file.machine)
+    for section in NOTE_SECTIONS:
+        found |= {f"{section} {key}": Value(text) for key, text in getattr(header, section).items()}
     return found | {key: Value(str(entry)) for key, entry in header.extra.items()}
 
 

@@ -56,6 +56,10 @@ class Header:
     """Unit system of display and entry; values keep the unit they were entered in."""
     notes: str = ""
     signature: str = ""
+    value_notes: Mapping[str, str] = field(default_factory=dict)
+    """Address as files write it -> what a person noted about the value."""
+    group_notes: Mapping[str, str] = field(default_factory=dict)
+    """Key of a group of parameters -> what a person noted about it."""
     done: Mapping[str, str] = field(default_factory=dict)
     """Steps of commissioning that a person has ticked, and when; replaced and never changed in place."""
     extra: dict[str, object] = field(default_factory=dict)

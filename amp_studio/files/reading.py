@@ -46,7 +46,8 @@ FORMAT = 1
 """Version of the file format; a file of a newer one is refused."""
 
 HEADER_KEYS = ("name", "application", "revision", "machine", "units", "notes", "signature")
-SECTIONS = ("done", "values", "forced")
+NOTE_SECTIONS = ("value_notes", "group_notes")
+SECTIONS = ("done", "values", "forced", *NOTE_SECTIONS)
 DESCRIPTION = "description"
 """The description that the control gave of itself, in lines, where its schema is made of that: so the file opens without it."""
 KNOWN_KEYS = {"amp_studio", "family", DESCRIPTION, *SECTIONS, *HEADER_KEYS}
@@ -104,6 +105,12 @@ class _FileReader:
             if not isinstance(why, str):
                 raise self._fault(f"{short(key)} has no reason", "forced", key)
             self.file.forced[read_address(key)] = why
+        for name in NOTE_SECTIONS:
+            notes = self._section(name, "notes")
+            for key, note in notes.items():
+                if not isinstance(note, str):
+                    raise self._fault(f"the note about {short(key)} is no text", name, key)
+            setattr(self.file.header, name, notes)
         done = self._section("done", "steps with who has done them")
         for key, who in done.items():
             if not isinstance(who, str):

@@ -21,6 +21,7 @@ from .reading import (
     DESCRIPTION,
     FORMAT,
     HEADER_KEYS,
+    NOTE_SECTIONS,
     SECTIONS,
     ParameterFileError,
     extra_entries,
@@ -37,6 +38,7 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     header |= file.header.extra
     wanted: dict[str, Any] = header | {"done": dict(file.header.done), "values": _entries(file)}
     wanted |= {"forced": {written(a): why for a, why in file.forced.items()}}
+    wanted |= {name: dict(getattr(file.header, name)) for name in NOTE_SECTIONS}
     if file.schema.description:
         description = file.schema.description
         wanted[DESCRIPTION] = [seal_of(description), *description.decode("utf-8").split("\n")[:-1]]

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from amp_studio.files import Header, Notify, ParameterFile, without_secrets, write_atomic
-from amp_studio.schema import Schema, Value, load_schema
+from amp_studio.files.notes import set_value_note
+from amp_studio.schema import Schema, Value, load_schema, read_address
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.schema.regular_file import read_file
@@ -74,6 +75,8 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     file.take(read.values)
     file.unknown.update(read.unknown)
     file.header.extra.update(read.extra)
+    for key, text in read.value_notes.items():
+        set_value_note(file, read_address(key), text)
     return file
 
 

@@ -39,6 +39,8 @@ class TextRead:
     """Machine type, where the text names it."""
     extra: dict[str, object] = field(default_factory=dict)
     """What the format needs to write the same text again: kept in the header of the parameter file."""
+    value_notes: dict[str, str] = field(default_factory=dict)
+    """Address as files write it -> what a person noted about the value."""
     notes: list[str] = field(default_factory=list)
     """What a person should know of a text that can be taken: words it leaves out."""
 

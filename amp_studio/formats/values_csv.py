@@ -10,6 +10,7 @@ import csv
 import io
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.notes import note_fault, value_note
 from amp_studio.files.reading import read_stored
 from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, is_mask, write_value, written
@@ -18,6 +19,8 @@ from amp_studio.schema.quoting import short
 from .text_format import FormatError, TextFormat, TextRead
 
 _HEADS = ("number", "id", "instance", "name", "value", "unit")
+_NOTE = "note"
+"""A column more, where something is noted about a value of the table."""
 _MARK = "\ufeff"
 
 
@@ -29,7 +32,8 @@ def _recognises(text: str) -> bool:
 def _write(file: ParameterFile) -> str:
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\n")
-    table.writerow(_HEADS)
+    has_notes = any(value_note(file, address) for address in file.values)
+    table.writerow((*_HEADS, _NOTE) if has_notes else _HEADS)
     for address in file.addresses():
         value = file.get(address)
         if value is not None:
@@ -37,7 +41,8 @@ def _write(file: ParameterFile) -> str:
             number = file.machine_schema.number(address) or ""
             plain = write_value(parameter, Value(value.value))
             cells = (number, *address, parameter.name, plain, value.unit)
-            table.writerow(map(text_cell, cells))
+            noted = (value_note(file, address),) if has_notes else ()
+            table.writerow(map(text_cell, (*cells, *noted)))
     return _MARK + stream.getvalue()
 
 
@@ -92,6 +97,10 @@ def _take(
         found.values[address] = read_stored(schema, parameter, text)
     except InvalidValueError as error:
         raise FormatError(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
+    if note := row.get(_NOTE, "").strip():
+        if problem := note_fault(note):
+            raise FormatError(f"{written(address)}: {problem}", line, heads.index(_NOTE) + 1)
+        found.value_notes[written(address)] = note
 
 
 FORMAT = TextFormat("csv", "table of values", ".csv", _recognises, _read, _write, newline="\r\n")

@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import Literal
 
 from amp_studio.files import unlike_axes
+from amp_studio.files.notes import value_note
 from amp_studio.schema import Address, UnitError, Value, convert, show_value, shown, write_value
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET
@@ -149,6 +150,7 @@ class ShownValues:
         look.is_locked = parameter.access == "read"
         look.severity = self.worst.get(address, "")
         look.is_unlike = is_unlike
+        look.has_note = bool(value_note(file, address))
         if value is None:
             return look
         look.is_own = not file.is_default(address)

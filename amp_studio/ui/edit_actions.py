@@ -37,8 +37,9 @@ class EditActions:
         why = act("S&how Explanation of Finding", self._why, "Shift+F1", "file")
         several = act("Fix Se&veral…", self.fix_several, "Shift+F8", "edit", "magic-wand")
         safe = act("Apply All &Safe Fixes", self.fix_safe, None, "edit")
+        note = act("N&ote…", self.note, "Alt+Return", "file", "note-pencil")
         self.range = RangeActions(window)
-        self.of_a_cell: list[QAction] = [edit, *self.range.actions]
+        self.of_a_cell: list[QAction] = [edit, *self.range.actions, note]
         self.menu = menu = window.menuBar().addMenu("&Edit")
         for actions in (
             (self.undo, self.redo, steps),
@@ -112,6 +113,14 @@ class EditActions:
         if view is not None and view.currentIndex().isValid():
             view.setFocus()
             view.edit(view.currentIndex())
+
+    def note(self) -> None:
+        """Edit the notes about the selected value, its group and the machine."""
+        from .note_dialog import NoteDialog
+
+        dialog = NoteDialog(self._workspace(), self.window.selected(), self.window)
+        if dialog.exec():
+            dialog.write()
 
     def steps(self) -> None:
         """Show the steps that were made, to go back to one."""

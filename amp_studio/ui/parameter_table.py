@@ -14,6 +14,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelInd
 
 from amp_studio.files import axis_head, shown_axes
 from amp_studio.files.local_time import with_local_times
+from amp_studio.files.notes import value_note
 from amp_studio.report.wording import state_name
 from amp_studio.schema import Address, Parameter, show_value
 from amp_studio.schema.address import whole_of
@@ -348,6 +349,8 @@ class ParameterTable(QAbstractTableModel):
             lines.append(self.tr("Effective value in the control: {value}").format(value=used))
         if address in file.forced:
             lines.append(self.tr("Forced {when}").format(when=with_local_times(file.forced[address])))
+        if note := value_note(file, address):
+            lines.append(self.tr("Note: {text}").format(text=note))
         value, saved = file.get(address), self.workspace.document.saved.get(address)
         if value != saved:
             lines.append(self.tr("Saved: {value}").format(value=values.text(address, saved)))

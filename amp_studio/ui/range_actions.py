@@ -45,7 +45,7 @@ class RangeActions:
         paste = act(tr("&Paste…"), self.paste, keys.Paste, "edit")
         down = act(tr("Fill &Down"), self.fill_down, "Ctrl+D", "edit")
         across = act(tr("Fill &Across Axes"), self.fill_across, "Ctrl+R", "edit")
-        default = act(tr("Set t&o Default"), self.to_default, "Ctrl+Backspace", "edit")
+        default = act(tr("&Back to Default"), self.to_default, "Ctrl+Backspace", "edit")
         clear = act(tr("Clear (&Not Set)"), self.clear, keys.Delete, "edit")
         every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, "Ctrl+Shift+A", "axes")
         self.actions: list[QAction] = [copy, named, paste, down, across, default, clear, every]

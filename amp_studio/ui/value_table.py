@@ -399,7 +399,7 @@ class ValueTable(QTableView):
             self.scrollTo(index)
 
     def _select_again(self) -> None:
-        """Select the range again that was selected before the list was laid out anew."""
+        """Select the range again that was selected before the list changed."""
         if len(self._chosen) > 1:
             ends = [self._table.index_of(a) for a in (self._chosen[0], self._chosen[-1])]
             if all(end.isValid() for end in ends):

@@ -10,6 +10,11 @@ from pathlib import Path
 import pytest
 
 TARGETS = {
+    "frame while scrolling by the wheel, at worst",
+    "frame while scrolling by the page, at worst",
+    "key that moves the current cell, painted, at worst",
+    "edit of a value in the table, painted, at worst",
+    "keystroke in a cell, with its result, painted, at worst",
     "--version, cold process",
     "validate, cold process",
     "report to PDF, cold process",

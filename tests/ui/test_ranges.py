@@ -8,9 +8,11 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.notes import value_note
 from amp_studio.schema import Value
 from amp_studio.ui.block_preview import BlockPreview
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.note_dialog import NoteDialog
 
 from .conftest import action, editor
 
@@ -264,7 +266,7 @@ def test_several_values_go_to_default_and_to_not_set_in_one_step(
     window: MainWindow, file: ParameterFile
 ) -> None:
     select(window, (EXCESS, "1"), (EXCESS, "3"))
-    action(window, "Set to Default").trigger()
+    action(window, "Back to Default").trigger()
     assert of(file, EXCESS) == [file.default((EXCESS, axis)) for axis in "123"]
     action(window, "Clear (Not Set)").trigger()
     assert of(file, EXCESS) == [None] * 3
@@ -290,7 +292,27 @@ def test_the_list_of_steps_is_in_words_and_leads_back(window: MainWindow, file: 
 
 @pytest.mark.parametrize("key", ["Ctrl+D", "Ctrl+R", "Ctrl+Backspace"])
 def test_each_key_belongs_to_one_command(window: MainWindow, key: str) -> None:
-    from amp_studio.ui.palette import commands
+    from amp_studio.ui.menu_commands import commands
 
     found = [name for name, act in commands(window.menuBar()) if act.shortcut().toString() == key]
     assert len(found) == 1
+
+
+# -- notes -----------------------------------------------------------------------------
+
+
+def test_a_note_is_marked_in_its_cell_shown_in_its_tip_and_undone(
+    window: MainWindow, file: ParameterFile, accept
+) -> None:
+    window.go_to((EXCESS, "1"))
+    accept(NoteDialog, lambda dialog: dialog.text.setPlainText("long spindle"))
+    window.edits.note()
+    index = window.table.index_of((EXCESS, "1"))
+    assert value_note(file, (EXCESS, "1")) == "long spindle"
+    assert window.table.look(index.row(), index.column()).has_note
+    assert "Note: long spindle" in index.data(Qt.ItemDataRole.ToolTipRole)
+    assert window.workspace.is_dirty
+    assert window.workspace.undo_stack.undoText() == "Note about 1750 Excess Error, X"
+    window.workspace.undo_stack.undo()
+    assert value_note(file, (EXCESS, "1")) == ""
+    assert not window.workspace.is_dirty
