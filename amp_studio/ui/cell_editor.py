@@ -62,7 +62,9 @@ class CellEditor(QLineEdit):
         else:
             view = self.parentWidget().parentWidget()
             assert isinstance(view, QWidget)
-            self._frame = self._frame or RefusalFrame(view)
+            if self._frame is None:
+                self._frame = RefusalFrame(view)
+                self.destroyed.connect(self._frame.deleteLater)
             keys = [k for k in self.keys if refusal.can_force or not k[0].startswith("Ctrl+Shift")]
             self._frame.fill(refusal, keys)
             self._frame.place_below(QRect(self.mapTo(view, self.rect().topLeft()), self.size()))

@@ -5,6 +5,7 @@ The list below it is a part of the window that never takes the focus, so the cur
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QEvent, QModelIndex, QObject, QPoint, QSize, Qt, Signal
@@ -111,8 +112,9 @@ class FindBox(QLineEdit):
         return not self._popup.isHidden()
 
     def close_list(self) -> None:
-        """Hide the list; the question stays."""
-        self._popup.hide()
+        """Hide the list; the question stays. A window that goes takes the list away before this field loses the focus."""
+        with contextlib.suppress(RuntimeError):
+            self._popup.hide()
 
     def _emptied(self, text: str) -> None:
         if not text:

@@ -107,7 +107,6 @@ class ValueDelegate(QStyledItemDelegate):
         if allowed:
             field.setToolTip(self.tr("Allowed here: {range}").format(range=allowed))
         field.keys = self._keys(address)
-        field.destroyed.connect(field.close_frame)
         return field
 
     def _keys(self, address: Address) -> tuple[tuple[str, str], ...]:
@@ -194,11 +193,6 @@ class ValueDelegate(QStyledItemDelegate):
             index.data(Qt.ItemDataRole.EditRole) or ""
         ):
             self.refusal = self._commit(address, editor.text())
-
-    def destroyEditor(self, editor: QWidget, index: Index) -> None:
-        if isinstance(editor, CellEditor):
-            editor.close_frame()
-        super().destroyEditor(editor, index)
 
     def eventFilter(self, editor: QObject, event: QEvent) -> bool:
         if isinstance(editor, ChoiceBox):
