@@ -9,6 +9,7 @@ from PySide6.QtCore import QCoreApplication
 
 from amp_studio.files import axis_letter
 from amp_studio.files.local_time import day_and_time, with_local_times
+from amp_studio.files.notes import group_note, value_note
 from amp_studio.files.storage_text import storage_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
 from amp_studio.report.wording import severity_name, state_name
@@ -54,6 +55,8 @@ class DetailPage:
         return f"<html><style>a {{ color: {colour('sel').name()}; }} p {{ margin-top:0; margin-bottom:6px; }}</style>{''.join(parts)}</html>"
 
     def _sections(self, address: Address) -> Iterator[tuple[str, str]]:
+        if notes := self._notes(address):
+            yield tr("Notes"), notes
         if calculated := self._calculated(address):
             yield tr("Calculated"), calculated
         yield self._rules(address)
@@ -107,6 +110,17 @@ class DetailPage:
     def findings(self, address: Address) -> list[Finding]:
         """Return what is wrong with an address."""
         return [f for f in self._workspace.findings_of(address) if f.rule != NOT_SET]
+
+    def _notes(self, address: Address) -> str:
+        """Return what people noted about a value and about its group."""
+        file = self._workspace.file
+        group = file.schema.group_of[address[0]]
+        found = (("", value_note(file, address)), (group.section or group.name, group_note(file, group.key)))
+        return "".join(
+            f"<p>{html.escape(text).replace(chr(10), '<br>')}{f' <small>{html.escape(about)}</small>' if about else ''}</p>"
+            for about, text in found
+            if text
+        )
 
     def _calculated(self, address: Address) -> str:
         """Return the values that the suggested fixes give this parameter, and the way to its formulas."""

@@ -8,7 +8,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 
 from amp_studio.files import ParameterFile
-from amp_studio.files.notes import value_note
+from amp_studio.files.notes import set_value_note, value_note
 from amp_studio.schema import Value
 from amp_studio.ui.block_preview import BlockPreview
 from amp_studio.ui.main_window import MainWindow
@@ -316,3 +316,9 @@ def test_a_note_is_marked_in_its_cell_shown_in_its_tip_and_undone(
     window.workspace.undo_stack.undo()
     assert value_note(file, (EXCESS, "1")) == ""
     assert not window.workspace.is_dirty
+
+
+def test_notes_are_in_the_parameter_panel(window: MainWindow, file: ParameterFile) -> None:
+    window.go_to((EXCESS, "1"))
+    window.workspace.do("note", lambda: set_value_note(file, (EXCESS, "1"), "long <spindle>"))
+    assert "long <spindle>" in window.detail.page.toPlainText()
