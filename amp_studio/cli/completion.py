@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from amp_studio.scenarios import scenario_names
 
-from .manual import families
+from .manual import example_names, families
 from .parser import parser, verbs_of
 
 ASKED = "__complete"
@@ -137,6 +137,8 @@ def _values(action: argparse.Action, values: Sequence[str], current: str) -> Ite
         return families()
     if action.dest == "family" or (action.dest == "words" and not values):
         return families()
+    if action.dest == "like":
+        return example_names()
     if action.dest == "scenario":
         return scenario_names()
     if not values:

@@ -19,7 +19,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         "amp-studio calculate 9pc",
         "amp-studio calculate 9pc acceleration_time_s milliseconds=125",
     ),
-    "new": ("amp-studio new 9pc lathe.amp --machine lathe --axes X,Z,S",),
+    "new": (
+        "amp-studio new 9pc lathe.amp --machine lathe --axes X,Z,S",
+        "amp-studio new 9pc second.amp --like mill-1394 --axes X,Y,Z,S",
+    ),
     "set": (
         f"amp-studio set {MILL} 1300=1.5",
         f'amp-studio set {MILL} home.calibration@X="0.05 in" 1350=300',

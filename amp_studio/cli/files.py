@@ -36,6 +36,7 @@ from amp_studio.validate.cell_expression import enter
 
 from .console import assignments, family, note, print_json
 from .errors import UsageError
+from .like import file_like
 from .marked import marks_asked, with_marks
 from .output import check_new, note_all, write_new
 
@@ -47,8 +48,11 @@ def new_verb(options: argparse.Namespace) -> int:
     """Make a parameter file with the family's defaults."""
     schema = family(options.family)
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
-    file = new_file(options.family, options.machine, axes, options.path.stem)
     check_new(options.path, "a new file")
+    if options.like:
+        file = file_like(options, axes)
+    else:
+        file = new_file(options.family, options.machine, axes, options.path.stem)
     write_new(file, options.path)
     print(f"{options.path}: {schema.family.name}, {file.machine}, {counted(len(file.values), 'value')}")
     return 0

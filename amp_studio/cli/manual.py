@@ -57,6 +57,13 @@ def families() -> tuple[str, ...]:
     return tuple(sorted(own | set(registration.added_facts() if registration else ())))
 
 
+def example_names() -> tuple[str, ...]:
+    """Return the folders of the example machines, without reading them."""
+    package = Path(__file__).resolve().parent.parent
+    folders = (package / "examples", package.parent / "examples")
+    return tuple(sorted({p.parent.name for folder in folders for p in folder.glob("*/*.amp")}))
+
+
 def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield what comes below the help of a verb, or of the program (""): a title and its lines."""
     if verb in ("", *_FAMILY):

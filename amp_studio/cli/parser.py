@@ -105,6 +105,8 @@ def _files(verbs: Verbs) -> None:
     sub.add_argument("path", type=path_of)
     sub.add_argument("--machine")
     sub.add_argument("--axes", help="axis names in order, with commas")
+    sub.add_argument("--like", metavar="FILE|EXAMPLE",
+                     help="with the values of this file or example, except what was measured on that machine, and passwords")  # fmt: skip
     sub = verbs.add(
         "set", "files", "change values, all or none; the previous file becomes the backup", writes="path"
     )

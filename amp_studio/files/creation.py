@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
-from amp_studio.schema import Value, load_schema
+from amp_studio.schema import Parameter, Schema, Value, load_schema
+from amp_studio.schema.address import whole_of
 from amp_studio.schema.nearest import unknown_name
 
 from .axis_fitting import name_axes
-from .parameter_file import Header, ParameterFile, fill_defaults, without_secrets
+from .axis_match import axis_letters, matched_by_letter
+from .parameter_file import Header, ParameterFile, fill_defaults
 
 
 def new_file(
@@ -50,8 +53,84 @@ def new_file(
     return file
 
 
+@dataclass(frozen=True)
+class MadeLike:
+    """A new file that was made like another one, and what was not taken over."""
+
+    file: ParameterFile
+    left: tuple[Parameter, ...]
+    """Parameters of which the other file has values that are true of its machine alone, and passwords."""
+    new_axes: tuple[str, ...] = ()
+    """Letters of axes that the other file does not have: they are at the printed defaults."""
+    missing_axes: tuple[str, ...] = ()
+    """Letters of axes of the other file that the new one does not have."""
+
+
+def of_one_machine(schema: Schema) -> tuple[Parameter, ...]:
+    """Return the parameters whose values a new file never takes over from another: calibrations, lost motion, passwords."""
+    named = schema.commissioning.of_one_machine if schema.commissioning else ()
+    secret = (p.id for p in schema.parameters.values() if p.secret)
+    return tuple(schema.parameters[name] for name in (*named, *secret) if name in schema.parameters)
+
+
 def new_like(source: ParameterFile, name: str) -> ParameterFile:
-    """Return a new file with the values of another one; notes, software revision and passwords belong to that machine and stay there."""
-    file = without_secrets(source).copy()
-    file.header.name, file.header.notes, file.header.revision = name, "", ""
-    return file
+    """Return a new file with the values of another one, except what is true of that machine alone."""
+    return made_like(source, name).file
+
+
+def made_like(source: ParameterFile, name: str, axes: Iterable[str] = ()) -> MadeLike:
+    """Return a new file with the values of another one, and what was not taken over.
+
+    What was measured on the other machine, passwords, notes, software revision, ticks and marks of values out of range stay
+    with it; such a parameter has its printed default, or is not set; a password is not set. With ``axes`` the
+    new file has these: one whose letter the other file has gets its values, the rest their defaults. Raises ValueError
+    where a family cannot be made with other axes.
+    """
+    file, axes = source.copy(), list(axes)
+    file.header.notes = file.header.revision = ""
+    file.header.done = {}
+    file.header.name = name
+    file.forced.clear()
+    own = {p.id for p in of_one_machine(file.schema)}
+    left = {address[0] for address in source.values if address[0] in own and not source.is_default(address)}
+    for address in [a for a in file.values if a[0] in own]:
+        file.set(address, None if file.schema.parameters[address[0]].secret else file.default(address))
+    parameters = tuple(file.schema.parameters[name] for name in sorted(left, key=_place_in(file)))
+    letters = list(axis_letters(file).values())
+    if not axes or axes == letters:
+        return MadeLike(file, parameters)
+    return _with_axes(file, axes, letters, parameters)
+
+
+def _place_in(file: ParameterFile) -> Callable[[str], int]:
+    places = {name: n for n, name in enumerate(file.schema.parameters)}
+    return places.__getitem__
+
+
+def _with_axes(
+    source: ParameterFile, axes: list[str], letters: list[str], left: tuple[Parameter, ...]
+) -> MadeLike:
+    """Return a file with other axes, each of the other file's with its values."""
+    schema = source.schema
+    if schema.family.axes is None:
+        raise ValueError(
+            f"a file of {schema.family.name} is made like another one with the same axes ({', '.join(letters)}): "
+            "leave the axes out, and add or remove axes in the new file"
+        )
+    made = new_file(schema.family.family, source.machine, axes, source.header.name)
+    made.header.units, made.header.application = source.header.units, source.header.application
+    matched = matched_by_letter(source, made).file
+    taken = {axis for axis, letter in axis_letters(made).items() if letter in letters}
+    here = made.machine_schema
+    for address, value in matched.values.items():
+        if address not in here.places:
+            continue
+        if not here.kin(here.scopes[address[0]], "axis") or whole_of(address[1]) in taken:
+            made.set(address, value)
+    made.unknown.update(source.unknown)
+    return MadeLike(
+        made,
+        left,
+        tuple(a for a in axis_letters(made).values() if a not in letters),
+        tuple(letter for letter in letters if letter not in axis_letters(made).values()),
+    )

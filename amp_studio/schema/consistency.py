@@ -220,6 +220,9 @@ def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator
                 elif name in seen.get(key, ()):
                     yield here, f"{quoted(name)} is in an earlier step"
                 seen.get(key, set()).add(name)
+    for at, name in enumerate(order.of_one_machine):
+        if name not in known["params"]:
+            yield ("of_one_machine", at), f"there is no parameter {quoted(name)}"
 
 
 def _in_areas(family: Family) -> Iterator[Inconsistency]:

@@ -28,7 +28,7 @@ from amp_studio.files import (
     parameters_of_axes,
     why_axes_are_fixed,
 )
-from amp_studio.files.creation import new_like
+from amp_studio.files.creation import new_like, of_one_machine
 from amp_studio.files.examples import examples
 from amp_studio.schema import Schema, family_ids, load_schema
 
@@ -159,7 +159,9 @@ class NewFileDialog(QDialog):
         self.units.setEnabled(source is None and self.units.count() > 1)
         if source is not None:
             self.note.setText(
-                self.tr("Machine type, axes and units are those of {name}.").format(name=source.name)
+                self.tr("Machine type, axes and units are those of {name}. Not taken over: {own}.").format(
+                    name=source.name, own=", ".join(p.name for p in of_one_machine(self._schema))
+                )
             )
         elif fixed:
             self.note.setText(self.tr("{reason}.").format(reason=fixed))

@@ -138,3 +138,39 @@ def test_the_check_list_is_written_in_the_format_of_its_ending(amp, fresh: Path,
     for name, start in (("a.pdf", b"%PDF"), ("a.html", b"<!DOCTYPE html>"), ("a.txt", b"====")):
         assert amp("guide", fresh, "-o", tmp_path / name).out == f"{tmp_path / name}\n"
         assert (tmp_path / name).read_bytes().startswith(start)
+
+
+# -- new --like ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_file_is_started_like_an_example_and_what_it_lacks_is_named(amp, tmp_path: Path) -> None:
+    said = amp("new", "9pc", tmp_path / "second.amp", "--like", "mill-1394")
+    assert said.code == 0
+    assert said.err == (
+        "Not taken over, because true of that machine alone: Probe Length Compensation, Probe Radius Compensation, "
+        "Characters of the Password\n"
+    )
+    assert amp("validate", tmp_path / "second.amp").code == 0
+
+
+def test_a_file_is_started_like_another_on_other_axes(amp, tmp_path: Path) -> None:
+    assert amp("new", "9pc", tmp_path / "a.amp", "--like", "mill-1394", "--axes", "X,Y,Z,S").code == 0
+    said = amp("new", "9pc", tmp_path / "b.amp", "--like", tmp_path / "a.amp", "--axes", "X,Z,C")
+    assert said.err.splitlines()[-2:] == [
+        "At the printed defaults, because the other file has no such axis: C",
+        "Axes of the other file that the new one does not have: Y, S",
+    ]
+
+
+def test_what_cannot_be_alike_is_refused_and_nothing_is_written(amp, tmp_path: Path) -> None:
+    path = tmp_path / "second.amp"
+    for arguments, why in (
+        (("9pc", path, "--like", "mill-1395"), "Unknown file or example 'mill-1395'"),
+        (("num", path, "--like", "mill-1394"), "mill-1394 is a file for Allen-Bradley 9/PC AMP, not for num"),
+        (("9pc", path, "--like", "mill-1394", "--machine", "lathe"), "a lathe cannot be made like it"),
+        (("num", path, "--like", "num-1060-mill", "--axes", "X,Y"), "leave the axes out"),
+    ):
+        said = amp("new", *arguments)
+        assert said.code == 2
+        assert why in said.err
+        assert not path.exists()

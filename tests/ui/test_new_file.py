@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import fitted_axes, without_secrets
+from amp_studio.files import fitted_axes
+from amp_studio.files.creation import new_like
 from amp_studio.files.examples import examples
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
@@ -79,7 +80,9 @@ def test_a_file_like_an_example_has_its_values_but_not_its_notes(dialog) -> None
     new.name.setText("MINE")
     made = new.make()
     assert (made.header.name, made.header.notes) == ("MINE", "")
-    assert made.values == without_secrets(on_disk(example.path)).values, "passwords stay with their machine"
+    assert made.values == new_like(on_disk(example.path), "MINE").values
+    assert not [a for a in made.values if a[0] == "password.character"], "passwords stay with their machine"
+    assert "Home Calibration" in new.note.text(), "it is named what is not taken over"
 
 
 def test_a_file_like_one_of_mine(dialog, path: Path, person: Person) -> None:

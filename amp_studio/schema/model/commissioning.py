@@ -41,3 +41,5 @@ class Commissioning(Model):
     page: Page
     steps: tuple[CommissioningStep, ...]
     rest: Remainder
+    of_one_machine: tuple[ParameterId, ...] = ()
+    """Values that are found on one machine and true of that one alone: a file that is made like it does not get them."""
