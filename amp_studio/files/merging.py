@@ -11,7 +11,6 @@ from amp_studio.schema import Address, Schema, Value, read_address, same_value
 
 from .by_schema import by_schema
 from .parameter_file import Change, ParameterFile
-from .reading import NOTE_SECTIONS
 
 Side = Literal["base", "a", "b"]
 Part = Literal["value", "header", "entry"]
@@ -22,7 +21,7 @@ values, and no base that would show who changed it; ``conflict``: both changed i
 
 HEADER_TEXTS = ("application", "revision", "notes")
 """Header entries that are compared as texts. The name stays with its file; units are how a file is shown."""
-MACHINE = "machine"
+MACHINE, EXTRA = "machine", "extra"
 
 
 class RowId(NamedTuple):
@@ -99,8 +98,10 @@ class Merge:
 
     def _rows(self) -> Iterator[Row]:
         texts = [_header_texts(file) for file in (self.base, self.a, self.b)]
-        for key in dict.fromkeys(key for text in texts for key in text):
-            yield self._row(RowId("header", (key, ""), key), *(text.get(key) for text in texts))
+        for place in dict.fromkeys(place for text in texts for place in text):
+            yield self._row(
+                RowId("header", place, ".".join(filter(None, place))), *(t.get(place) for t in texts)
+            )
         empty: Mapping[Address, Value] = {}
         base, a, b = (empty if self.base is None else self.base.values), self.a.values, self.b.values
         for address in in_order(self.a.schema, {*a, *b, *base}):
@@ -152,7 +153,7 @@ class Merge:
     def group_title(self, row: Row) -> str:
         """Return the group of a row: ``Servo Parameters: Position Loop``."""
         if row.id.part == "header":
-            return "Machine facts"
+            return "Notes and ticks" if row.address[1] and row.address[0] != EXTRA else "Machine facts"
         group = self.a.schema.group_of.get(row.address[0]) if row.id.part == "value" else None
         if group is None:
             return "Entries that this family does not know"
@@ -250,24 +251,23 @@ class Merge:
             file.unknown[row.id.key] = str(value.value)
 
     def _put_header(self, file: ParameterFile, row: Row) -> None:
-        key, value, choice = row.id.key, self.result_of(row), self.choice(row) or "a"
-        if key == MACHINE:
-            file.set_machine("" if value is None else str(value.value))
-        elif (section := key.partition(" ")[0]) in NOTE_SECTIONS:
-            notes = dict(getattr(file.header, section))
-            notes.pop(key.partition(" ")[2], None)
-            if value is not None:
-                notes[key.partition(" ")[2]] = str(value.value)
-            setattr(file.header, section, notes)
-        elif key in HEADER_TEXTS:
-            setattr(file.header, key, "" if value is None else str(value.value))
+        """Put an entry of the header: a text, one entry of a list of texts, or a key that this program does not know."""
+        (name, inner), value, choice = row.address, self.result_of(row), self.choice(row) or "a"
+        text = "" if value is None else str(value.value)
+        if name == MACHINE:
+            file.set_machine(text)
+        elif not inner:
+            setattr(file.header, name, text)
             file.evaluation.forget()  # conditions may name the model of the control
         else:
-            source = self.a if isinstance(choice, Typed) else self._sources()[choice]
-            extra = {name: entry for name, entry in file.header.extra.items() if name != key}
-            file.header.extra = (
-                extra | {key: source.header.extra[key]} if key in source.header.extra else extra
-            )
+            entries = {key: entry for key, entry in getattr(file.header, name).items() if key != inner}
+            if name == EXTRA:  # as it is, whatever kind it is of
+                source = self.a if isinstance(choice, Typed) else self._sources()[choice]
+                if inner in source.header.extra:
+                    entries[inner] = source.header.extra[inner]
+            elif value is not None:
+                entries[inner] = text
+            setattr(file.header, name, entries)
 
 
 def _demand_one_family(*files: ParameterFile | None) -> None:
@@ -279,17 +279,21 @@ def _demand_one_family(*files: ParameterFile | None) -> None:
         )
 
 
-def _header_texts(file: ParameterFile | None) -> dict[str, Value]:
-    """Return what is compared of a header; the machine type only where no parameter is for it."""
+def _header_texts(file: ParameterFile | None) -> dict[Address, Value]:
+    """Return what is compared of a header: its texts, the entries of its lists (notes, ticked steps), unknown keys.
+
+    The machine type is there only where no parameter is for it.
+    """
     if file is None:
         return {}
     header, family = file.header, file.schema.family
-    found = {key: Value(text) for key in HEADER_TEXTS if (text := getattr(header, key))}
+    found = {(name, ""): Value(text) for name in HEADER_TEXTS if (text := getattr(header, name))}
     if not family.machine_parameter and len(family.machines) > 1:
-        found[MACHINE] = Value(file.machine)
-    for section in NOTE_SECTIONS:
-        found |= {f"{section} {key}": Value(text) for key, text in getattr(header, section).items()}
-    return found | {key: Value(str(entry)) for key, entry in header.extra.items()}
+        found[MACHINE, ""] = Value(file.machine)
+    for name, entries in vars(header).items():
+        if isinstance(entries, Mapping):
+            found |= {(name, str(key)): Value(str(entry)) for key, entry in entries.items()}
+    return found
 
 
 def in_order(schema: Schema, addresses: Iterable[Address]) -> Sequence[Address]:

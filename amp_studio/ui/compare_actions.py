@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from amp_studio.files import Document, backup_path, open_file
+from amp_studio.files import (
+    Document,
+    backup_path,
+    check_output,
+    is_there,
+    open_file,
+    text_of_name,
+    write_atomic,
+)
+from amp_studio.files.reading import file_content
+from amp_studio.files.storage import readable_content
 
 from .merge_model import BASE, B
 from .merge_sources import MergeSources, ReadSource
@@ -98,7 +108,7 @@ class CompareActions(QObject):
                 partial(self._ask_control, sources),
                 partial(self._ask_copy, sources),
             ),
-            self._save_result,
+            partial(self._save_result, page),
             self.window,
         )
         shown.went_to.connect(page.go_to)
@@ -139,11 +149,20 @@ class CompareActions(QObject):
         undo = (self.tr("&Undo"), page.workspace.undo_stack.undo)
         page.bar.say(text, "information", undo)
 
-    def _save_result(self, file: ParameterFile) -> None:
-        self.window.guarded(partial(self._save, file), self.tr("Save result as"))
+    def _save_result(self, page: FilePage, file: ParameterFile) -> None:
+        self.window.guarded(partial(self._save, page, file), self.tr("Save result as"))
 
-    def _save(self, file: ParameterFile) -> None:
+    def _save(self, page: FilePage, file: ParameterFile) -> None:
         path = self._ask_path(self.tr("Save result as"), Path("merged"))
         if path is not None:
-            file.header.name = path.stem
-            self._write_new(path, lambda: Document.create(file, path))
+            file.header.name = text_of_name(path.stem)
+            self._write_new(path, lambda: _written(file, path, page.workspace.path))
+
+
+def _written(file: ParameterFile, path: Path, like: Path) -> Document:
+    """Write a new file with the remarks and the order of another one, as far as that is on disk; returns it opened."""
+    check_output(path)
+    file.header.signature = file.schema.signature
+    previous = file_content(like) if is_there(like) else None
+    write_atomic(path, readable_content(file, path, previous), None, keep_backup=False)
+    return Document.open(path)

@@ -13,7 +13,7 @@ from amp_studio.files import Merge, Row, RowGroup, Typed
 from amp_studio.files.axis_match import axis_letters
 from amp_studio.files.diff import in_one_unit
 from amp_studio.files.merging import Choice, RowId, Side
-from amp_studio.schema import MASKED, Value, fault, read_real, read_value, show_value, shown
+from amp_studio.schema import MASKED, Value, fault, read_address, read_real, read_value, show_value, shown
 from amp_studio.schema.address import whole_of
 from amp_studio.schema.visible import visible
 
@@ -131,11 +131,25 @@ class MergeModel(QAbstractItemModel):
         """Return the name of a row."""
         if row.id.part == "value":
             return self.merge.a.schema.parameters[row.address[0]].name
+        return self._header_name(row) if row.id.part == "header" else visible(row.id.key)
+
+    def _header_name(self, row: Row) -> str:
+        """Return what an entry of the header is: a fact of the machine, a note, a step that was ticked."""
         names = {
             "application": self.tr("Application"), "revision": self.tr("Control software revision"),
             "notes": self.tr("Notes"), "machine": self.tr("Machine type"),
         }  # fmt: skip
-        return names.get(row.id.key, visible(row.id.key)) if row.id.part == "header" else visible(row.id.key)
+        kind, key = row.address
+        if kind == "value_notes":
+            address, here = read_address(key), self.merge.a.machine_schema
+            label = here.label(address) if address in here.places else visible(key)
+            return self.tr("Note on {parameter}").format(parameter=label)
+        if kind == "group_notes":
+            groups = {group.key: group.name for group in self.merge.a.schema.groups}
+            return self.tr("Note on {parameter}").format(parameter=groups.get(key, visible(key)))
+        if kind == "done":
+            return self.tr("Step {step} ticked as done").format(step=visible(key))
+        return names.get(kind, visible(key or kind))
 
     def axis(self, row: Row) -> str:
         """Return the axis of a row by its letter, or what else its instance is; empty for the only one."""

@@ -15,6 +15,7 @@ from amp_studio.files import HistoryEntry, ParameterFile, backup_path, open_file
 from amp_studio.files.axis_match import as_axis, axis_letters, matched_by_letter
 from amp_studio.files.by_schema import by_schema
 from amp_studio.files.local_time import local_time
+from amp_studio.files.parameter_file import Marks
 from amp_studio.files.versions import before_saves, with_defaults
 
 from .task import TaskProgress
@@ -287,6 +288,11 @@ class MergeSources(QObject):
         mine, file = self._file.copy(), each.file.copy()
         note = self.tr("open in another tab")
         return lambda _progress, _cancel: self.other(mine, file, each.path.name, note)
+
+
+def is_same_content(a: ParameterFile, b: ParameterFile) -> bool:
+    """Return whether two states of a file are the same: values, marks, header and what the schema does not know."""
+    return a.values == b.values and Marks.of(a) == Marks.of(b)
 
 
 def _stamp(path: Path) -> str:

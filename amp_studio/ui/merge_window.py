@@ -8,25 +8,19 @@ from functools import partial
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import (
-    QDialog,
-    QListWidgetItem,
-    QTreeView,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QVBoxLayout, QWidget
 
 from amp_studio.files import Merge, ParameterFile, Row
-from amp_studio.files.merging import Choice
-from amp_studio.schema import Address
-from amp_studio.validate import Finding, Validator, rules_beside
+from amp_studio.files.merging import Choice, Side
+from amp_studio.schema import Address, same_value
+from amp_studio.validate import Finding, Validator
 from amp_studio.validate.result_check import ResultCheck
 
 from .merge_bars import FindingList, ReadingBar, ResultBar, ViewBar
 from .merge_detail import MergeDetail
 from .merge_header import MergeHeader
 from .merge_model import BASE, A, B, Filter, MergeModel
-from .merge_sources import MergeSource, MergeSources, Offer, ReadSource
+from .merge_sources import MergeSource, MergeSources, Offer, ReadSource, is_same_content
 from .merge_tree import MergeTree
 from .message_bar import MessageBar
 from .task import PATIENCE_MS, Task, TaskProgress
@@ -34,7 +28,6 @@ from .workspace import Workspace
 
 _LIVE_MS = 150
 """Milliseconds after an edit of the file until the comparison follows."""
-_COLUMN = {"base": BASE, "a": A, "b": B}
 Offers = Callable[[], list[tuple[str, list[Offer]]]]
 SaveResult = Callable[[ParameterFile], object]
 
@@ -94,24 +87,18 @@ class MergeWindow(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        for widget in (
-            self.view,
-            self.reading,
-            self.message,
-            self.tree,
-            self.detail,
-            self.findings,
-            self.outcome,
-        ):
+        for widget in (self.view, self.reading, self.message, self.tree, self.detail, self.findings, self.outcome):  # fmt: skip
             layout.addWidget(widget)
         layout.setStretchFactor(self.tree, 1)
         self.tree.setStyleSheet("QTreeView { border: 0 }")
         self.tree.setFocus()
 
     def _connect(self) -> None:
-        view, tree = self.view, self.tree
+        view, tree, sources = self.view, self.tree, self.sources
         view.two.clicked.connect(lambda: self.use_base(None))
-        view.three.clicked.connect(self._add_base)
+        view.three.clicked.connect(
+            lambda: self.use_base(sources.as_saved())
+        )  # another can be chosen over its column
         view.swap.clicked.connect(self.swap_sides)
         for system, button in view.units.items():
             button.clicked.connect(partial(self._show_in, system))
@@ -187,7 +174,8 @@ class MergeWindow(QDialog):
         if self._reading.get(column) is not task:
             return
         self._is_read(column)
-        self.use(column, source)
+        if not task.cancelled.is_set():
+            self.use(column, source)
 
     def _read_failed(self, column: int, task: Task, error: Exception) -> None:
         if self._reading.get(column) is not task:
@@ -214,10 +202,6 @@ class MergeWindow(QDialog):
         """Compare three sources; None goes back to two."""
         chosen = {column: each for column, each in self.chosen.items() if column != BASE}
         self.show_merge(chosen if source is None else {**chosen, BASE: source})
-
-    def _add_base(self) -> None:
-        """Take what both most likely come from as the base; another one can be chosen over its column."""
-        self.use_base(self.sources.as_saved())
 
     def show_merge(self, chosen: dict[int, MergeSource], *, swapped: bool = False) -> None:
         """Show sources; what was chosen stays where rows still differ. A source of another family is refused."""
@@ -251,6 +235,7 @@ class MergeWindow(QDialog):
         self.head.counts = ", ".join(texts)
         self.view.only_conflicts.setText(self.tr("Conflicts") + f" {len(self.merge.conflicts)}")
         self.view.only_conflicts.setEnabled(has_base)
+        self.view.only_conflicts.setChecked(has_base and self.view.only_conflicts.isChecked())
         self.head.viewport().update()
         self.tree.fit()
         self.head.place()
@@ -260,20 +245,21 @@ class MergeWindow(QDialog):
         self._after_choice()
 
     def _read_again(self) -> None:
-        """Follow an edit of the file that is compared."""
-        now = self.sources.now()
-        chosen = {column: now if each.is_now else each for column, each in self.chosen.items()}
-        self.show_merge(chosen)
+        """Follow an edit of the file that is compared; what was only shown otherwise is no edit."""
+        now, column = self.sources.now(), self._target_column()
+        if column is not None and not is_same_content(self.chosen[column].file, now.file):
+            self.show_merge({c: now if each.is_now else each for c, each in self.chosen.items()})
 
     # -- what the result would be ---------------------------------------------------------------
 
     def _begin_check(self) -> None:
-        """Check the result in the background: it takes as long as opening the file."""
-        merge, path = self.merge, self.workspace.path
+        """Check the result in the background, one after the other: it takes as long as opening the file."""
+        if self._checking is not None:
+            return
+        merge, own = self.merge, self.workspace.validator.own
         before = self.workspace.findings if self._target_column() is not None else None
 
         def work(_: TaskProgress, __: threading.Event) -> tuple[Merge, ResultCheck]:
-            own = rules_beside(path, merge.a.schema)
             known = Validator(merge.a.copy(), own).run() if before is None else before
             return merge, ResultCheck(merge, known, own)
 
@@ -283,16 +269,15 @@ class MergeWindow(QDialog):
 
     def _checked(self, made: tuple[Merge, ResultCheck]) -> None:
         merge, check = made
+        self._checking = None
         if merge is self.merge:
             self._check = check
-            self._checking = None
             self._after_choice()
+        else:
+            self._begin_check()
 
     def _judge(self, row: Row, choice: Choice) -> list[Finding] | None:
         return self._check.with_choice(row, choice) if self._check else None
-
-    def _later(self, *_: object) -> None:
-        self._update.start()
 
     def _after_choice(self) -> None:
         """Check the result again after a choice, and show what comes of it."""
@@ -305,8 +290,9 @@ class MergeWindow(QDialog):
 
     def _count(self) -> None:
         """Update the counts and the buttons; at once, before anybody can click."""
-        side, rows = self._target_side(), self.merge.differing
-        changes = sum(self.merge.choice(row) not in (None, side) for row in rows)
+        merge, side = self.merge, self._target_side()
+        decided = (row for row in merge.differing if merge.choice(row) is not None)
+        changes = sum(not same_value(merge.result_of(row), row.of(side)) for row in decided)
         left = len(self.merge.open_conflicts)
         self.outcome.show_counts(left, changes)
         self._enable(changes, left)
@@ -341,7 +327,7 @@ class MergeWindow(QDialog):
     def _target_column(self) -> int | None:
         return next((column for column in (A, B) if self.chosen[column].is_now), None)
 
-    def _target_side(self) -> str:
+    def _target_side(self) -> Side:
         return "b" if self._target_column() == B else "a"
 
     def _show_finding(self, item: QListWidgetItem) -> None:
@@ -356,6 +342,9 @@ class MergeWindow(QDialog):
 
     def merge_into(self) -> None:
         """Put the result into the open file as one step; new errors are shown before."""
+        if self._follow.isActive():  # the file was edited just now
+            self._follow.stop()
+            self._read_again()
         self._after_choice()
         if not self.outcome.merge.isEnabled():
             return

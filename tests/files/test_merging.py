@@ -176,6 +176,27 @@ def test_the_machine_type_of_the_header_is_a_row_and_empty_means_the_usual_one()
     assert [row for row in Merge(a, b).differing if row.id.part == "header"] == []
 
 
+def test_ticked_steps_of_both_sides_come_together() -> None:
+    base = new_file("9pc", "mill", ["X"])
+    base.header.done = {"axes": "J. Doe"}
+    a, b = base.copy(), base.copy()
+    a.header.done = {"axes": "J. Doe", "homing": "J. Doe"}
+    b.header.done = {"servo": "R. Roe"}
+    merge = Merge(a, b, base)
+    assert merge.open_conflicts == []
+    assert merge.result().header.done == {"homing": "J. Doe", "servo": "R. Roe"}
+    assert {row.id.key for row in merge.differing} == {"done.axes", "done.homing", "done.servo"}
+
+
+def test_a_key_of_another_program_keeps_its_kind() -> None:
+    a = new_file("9pc", "mill", ["X"])
+    b = a.copy()
+    a.header.extra, b.header.extra = {"bay": 7}, {"bay": 8, "shop": ["x"]}
+    merge = Merge(a, b)
+    merge.take("b")
+    assert merge.result().header.extra == {"bay": 8, "shop": ["x"]}
+
+
 # -- for all families --------------------------------------------------------------------------------------------
 
 

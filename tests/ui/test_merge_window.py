@@ -292,10 +292,12 @@ def test_the_result_is_saved_as_a_new_file_and_the_open_one_stays(
     show(three, EXCESS)
     press(three, "b")
     mine = window.workspace
+    mine.path.write_text(mine.path.read_text().replace("\nvalues:", "\n# by J. Doe\nvalues:", 1))
     person.chooses(tmp_path / "merged.amp")
     three.outcome.save.click()
     merged = on_disk(tmp_path / "merged.amp")
     assert (merged.get(EXCESS), merged.get(CALIBRATION)) == (Value(13.0, "mm"), Value(1.0, "mm"))
+    assert "# by J. Doe" in (tmp_path / "merged.amp").read_text(), "remarks stay"
     assert mine.file.get(EXCESS) == Value(12.0, "mm")
 
 
@@ -317,6 +319,27 @@ def test_the_comparison_follows_an_edit_of_the_file_and_keeps_what_was_chosen(
     qtbot.waitUntil(lambda: len(three.merge.differing) == 4, timeout=WAIT_MS)
     assert result(three, EXCESS) == Value(13.0, "mm")
     assert three.tree.row().address == EXCESS
+
+
+def test_an_edit_just_before_merge_is_not_overwritten(three: MergeWindow, window: MainWindow, qtbot) -> None:
+    show(three, EXCESS)
+    press(three, "b")
+    qtbot.waitUntil(three.outcome.merge.isEnabled, timeout=WAIT_MS)
+    window.workspace.edit("just now", {CALIBRATION: Value(5.0, "mm")})
+    three.outcome.merge.click()
+    assert window.workspace.file.get(EXCESS) == Value(12.0, "mm"), "what is shown is not what would be merged"
+    merge(three, qtbot)
+    file = window.workspace.file
+    assert (file.get(EXCESS), file.get(CALIBRATION)) == (Value(13.0, "mm"), Value(5.0, "mm"))
+
+
+def test_without_a_base_there_are_no_conflicts_to_show(three: MergeWindow) -> None:
+    three.view.only_conflicts.click()
+    three.view.two.click()
+    assert not three.view.only_conflicts.isChecked()
+    assert len(three.model.groups) == len({three.merge.group_title(row) for row in three.merge.differing})
+    three.view.three.click()
+    assert three.chosen[BASE].title == "Last saved"
 
 
 def test_it_closes_with_escape_and_with_its_file(shown: MergeWindow, window: MainWindow, qtbot) -> None:
