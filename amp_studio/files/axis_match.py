@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from amp_studio.schema import Address, read_address, written
 from amp_studio.schema.address import whole_of
 
 from .axes import AxisError, axis_instances, axis_letter, fitted_axes, known_axis
@@ -70,14 +71,17 @@ def _moved(file: ParameterFile, places: Mapping[str, str]) -> ParameterFile:
     for axis in set(axis_instances(file)) - set(places.values()):
         for address in axis_addresses(file, axis):
             twin.set(address, None)
-    for address, why in file.forced.items():
+
+    def placed(address: Address) -> Address:
         axis = whole_of(address[1])
-        if here.kin(here.scopes.get(address[0]), "axis") and axis in places:
-            place = (address[0], places[axis] + address[1][len(axis) :])
-        else:
-            place = address
-        if place in twin.values:
-            twin.forced[place] = why
+        if axis not in places or not here.kin(here.scopes.get(address[0]), "axis"):
+            return address
+        return address[0], places[axis] + address[1][len(axis) :]
+
+    marks = {placed(address): why for address, why in file.forced.items()}
+    twin.forced.update({address: why for address, why in marks.items() if address in twin.values})
+    notes = file.header.value_notes.items()
+    twin.header.value_notes = {written(placed(read_address(key))): text for key, text in notes}
     return twin
 
 

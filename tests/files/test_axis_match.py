@@ -43,10 +43,13 @@ def test_axes_of_a_num_are_matched_by_the_letters_that_its_file_gives_them() -> 
     assert axis_letters(matched.file) == axis_letters(mill)
 
 
-def test_a_mark_of_a_value_out_of_range_goes_with_its_axis() -> None:
+def test_a_mark_of_a_value_out_of_range_and_a_note_go_with_their_axis() -> None:
     mill, other = (new_file("9pc", "mill", axes) for axes in (["X", "Y"], ["Y", "X"]))
     other.set_many({("feedrate.rapid", "1"): Value(1e9, "mm/min")}, force="on site")
-    assert matched_by_letter(other, mill).file.forced == {("feedrate.rapid", "2"): "on site"}
+    other.header.value_notes = {"feedrate.rapid@1": "measured", "control.type": "old"}
+    found = matched_by_letter(other, mill).file
+    assert found.forced == {("feedrate.rapid", "2"): "on site"}
+    assert found.header.value_notes == {"feedrate.rapid@2": "measured", "control.type": "old"}
 
 
 def test_an_axis_that_the_other_machine_does_not_have_gets_a_free_number() -> None:

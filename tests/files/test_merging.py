@@ -188,6 +188,17 @@ def test_ticked_steps_of_both_sides_come_together() -> None:
     assert {row.id.key for row in merge.differing} == {"done.axes", "done.homing", "done.servo"}
 
 
+def test_notes_on_values_are_merged_one_by_one() -> None:
+    base = new_file("9pc", "mill", ["X"])
+    a, b = base.copy(), base.copy()
+    a.header.value_notes = {"home.calibration@1": "mine", "home.position@1": "mine"}
+    b.header.value_notes = {"home.calibration@1": "theirs"}
+    merge = Merge(a, b, base)
+    (conflict,) = merge.open_conflicts
+    merge.choose(conflict, "b")
+    assert merge.result().header.value_notes == {"home.calibration@1": "theirs", "home.position@1": "mine"}
+
+
 def test_a_key_of_another_program_keeps_its_kind() -> None:
     a = new_file("9pc", "mill", ["X"])
     b = a.copy()
