@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import cold
 import comparing
+import drag
 import exchange
 import find
 import grid
@@ -59,6 +60,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from screen.measures(folder, full, times)
     yield from grid.measures(folder, times)
     yield from comparing.measures(folder, times)
+    yield from drag.measures(folder, times)
     yield from exchange.measures(folder, full, example, max(1, times // 3))
 
 

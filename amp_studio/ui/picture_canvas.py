@@ -12,8 +12,9 @@ from amp_studio.files import RangeError
 from amp_studio.pictures import Handle, Scene, dragged, stepped
 from amp_studio.pictures.frame import Placement
 from amp_studio.schema import Address, Value
+from amp_studio.validate import Finding
 
-from .picture_paint import ScenePainter, empty_text, paint_handles, paint_tag
+from .picture_paint import ScenePainter, Tag, empty_text, paint_handles, paint_tag
 from .theme import colour
 from .value_drag import ValueDrag
 from .workspace import Workspace
@@ -81,15 +82,21 @@ class PictureCanvas(QWidget):
         super().__init__()
         self._workspace, self._drawn = workspace, drawn
         self.scene = drawn(None)
-        self._place = Placement.within(self.scene, 100.0, 100.0)
+        self.place = Placement.within(self.scene, 100.0, 100.0)
+        """Where the scene lies in the widget."""
         self._spots: list[HandleSpot] = []
         self._active: int | None = None
         self._drag: ValueDrag | None = None
         self._start: Scene | None = None
         self._offset = QPointF(0, 0)
         self._refused = ""
+        self._causes: dict[Address, Finding] = {}
+        """The worst finding that each value of the picture causes."""
+        self._about: dict[Address, Finding] = {}
+        """Likewise, or was compared in."""
         self._names: list[tuple[object, Address]] = []
         self.setMouseTracking(True)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self._arrange()
@@ -114,11 +121,27 @@ class PictureCanvas(QWidget):
         """Follow the file."""
         self.scene = self._drawn(self._start)
         self._arrange()
+        if self._drag is None:
+            self.mark_findings()
         self.update()
+
+    def mark_findings(self) -> None:
+        """Follow the findings, worst first."""
+        drawn = set(self.scene.drawn_from)
+        self._causes, self._about = {}, {}
+        for finding in self._workspace.findings:
+            for address in drawn.intersection(finding.addresses):
+                self._about.setdefault(address, finding)
+                if address in finding.causes:
+                    self._causes.setdefault(address, finding)
+        self.update()
+
+    def _finding(self, handle: Handle, known: dict[Address, Finding]) -> Finding | None:
+        return next((known[drag.address] for drag in handle.drags if drag.address in known), None)
 
     def _arrange(self) -> None:
         """Put a spot on each handle, with its name and value for screen readers."""
-        self._place = Placement.within(self.scene, float(self.width()), float(self.height()))
+        self.place = Placement.within(self.scene, float(self.width()), float(self.height()))
         handles = self.scene.handles
         while len(self._spots) > len(handles):
             self._spots.pop().deleteLater()
@@ -127,7 +150,7 @@ class PictureCanvas(QWidget):
         if self._active is not None and self._active >= len(handles):
             self._active = None
         for spot, handle in zip(self._spots, handles, strict=True):
-            x, y = self._place.at(handle.at)
+            x, y = self.place.at(handle.at)
             spot.move(int(x - REACH), int(y - REACH))
             name = f"{handle.label}: {handle.value}"
             if spot.accessibleName() != name:
@@ -161,21 +184,29 @@ class PictureCanvas(QWidget):
             inner = self.rect().adjusted(16, 16, -16, -16)
             painter.drawText(QRect(inner), Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, empty)
             return
-        shapes = ScenePainter(painter, self._place, float(self.width()))
+        shapes = ScenePainter(painter, self.place, float(self.width()))
         shapes.paint()
         self._names = list(shapes.named)
         chosen = self.handle if self.hasFocus() or self._drag or self._has_spot_focus() else None
         corners_last = sorted(self.scene.handles, key=lambda handle: handle is chosen)
-        paint_handles(painter, self._place, ((handle, handle is chosen) for handle in corners_last))
+        found = ((handle, self._finding(handle, self._causes)) for handle in corners_last)
+        paint_handles(
+            painter,
+            self.place,
+            ((h, h is chosen, finding.severity if finding else "") for h, finding in found),
+        )
         if chosen is not None:
-            paint_tag(painter, self._place, chosen.at, self._tag(chosen), bool(self._refused))
+            paint_tag(painter, self.place, chosen.at, self.tag(chosen))
 
-    def _tag(self, handle: Handle) -> tuple[str, str, str]:
-        more = self._refused
-        if self._drag is not None and not more and self._start is not None and self._active is not None:
-            old = self._start.handles[self._active].value
-            more = "" if old == handle.value else self.tr("was {value}").format(value=old)
-        return handle.label, handle.value, more
+    def tag(self, handle: Handle) -> Tag:
+        """Return what is said beside a handle: its value, and while it is dragged the old one and what is wrong."""
+        finding, old = self._finding(handle, self._about), ""
+        if self._drag is not None and self._start is not None and self._active is not None:
+            before = self._start.handles[self._active].value
+            old = "" if before == handle.value else self.tr("was {value}").format(value=before)
+        reason = self._refused or (finding.message if finding else "")
+        severity = "error" if self._refused else finding.severity if finding else ""
+        return Tag(handle.label, handle.value, old, reason, severity)
 
     def _has_spot_focus(self) -> bool:
         return any(spot.hasFocus() for spot in self._spots)
@@ -241,7 +272,7 @@ class PictureCanvas(QWidget):
         """Return the handle within reach of a place: the nearest one, corners before edges at the same distance."""
         found = []
         for n, handle in enumerate(self.scene.handles):
-            x, y = self._place.at(handle.at)
+            x, y = self.place.at(handle.at)
             far = ((x - at.x()) ** 2 + (y - at.y()) ** 2) ** 0.5
             if far <= REACH:
                 found.append((round(far), -len(handle.drags), n))
@@ -269,7 +300,7 @@ class PictureCanvas(QWidget):
             self.update()
             return
         self._start = self.scene
-        self._offset = QPointF(*self._place.at(handle.at)) - event.position()
+        self._offset = QPointF(*self.place.at(handle.at)) - event.position()
         self._drag = ValueDrag(self._workspace, tuple(drag.address for drag in handle.drags))
         self.grabKeyboard()
         self.told.emit(self.tr("Dragging {name}: one undo step").format(name=handle.label))
@@ -289,7 +320,7 @@ class PictureCanvas(QWidget):
         if self._drag is None or self._start is None or self._active is None:
             return
         # The functions of the scene in which the drag began: they know what stays the same.
-        wanted = dragged(self._start.handles[self._active], self._place.world(at.x(), at.y()))
+        wanted = dragged(self._start.handles[self._active], self.place.world(at.x(), at.y()))
         changed = self._drag.move(wanted)
         self._refused = self._drag.refused
         if changed:
@@ -306,7 +337,7 @@ class PictureCanvas(QWidget):
         """Put a point into a table."""
         if self.scene.with_point is None or self.nearest(event.position()) is not None:
             return
-        at = self._place.world(event.position().x(), event.position().y())
+        at = self.place.world(event.position().x(), event.position().y())
         try:
             point = self.scene.with_point(at)
         except ValueError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPen, QPolygonF
@@ -12,7 +13,7 @@ from amp_studio.pictures.frame import Placement
 from amp_studio.pictures.svg import ANCHORS, ARROWS, axis_text
 from amp_studio.schema import Address
 
-from .theme import GAP, GAP2, RADIUS, Token, colour, font
+from .theme import GAP, GAP2, RADIUS, Token, colour, font, severity_ink
 
 INKS: dict[ShapeSort, Token] = {
     "ink": "text", "dim": "dim", "limit": "edge", "now": "sel", "second": "edge", "error": "error", "forbidden": "edge",
@@ -25,6 +26,8 @@ TEXT_INKS: dict[ShapeSort, Token] = {
     "second": "dim",
     "outside": "rec",
 }
+MOST_REASON = 380.0
+"""Width of a reason in a tag, in logical pixels; the findings have the whole of it."""
 HANDLE = 9.0
 """Side of a handle in logical pixels."""
 
@@ -199,58 +202,70 @@ class ScenePainter:
         return box
 
 
-def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[Handle, bool]]) -> None:
-    """Paint handles, each with whether it has the focus: square, of less weight round, filled where it has it."""
+def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[Handle, bool, str]]) -> None:
+    """Paint handles, each with whether it has the focus and the severity of its finding.
+
+    A square for one value, a circle for one of less weight, a small square for those of a corner; filled where it has the focus.
+    """
     half = 0.5 * HANDLE
-    for handle, is_active in handles:
+    for handle, is_active, severity in handles:
         at = QPointF(*place.at(handle.at))
-        ink = colour("sel" if is_active else "text")
+        ink = severity_ink(severity) if severity else colour("sel" if is_active else "text")
         painter.setPen(QPen(ink, 1.5))
         painter.setBrush(ink if is_active else colour("base"))
-        if handle.second and len(handle.drags) == 1:
-            painter.drawEllipse(at, half - 0.5, half - 0.5)
-        elif len(handle.drags) > 1:
-            painter.setPen(QPen(ink if is_active else colour("edge"), 1))
+        if len(handle.drags) > 1:
+            painter.setPen(QPen(ink if is_active or severity else colour("edge"), 1))
             painter.drawRect(QRectF(at.x() - 3, at.y() - 3, 6, 6))
+        elif handle.second:
+            painter.drawEllipse(at, half - 0.5, half - 0.5)
         else:
             painter.drawRoundedRect(QRectF(at.x() - half, at.y() - half, HANDLE, HANDLE), 1.5, 1.5)
 
 
-def paint_tag(
-    painter: QPainter, place: Placement, at: tuple[float, float], lines: tuple[str, str, str], wrong: bool
-) -> None:
-    """Paint what a handle is and has: name, value, and the old value or the reason why it goes no further."""
-    name, value, more = lines
+class Tag(NamedTuple):
+    """What a handle is and has."""
+
+    name: str
+    value: str
+    old: str = ""
+    """``was -150 mm``"""
+    reason: str = ""
+    """Why it goes no further, or what is found there."""
+    severity: str = ""
+
+
+def paint_tag(painter: QPainter, place: Placement, at: tuple[float, float], tag: Tag) -> None:
+    """Paint a tag beside its handle, where the picture has room."""
     caption, strong = font("caption"), font("small")
     strong.setWeight(strong.Weight.DemiBold)
     small, large = QFontMetricsF(caption), QFontMetricsF(strong)
-    more_width = small.horizontalAdvance(more) + GAP2 if more else 0.0
-    rows = 3 if wrong and more else 2
-    second = large.horizontalAdvance(value) + (0.0 if rows == 3 else more_width)
-    width = max(small.horizontalAdvance(name), second, more_width if rows == 3 else 0.0) + 2 * GAP2
-    height = small.height() * (rows - 1) + large.height() + GAP2
-    point = place.at(at)
-    right_edge = place.left + place.width + 20.0
-    left = point[0] + 12.0 if point[0] + 12.0 + width <= right_edge else max(point[0] - 12.0 - width, 2.0)
-    top = point[1] - height - GAP2 if point[1] - height - GAP2 > 2.0 else point[1] + GAP2
+    reason = small.elidedText(tag.reason, Qt.TextElideMode.ElideRight, MOST_REASON)
+    beside = large.horizontalAdvance(tag.value) + (
+        GAP2 + small.horizontalAdvance(tag.old) if tag.old else 0.0
+    )
+    width = max(small.horizontalAdvance(tag.name), beside, small.horizontalAdvance(reason)) + 2 * GAP2
+    height = small.height() * (2 if reason else 1) + large.height() + GAP2
+    x, y = place.at(at)
+    edge = place.left + place.width + 20.0
+    left = x + 12.0 if x + 12.0 + width <= edge else max(x - 12.0 - width, 2.0)
+    top = y - height - GAP2 if y - height - GAP2 > 2.0 else y + GAP2
     box = QRectF(left, top, width, height)
-    painter.setPen(QPen(colour("error" if wrong else "sel"), 1))
+    ink = severity_ink(tag.severity) if tag.severity else colour("sel")
+    painter.setPen(QPen(ink, 1))
     painter.setBrush(colour("raised"))
     painter.drawRoundedRect(box, RADIUS, RADIUS)
-    y = box.top() + GAP + small.ascent()
+    inner = box.left() + GAP2
+    first = box.top() + GAP + small.ascent()
+    second = first + small.descent() + large.ascent()
     painter.setFont(caption)
     painter.setPen(colour("dim"))
-    painter.drawText(QPointF(box.left() + GAP2, y), name)
-    y += small.descent() + large.ascent()
+    painter.drawText(QPointF(inner, first), tag.name)
+    painter.drawText(QPointF(inner + large.horizontalAdvance(tag.value) + GAP2, second), tag.old)
+    painter.setPen(ink)
+    painter.drawText(QPointF(inner, second + large.descent() + small.ascent()), reason)
     painter.setFont(strong)
     painter.setPen(colour("text"))
-    painter.drawText(QPointF(box.left() + GAP2, y), value)
-    painter.setFont(caption)
-    painter.setPen(colour("error" if wrong else "dim"))
-    if rows == 3:
-        painter.drawText(QPointF(box.left() + GAP2, y + large.descent() + small.ascent()), more)
-    elif more:
-        painter.drawText(QPointF(box.left() + GAP2 + large.horizontalAdvance(value) + GAP2, y), more)
+    painter.drawText(QPointF(inner, second), tag.value)
 
 
 def empty_text(scene: Scene) -> str:

@@ -6,7 +6,7 @@ from functools import partial
 from html import escape
 
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QFocusEvent, QResizeEvent
+from PySide6.QtGui import QFocusEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
@@ -64,6 +64,7 @@ class PictureCard(QFrame):
         self.title, self.subtitle = QLabel(), QLabel()
         self.title.setFont(font("text", own=True))
         self.subtitle.setFont(font("small"))
+        self.subtitle.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         self.subtitle.setMinimumWidth(20)
         self.parts = Segment(self.tr("Part of {name}").format(name=picture.title))
         self.parts.chosen.connect(self.show_part)
@@ -130,7 +131,6 @@ class PictureCard(QFrame):
         scene = self.canvas.scene
         self.title.setText(scene.title)
         self.subtitle.setText(scene.subtitle)
-        self.subtitle.setStyleSheet(f"color: {colour('dim').name()}")
         self.parts.show_choice(self.part)
         self.more_parts.setCurrentIndex(self.more_parts.findData(self.part))
         self.show_notes()
@@ -274,9 +274,16 @@ class PicturesPage(QWidget):
 
     # -- following the file ------------------------------------------------------------
 
-    def _follow(self, *_: object) -> None:
+    def _follow(self, addresses: list[Address]) -> None:
         if not self.isVisible():
             self._stale = True
+            return
+        if any(card.canvas.is_dragging for card in self._seen):  # the rest follows when the handle is dropped
+            for card in self._seen:
+                if card.canvas.is_dragging:
+                    card.canvas.mark_findings()
+                elif set(addresses) & set(card.canvas.scene.drawn_from):
+                    card.canvas.draw_again()
             return
         found = {picture.name: picture for picture in pictures_of(self.workspace.file)}
         for card in self._seen:
@@ -344,6 +351,7 @@ class HandleFooter(QFrame):
         self.field.installEventFilter(self)
         for label in (self.more, self.keys):
             label.setFont(font("small"))
+            label.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         row = QHBoxLayout(self)
         row.setContentsMargins(GAP3, 4, GAP3, 4)
         row.setSpacing(GAP3)
@@ -356,8 +364,7 @@ class HandleFooter(QFrame):
 
     def show_handle(self, handle: Handle | None) -> None:
         """Show a handle; without one what can be done."""
-        self._dim(self.more, "dim")
-        self._dim(self.keys, "dim")
+        self.more.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         has_one = handle is not None and len(handle.drags) == 1
         self.field.setVisible(has_one)
         self.keys.setVisible(handle is not None)
@@ -399,9 +406,6 @@ class HandleFooter(QFrame):
             value=show_value(file.schema.parameters[address[0]], default)
         )
 
-    def _dim(self, label: QLabel, token: str) -> None:
-        label.setStyleSheet(f"color: {colour(token).name()}")  # type: ignore[arg-type]
-
     def type(self, text: str) -> None:
         """Take a value from the keyboard, beginning with what was typed."""
         if not self.field.isVisible():
@@ -415,7 +419,7 @@ class HandleFooter(QFrame):
     def refuse(self, reason: str) -> None:
         """Say why a value is not taken; it stays in the field."""
         self.more.setText(reason)
-        self._dim(self.more, "error")
+        self.more.setForegroundRole(QPalette.ColorRole.BrightText)
 
     def eventFilter(self, watched: object, event: object) -> bool:
         """Esc in the field gives the value up."""

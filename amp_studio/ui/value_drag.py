@@ -31,6 +31,7 @@ class ValueDrag(QObject):
         self._follow.setSingleShot(True)
         self._follow.setInterval(FOLLOW_MS)
         self._follow.timeout.connect(self._tell)
+        workspace.validator.update(list(addresses))  # rules are compiled now, and not in the first frame
 
     @property
     def values(self) -> dict[Address, Value | None]:
@@ -50,7 +51,7 @@ class ValueDrag(QObject):
         return bool(changes)
 
     def _tell(self) -> None:
-        self.workspace.after_edit(list(self.before))
+        self.workspace.follow(list(self.before))
 
     def _put_back(self) -> None:
         self._follow.stop()

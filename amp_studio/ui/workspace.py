@@ -184,12 +184,16 @@ class Workspace(QObject):
         return True
 
     def after_edit(self, addresses: list[Address]) -> None:
-        """Update the findings and notify the views."""
-        self.findings, self._progress = self.validator.update(addresses), None
+        """Update the findings, keep the journal, and notify the views."""
         if (
             not self._journal.isActive()
         ):  # not restarted by the next edit, so that continued typing loses no more than this
             self._journal.start(JOURNAL_MS)
+        self.follow(addresses)
+
+    def follow(self, addresses: list[Address]) -> None:
+        """Update the findings and notify the views of values that are not decided yet, as while a handle is dragged."""
+        self.findings, self._progress = self.validator.update(addresses), None
         self.changed.emit(addresses)
 
     def show_in(self, units: str | None) -> None:

@@ -34,12 +34,12 @@ def place(canvas, *addresses):
     (found,) = [
         n for n, h in enumerate(canvas.scene.handles) if [d.address for d in h.drags] == list(addresses)
     ]
-    return QPointF(*canvas._place.at(canvas.scene.handles[found].at)).toPoint(), found
+    return QPointF(*canvas.place.at(canvas.scene.handles[found].at)).toPoint(), found
 
 
 def at(canvas, x, y):
     """Return the point of a place of the machine."""
-    return QPointF(*canvas._place.at((x, y))).toPoint()
+    return QPointF(*canvas.place.at((x, y))).toPoint()
 
 
 def press(canvas, *addresses):
@@ -61,7 +61,7 @@ def test_an_edge_is_dragged_in_mm_as_one_undo_step(window, pictures, file, whole
         QTest.mouseMove(canvas, QPoint(at(canvas, x, 0.0).x(), start.y()))
     assert window.workspace.undo_stack.count() == 0
     assert file.get(RIGHT).value == pytest.approx(-100.0, abs=2.0)
-    assert canvas._tag(canvas.handle)[2] == "was -150 mm"
+    assert canvas.tag(canvas.handle).old == "was -150 mm"
     QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=QPoint(at(canvas, -100.0, 0.0).x(), start.y()))
     assert (window.workspace.undo_stack.count(), file.get(RIGHT).unit) == (1, "mm")
     assert window.workspace.undo_stack.undoText() == "Drag 1007 Limit 3 Max Value, X"
@@ -105,8 +105,20 @@ def test_beyond_the_allowed_range_the_value_stays_and_the_tag_says_why(pictures,
     press(canvas, RIGHT)
     QTest.mouseMove(canvas, at(canvas, -400.0, -200.0))
     assert file.get(RIGHT) == Value(-150.0, "mm")
-    assert "is outside -350 to 999999.99 mm" in canvas._tag(canvas.handle)[2]
+    assert "is outside -350 to 999999.99 mm" in canvas.tag(canvas.handle).reason
     QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=at(canvas, -400.0, -200.0))
+
+
+def test_the_tag_has_the_finding_of_the_place_while_it_is_dragged(window, pictures, file, qtbot):
+    """Page 5-11: the home position lies within the overtravels."""
+    canvas = pictures.chosen_card.canvas
+    high = ("zone.overtravel_positive", "1")
+    press(canvas, high)
+    QTest.mouseMove(canvas, at(canvas, -60.0, -200.0))
+    qtbot.waitUntil(lambda: bool(canvas.tag(canvas.handle).reason))
+    assert canvas.tag(canvas.handle).severity in {f.severity for f in window.workspace.findings_of(high)}
+    QTest.keyClick(canvas, Qt.Key.Key_Escape)
+    assert window.workspace.findings == ()
 
 
 def test_keys_move_the_focused_handle_by_a_step_and_shift_by_ten(pictures, file):
