@@ -176,9 +176,9 @@ class CellPainter:
 
     # -- over the cells ------------------------------------------------------------
 
-    def outline(self, painter: QPainter, place: QRect, ink: Token) -> None:
+    def outline(self, painter: QPainter, place: QRect, severity: str) -> None:
         """Paint the outline of a cell that is part of the selected finding."""
-        painter.setPen(QPen(self._inks[ink], 1))
+        painter.setPen(QPen(self._inks[_SEVERITIES[severity][0] if severity in _SEVERITIES else "edge"], 1))
         painter.drawRect(QRectF(place).adjusted(0.5, 0.5, -1.5, -1.5))
 
     def current(self, painter: QPainter, place: QRect) -> None:

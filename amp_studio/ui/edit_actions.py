@@ -205,7 +205,8 @@ class EditActions:
             raise ValueError(
                 "This finding has changed or no longer exists. Select it again in the list of findings."
             )
-        self._workspace().edit("Fix", {r.address: r.value for r in finding.fix})
+        workspace, wanted = self._workspace(), {r.address: r.value for r in finding.fix}
+        workspace.edit(f"Fix: {workspace.step_text(wanted)}", wanted)
 
     def fix_all(self, findings: Sequence[Finding]) -> None:
         """Apply the suggested fixes of several findings as one step, each in the light of those before it."""

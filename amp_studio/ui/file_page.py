@@ -75,6 +75,7 @@ class FilePage(QWidget):
         self.detail.linked.connect(self.follow)
         self.detail.axis_wanted.connect(self.go_to)
         self.findings.activated.connect(self._show_finding)
+        self.findings.current_changed.connect(self._outline)
         self.findings.not_set_requested.connect(self.show_not_set)
         self.table.modelReset.connect(self._tell_findings)
         self.table_view.selected.connect(self._tell_findings)
@@ -104,6 +105,13 @@ class FilePage(QWidget):
             self._update_title()
         else:
             self.table.show_parameters(parameters)
+
+    def _outline(self, *_: object) -> None:
+        """Outline the cells that the selected finding reads besides those at fault, which are coloured anyway."""
+        found = self.findings.current_findings()
+        causes = {a for finding in found for a in finding.causes}
+        read = {a for finding in found for a in finding.addresses} - causes
+        self.table.outline(frozenset(read), found[0].severity if found else "")
 
     def show_not_set(self) -> None:
         """Show the active parameters that are not set."""

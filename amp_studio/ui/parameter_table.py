@@ -62,7 +62,8 @@ class ParameterTable(QAbstractTableModel):
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
         self.outlined: frozenset[Address] = frozenset()
-        """Cells of the selected finding."""
+        """Cells of the selected finding that are not at fault."""
+        self.outline_severity = ""
         self.values = ShownValues(workspace)
         self._filter: RowFilter | None = None
         self._shows_commands = False
@@ -102,10 +103,10 @@ class ParameterTable(QAbstractTableModel):
         self._filter = wanted
         self.show_again()
 
-    def outline(self, addresses: frozenset[Address]) -> None:
-        """Outline the cells of the selected finding."""
-        if addresses != self.outlined:
-            self.outlined = addresses
+    def outline(self, addresses: frozenset[Address], severity: str) -> None:
+        """Outline the cells of the selected finding, in the colour of its severity."""
+        if (addresses, severity) != (self.outlined, self.outline_severity):
+            self.outlined, self.outline_severity = addresses, severity
             self._repaint()
 
     @property

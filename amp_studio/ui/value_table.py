@@ -291,7 +291,7 @@ class ValueTable(QTableView):
         for address in self._table.outlined:
             index = self._table.index_of(address)
             if index.isValid():
-                painter.outline(over, self.visualRect(index), "error")
+                painter.outline(over, self.visualRect(index), self._table.outline_severity)
         ends = self._ends()
         if ends is not None and ends[0] != ends[1]:
             handle = self._handle() if self._table.workspace.may_edit else QRect()

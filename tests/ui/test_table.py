@@ -415,3 +415,14 @@ def test_closing_with_an_open_list_ends_well(window: MainWindow, file: Parameter
     box = editor(window)
     qtbot.waitUntil(lambda: box.view().isVisible(), timeout=WAIT_MS)
     assert window.close()
+
+
+def test_the_other_cells_of_the_selected_finding_are_outlined(
+    window: MainWindow, workspace: Workspace
+) -> None:
+    """Gain Break Point 12 mm is not below Feedrate Suppression Point 11 mm, which is not at fault."""
+    workspace.edit("raise", {("servo.gain_break_point", "1"): Value(12.0, "mm")})
+    finding = next(f for f in workspace.findings if ("servo.gain_break_point", "1") in f.causes)
+    window.findings.select(finding)
+    assert window.table.outlined == frozenset({("servo.feedrate_suppression", "1")})
+    assert window.table.outline_severity == finding.severity
