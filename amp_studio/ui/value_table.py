@@ -30,9 +30,9 @@ from .value_delegate import ValueDelegate, allowed_text
 _NAMES = (240, 302, 420)
 """Width of the names in a narrow table, in a wide one, and at most, where the values leave room."""
 _WIDE = 620
-_AXIS, _AXIS_AT_MOST, _CONTROL_ALONE, _COMMAND = 100, 150, (240, 460), 230
+_AXIS, _AXIS_AT_MOST, _CONTROL_ALONE, _COMMAND = 92, 150, (240, 460), 230
 """Widths of columns: of an axis at least and at most, of the control where it is alone, of the command that reads a value."""
-_MIXED = 140, 190
+_MIXED = 120, 190
 """Width of the control's column beside axes, and where they leave room for more."""
 _MARGIN = 18
 """Room for the scroll bar."""
@@ -423,10 +423,11 @@ class ValueTable(QTableView):
         if columns == [CONTROL]:
             widths = [max(_CONTROL_ALONE[0], min(_CONTROL_ALONE[1], room))]
         else:
-            each = max(_AXIS, min(_AXIS_AT_MOST, room // max(1, len(columns))))
-            left = room - each * (len(columns) - 1)
-            mixed = _MIXED[1] if left >= _MIXED[1] else max(each, _MIXED[0])
-            widths = [mixed if column == CONTROL else each for column in columns]
+            axes = len(columns) - (CONTROL in columns)
+            control = _MIXED[0] if CONTROL in columns else 0
+            each = max(_AXIS, min(_AXIS_AT_MOST, (room - control) // max(1, axes)))
+            control = max(_MIXED[0], min(_MIXED[1], room - each * axes))
+            widths = [control if column == CONTROL else each for column in columns]
         for column, width in enumerate([*widths, _COMMAND] if self._table.shows_commands else widths):
             self.setColumnWidth(column, width)
         self._fit_names(names, sum(widths))
