@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
+    ENDING,
     Document,
     backup_path,
     check_output,
@@ -87,6 +88,12 @@ class CompareActions(QObject):
         workspace.acknowledge(on_disk)
         chosen = {**shown.chosen, B: disk}
         shown.show_merge({**chosen, BASE: base} if workspace.is_dirty else chosen)
+
+    def with_path(self, page: FilePage, path: Path) -> None:
+        """Compare with another file, or with a backup or a copy of what a control contained."""
+        shown = self.open(page)
+        make = shown.sources.other_file if path.suffix.lower() == ENDING else shown.sources.kept_copy
+        shown.start(B, lambda: shown.sources.from_copy(make, path))
 
     def with_control(self, page: FilePage, image: bytes, address: str) -> None:
         """Compare with what was just read from a control; raises ImageError, ValueError."""

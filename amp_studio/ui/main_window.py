@@ -25,6 +25,8 @@ from .left_panel import as_side
 from .picture_actions import PictureActions
 from .program_icon import program_icon
 from .project_actions import ProjectActions
+from .project_files import ProjectFiles
+from .project_tree import ProjectTree
 from .questions import show_message
 from .status_line import StatusLine
 from .studio_window import StudioWindow
@@ -64,6 +66,9 @@ class MainWindow(StudioWindow):
         self.themes = ThemeActions(self, self.view.menu)
         self.control = ControlActions(self, self.files)
         self.projects = ProjectActions(self, self.files.open_path)
+        self.project_files = ProjectFiles(
+            self, self.files.open_path, self.files.comparing, self.projects.show_at, self.projects.change
+        )
         self._help_menu()
         self._toolbar()
         self.view.panels.addAction(self.action("&Reset Layout", self.docks.reset))
@@ -118,6 +123,7 @@ class MainWindow(StudioWindow):
         if side := as_side(self.settings.left_side()):
             page.left.show_side(side)
         page.left.turned.connect(self.settings.keep_left_side)
+        page.left.set_project_tree(ProjectTree(page, self.project_files))
         DiskWatch(page, self.files.comparing.with_disk, self.files.reload)
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
@@ -214,6 +220,7 @@ class MainWindow(StudioWindow):
         self.control.close()
         for page in self.tabs.pages():
             self.close_page(page)
+        self.summaries.stop()
         Task.end_all()
         event.accept()
 

@@ -150,9 +150,9 @@ class ProjectActions:
             lambda progress, cancelled: check_files(paths, progress, cancelled),
             self.window,
         )
-        ProjectCheckDialog(checking.run(PATIENCE_MS), self._show_at, self.window).show()
+        ProjectCheckDialog(checking.run(PATIENCE_MS), self.show_at, self.window).show()
 
-    def _show_at(self, path: Path, address: Address | None) -> None:
+    def show_at(self, path: Path, address: Address | None) -> None:
         """Select an address in a file of the project; opens the file if necessary."""
 
         def show() -> None:

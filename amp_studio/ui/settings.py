@@ -50,6 +50,15 @@ class UserSettings:
         """Store the pinned files."""
         self._stored.setValue("pinned", [str(path) for path in paths])
 
+    def projects(self) -> list[Path]:
+        """Return the folders of the projects that were open, the latest first."""
+        kept = self._value("projects")
+        return [Path(p) for p in (kept if isinstance(kept, list) else [kept]) if isinstance(p, str) and p]
+
+    def keep_projects(self, folders: Iterable[Path]) -> None:
+        """Store the folders of projects, the latest first."""
+        self._stored.setValue("projects", [str(folder) for folder in folders])
+
     def session(self) -> list[Path]:
         """Return the files that were open when the program was left, the one in front last."""
         kept = self._value("session")

@@ -20,6 +20,7 @@ from amp_studio.schema import Address
 from .detail_panel import DetailPanel
 from .docks import Docks
 from .file_page import FilePage
+from .file_summaries import FileSummaries
 from .file_tabs import FileTabs
 from .findings_panel import FindingsPanel
 from .group_list import GroupList
@@ -45,6 +46,7 @@ class StudioWindow(QMainWindow):
         super().__init__()
         self._project: Project | None = None
         self.tabs = FileTabs()
+        self.summaries = FileSummaries(self)
         self.settings = UserSettings()
         self.docks = Docks(self, self.settings)
         self.actions_needing: dict[Needs, list[QAction]] = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -27,13 +26,12 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files.examples import Example, examples
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.validate.summary import FileSummary, summary_of
 
 from .file_actions import FileActions
 from .folder_view import show_in_folder
 from .message_bar import MessageBar
 from .studio_window import StudioWindow
-from .task import Task, TaskProgress
+from .task import Task
 from .theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font, icon
 from .time_words import in_words
 from .welcome_list import KEY, ROW, WelcomeList, WelcomeRow
@@ -60,13 +58,13 @@ class WelcomePage(QWidget):
         super().__init__()
         self.setAccessibleName(self.tr("Welcome"))
         self._window, self._files, self._open_project = window, files, open_project
-        self._summaries: dict[tuple[Path, int], FileSummary | str] = {}
+        self._summaries = window.summaries
         self._reading: Task | None = None
-        self._known = False
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(_REST_MS)
-        self._rest.timeout.connect(self._read_next)
+        self._rest.timeout.connect(self._read)
+        self._summaries.found.connect(self._describe_path)
         self.message = MessageBar()
         self.families = WelcomeList(self.tr("New file"))
         self.examples = WelcomeList(self.tr("Examples"))
@@ -214,7 +212,7 @@ class WelcomePage(QWidget):
     def _describe(self, item: QListWidgetItem) -> None:
         """Show what is known of a file: its machine and its findings."""
         path, row = item.data(KEY), item.data(ROW)
-        found = self._summaries.get(_version(path))
+        found = self._summaries.of(path)
         if found is None:
             return
         if isinstance(found, str):
@@ -265,38 +263,31 @@ class WelcomePage(QWidget):
     def hideEvent(self, event: QHideEvent) -> None:
         super().hideEvent(event)
         self._rest.stop()
+        self._summaries.want([])
 
-    def _read_next(self) -> None:
-        """Read in the background what is still to be known, one thing at a time."""
-        if not self.isVisible() or self._reading is not None:
+    def _read(self) -> None:
+        """Read in the background what is still to be known."""
+        if not self.isVisible():
             return
-        if not self._known:
-            self._begin(lambda *_: (_all_families(), examples()), self._show_facts)
-            return
-        waiting = (self.list.item(n).data(KEY) for n in range(self.list.count()))
-        path = next((p for p in waiting if _version(p) not in self._summaries), None)
-        if path is not None:
-            self._begin(partial(_summary, path), partial(self._keep_summary, _version(path)))
-
-    def _begin(self, work: object, then: object) -> None:
-        self._reading = task = Task(work)  # type: ignore[arg-type]  # both are partial functions
-        task.done.connect(then)
-        task.finished.connect(self._done_reading)
-        task.begin()
+        if not self.families.count() and self._reading is None:
+            self._reading = task = Task(lambda *_: (_all_families(), examples()))
+            task.done.connect(self._show_facts)
+            task.finished.connect(self._done_reading)
+            task.begin()
+        elif self._reading is None:
+            self._summaries.want(self.list.item(n).data(KEY) for n in range(self.list.count()))
 
     def _done_reading(self) -> None:
         self._reading = None
-        self._read_next()
+        self._read()
 
-    def _keep_summary(self, version: tuple[Path, int], found: FileSummary | str) -> None:
-        self._summaries[version] = found
+    def _describe_path(self, path: Path) -> None:
         for n in range(self.list.count()):
-            if self.list.item(n).data(KEY) == version[0]:
+            if self.list.item(n).data(KEY) == path:
                 self._describe(self.list.item(n))
 
     def _show_facts(self, found: tuple[list[_Family], tuple[Example, ...]]) -> None:
         """Fill the families and the examples."""
-        self._known = True
         families, machines = found
         names = {family.key: family.short for family in families}
         for family in families:
@@ -384,27 +375,11 @@ def _all_families() -> list[_Family]:
     ]
 
 
-def _summary(path: Path, _: TaskProgress, __: threading.Event) -> FileSummary | str:
-    """Return the summary of a file, or why there is none."""
-    try:
-        return summary_of(path)
-    except (OSError, ValueError) as error:
-        return str(error)
-
-
 def _changed(path: Path) -> datetime | None:
     try:
         return datetime.fromtimestamp(path.stat().st_mtime, UTC).astimezone()
     except (OSError, OverflowError, ValueError):
         return None
-
-
-def _version(path: Path) -> tuple[Path, int]:
-    """Return a file as it is now: another content is another version."""
-    try:
-        return path, path.stat().st_mtime_ns
-    except OSError:
-        return path, 0
 
 
 def _folder(path: Path) -> str:

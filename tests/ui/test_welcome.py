@@ -49,7 +49,8 @@ def two(path: Path, tmp_path: Path, open_window: Callable[..., MainWindow]) -> C
 def read_all(page: WelcomePage, qtbot: QtBot) -> None:
     """Wait until everything is known."""
     qtbot.waitUntil(lambda: page.families.count() > 0 and page._reading is None, timeout=WAIT_MS)
-    qtbot.waitUntil(lambda: len(page._summaries) >= page.list.count(), timeout=WAIT_MS)
+    shown = [page.list.item(n).data(KEY) for n in range(page.list.count())]
+    qtbot.waitUntil(lambda: all(page._summaries.of(path) is not None for path in shown), timeout=WAIT_MS)
 
 
 def test_every_family_is_there_with_what_it_is_for(open_window, qtbot: QtBot) -> None:

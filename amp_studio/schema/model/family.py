@@ -184,7 +184,7 @@ class Family(Model):
     what: str = ""
     """In a line what machines it is for."""
     without_motion: str = ""
-    """Why its axes are not simulated and what there is instead, where that is so."""
+    """Why its axes are not simulated and what there is instead; "" for a family that has a law."""
     document: str
     title: str
     applications: tuple[str, ...] = ()
