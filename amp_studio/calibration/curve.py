@@ -13,7 +13,7 @@ from .measurement import MeasuredPoints, Measurement
 
 @dataclass(frozen=True)
 class ErrorCurve:
-    """MeasuredPoints of one unit with rising positions; an empty curve is zero everywhere."""
+    """Points of one unit with rising positions; an empty curve is zero everywhere."""
 
     points: MeasuredPoints
 

@@ -1,4 +1,4 @@
-"""What the head of a column of measured points means: position, error, direction, run, and the unit beside it."""
+"""What the head of a column of measured points means: position, angle of a circle, error, direction, run, and the unit beside it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-HeadKind = Literal["position", "measured", "error", "correction", "run", "direction", ""]
+HeadKind = Literal["position", "angle", "measured", "error", "correction", "run", "direction", ""]
 
 _BRACKETED = re.compile(r"[\[(/_]\s*(mm|um|µm|μm|microns?|in|inch|inches|deg|degrees?|°|arcsec)\s*[\])]?\s*$")
 _SPACED = re.compile(r"\s(mm|um|µm|μm|microns?|inch|inches|deg|degrees?|°|arcsec)\s*$")
@@ -17,6 +17,7 @@ _UNITS = {
 _KINDS: tuple[tuple[HeadKind, str], ...] = (
     ("direction", r"direction|dir|approach"),
     ("run", r"(run|pass|cycle|series)( ?(no\.?|number))?"),
+    ("angle", r"angle|theta|phi|polar angle"),
     ("position", r"((target|nominal|command(ed)?|set|control|absolute)\s*)?(position|pos\.?|point|reading)"),
     ("position", r"target|nominal|commanded|command|absolute|[xyzabcuvw]|[xyzabcuvw] (position|axis)"),
     ("correction", r".*\b(correction|compensation|comp\.?)\b.*"),

@@ -43,6 +43,7 @@ class Measurement:
     ``answers``  what was used, with what the file itself has answered
     ``assumed``  names of the answers that neither the file nor a person gave: to be asked before anything is written
     ``notes``    sentences that a person has to know
+    ``is_circle``  runs are circles of a ball-bar: positions are degrees, errors those of the radius, rising is counterclockwise
     """
 
     runs: tuple[MeasuredRun, ...]
@@ -50,6 +51,7 @@ class Measurement:
     answers: MeasurementAnswers
     assumed: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    is_circle: bool = False
 
     @property
     def targets(self) -> tuple[Fraction, ...]:

@@ -1,7 +1,7 @@
 """From measured points to what is set in a file: calibration table, reversal error, and what error is expected to remain.
 
 Motion that is lost at a reversal leaves a rising run behind by half of it and a falling run ahead by the other half; the
-mean of both directions is what the table takes away. MeasuredPoints measured with compensation on are what it has left over, so
+mean of both directions is what the table takes away. Points measured with compensation on are what it has left over, so
 what it takes away already is added again.
 """
 
@@ -16,6 +16,7 @@ from amp_studio.schema import Address, Value, canonical, dimension, fault, real_
 from amp_studio.schema.scales import size_of
 from amp_studio.schema.units import UNITS
 
+from .ballbar import lost_motions
 from .compensation import CalibrationTable, Compensation, compensation_of
 from .curve import ErrorCurve, mean_curve
 from .errors import CalibrationError
@@ -30,6 +31,7 @@ class Wish:
     """What is to be made of measured points.
 
     ``was_on``  whether the axis was measured with its compensation on; None for not answered
+    ``circle``  which axis of a ball-bar's circle it is, "first" or "second"; "" for not answered
     ``input``, ``start``  as the control's screen asks them, "" for what the present table has, else the usual one
     """
 
@@ -38,6 +40,7 @@ class Wish:
     start: str = ""
     table: bool = True
     reversal: bool = True
+    circle: str = ""
 
 
 @dataclass(frozen=True)
@@ -86,6 +89,8 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
         )
     was_on = bool(wish.was_on)
     notes = [*measurement.notes]
+    if measurement.is_circle:
+        return _of_circle(file, offered, axis, measurement, wish, old if was_on else Fraction(0), notes)
     sides = {side: mean_curve(measurement, side) for side in (True, False)}
     sides = {side: curve for side, curve in sides.items() if curve.points}
     raw = mean_curve(measurement)
@@ -118,6 +123,27 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
     return Proposal(
         axis, measurement.unit, settings, table, reversal, figures(measurement), sides, after, tuple(notes)
     )
+
+
+def _of_circle(
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    measurement: Measurement,
+    wish: Wish,
+    on: Fraction,
+    notes: list[str],
+) -> Proposal:
+    """Return what the circles of a ball-bar make of an axis: a reversal error and nothing else."""
+    if not offered.reversal:
+        raise CalibrationError("the control has no reversal error, and a circle gives no calibration table")
+    settings: dict[Address, Value] = {}
+    notes.append("a ball-bar gives the reversal error of the axis and no calibration table")
+    lost = lost_motions(measurement, wish.circle)
+    reversal = _reversal_of(file, offered, axis, lost, on, settings, notes) if wish.reversal else None
+    curves = {side: mean_curve(measurement, side) for side in (True, False)}
+    curves = {side: curve for side, curve in curves.items() if curve.points}
+    return Proposal(axis, "deg", settings, None, reversal, figures(measurement), curves, curves, tuple(notes))
 
 
 def _plus(curve: ErrorCurve, other: ErrorCurve) -> ErrorCurve:
@@ -223,15 +249,24 @@ def _reversal(
     """Return the lost motion that is compensated now and the one proposed; None where nothing is proposed."""
     up, down = measurement.errors(rising=True), measurement.errors(rising=False)
     common = [at for at in up if at in down]
-    if not common or not offered.reversal:
-        return None
-    address = (offered.reversal, axis)
     lost = [_mean(down[at]) - _mean(up[at]) for at in common]
+    return _reversal_of(file, offered, axis, lost, on, settings, notes) if lost and offered.reversal else None
+
+
+def _reversal_of(
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    lost: list[Fraction],
+    on: Fraction,
+    settings: dict[Address, Value],
+    notes: list[str],
+) -> tuple[Fraction, Fraction] | None:
+    """Return the same for lost motions that were measured at several places; ``on`` is compensated already."""
+    address = (offered.reversal, axis)
     total = _mean(lost) + on
     if _mean(lost) < 0 and not on:
-        notes.append(
-            "rising runs are ahead of falling ones, which lost motion cannot do: check the sign of the errors"
-        )
+        notes.append("motion is gained at a reversal instead of lost: check the sign of the errors")
     state = file.evaluation.state(address)
     if not state.is_active:
         notes.append(f"no reversal error is proposed: {state.why}")
@@ -245,7 +280,7 @@ def _reversal(
     low = min(lost) + on
     if low < total:
         notes.append(
-            f"lost motion differs over the travel: the least is {float(low):.5f} {measurement.unit}, and the manuals "
+            f"lost motion differs over the travel: the least is {float(low):.5f} {base_unit(file, offered, axis)}, and the manuals "
             "warn of a value above it"
         )
     value, made = rounded(file, address, total)

@@ -28,6 +28,8 @@ from .measurement import (
 )
 from .raw import RawRun, RawTable
 
+MOST_RUNS = 1_000
+MOST_TARGETS = 10_000
 _SIZES = {
     "mm": Fraction(1), "in": Fraction("25.4"), "um": Fraction(1, 1000), "deg": Fraction(1),
     "arcsec": Fraction(1, 3600), "counts": Fraction(1),
@@ -55,13 +57,13 @@ def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "
         raise MeasurementError("this is no text with measured points")
     raw = renishaw.read(text, usual_unit) if renishaw.recognises(text) else _read_columns(text, answers)
     assumed = []
-    unit = answers.unit or raw.unit
+    unit = answers.unit or raw.unit or ("deg" if raw.is_circle else "")
     if not unit:
         unit = usual_unit
         assumed.append("unit")
     error_unit = answers.error_unit or raw.error_unit or (unit if raw.kind == "measured" else "")
     if not error_unit:
-        error_unit = unit
+        error_unit = usual_unit if raw.is_circle else unit
         assumed.append("error_unit")
     sign = answers.sign
     if raw.kind != "error":
@@ -74,6 +76,12 @@ def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "
     if not sign:
         sign = SIGNS[0]
         assumed.append("sign")
+    if raw.is_circle:
+        if _BASE[unit] != "deg" or _BASE[error_unit] != "mm":
+            raise MeasurementError("a circle has angles in deg and errors of its radius in mm, in or um")
+        used = MeasurementAnswers(unit, error_unit, sign, answers.decimal or DECIMALS[0])
+        runs = tuple(_in_base(run, raw.kind, used) for run in _with_directions(raw.runs))
+        return Measurement(runs, "mm", used, tuple(assumed), raw.notes, is_circle=True)
     if _BASE[unit] != _BASE[error_unit]:
         raise MeasurementError(f"positions in {unit} and errors in {error_unit} do not belong together")
     used = MeasurementAnswers(unit, error_unit, sign, answers.decimal or DECIMALS[0])
@@ -174,7 +182,8 @@ def _table(
         heads = [Head("position", "", None), Head("error", "", None)]
     kinds = [head.kind for head in heads]
     values = [n for n, kind in enumerate(kinds) if kind in ("measured", "error", "correction")]
-    if kinds.count("position") != 1 or not values:
+    at = next((n for n, kind in enumerate(kinds) if kind in ("position", "angle")), -1)
+    if kinds.count("position") + kinds.count("angle") != 1 or not values:
         raise MeasurementError(
             "the heads of the columns do not name one position and what was measured there: position, error"
         )
@@ -188,7 +197,6 @@ def _table(
     units = {heads[n].unit for n in values}
     if len(units) > 1:
         raise MeasurementError("the columns of errors have several units")
-    at = kinds.index("position")
 
     def cell(row: tuple[int, list[str]], column: int) -> Fraction:
         return number_of(row[1][column], decimal, separator, row[0])
@@ -204,7 +212,10 @@ def _table(
     if ignored:
         notes = (*notes, f"{ignored} columns that are neither position nor error were not read" if ignored > 1
                  else "1 column that is neither position nor error was not read")  # fmt: skip
-    return RawTable(tuple(runs), kinds[values[0]], heads[at].unit, heads[values[0]].unit, notes)
+    is_circle = kinds[at] == "angle"
+    if is_circle and kinds[values[0]] == "measured":
+        raise MeasurementError("a circle needs the error of its radius, not the radius: angle, deviation")
+    return RawTable(tuple(runs), kinds[values[0]], heads[at].unit, heads[values[0]].unit, notes, is_circle)
 
 
 def _grouped(
@@ -237,9 +248,10 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
 
     Several readings of one target in a row are one of each run.
     """
+    later = _later(points)
     piles: list[tuple[Fraction, list[Fraction]]] = []
-    for at, value in points:
-        if piles and piles[-1][0] == at and not _turns(piles, points, at):
+    for n, (at, value) in enumerate(points):
+        if piles and piles[-1][0] == at and not _turns(piles, at, later[n]):
             piles[-1][1].append(value)
         else:
             piles.append((at, [value]))
@@ -255,17 +267,21 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
         if run:
             direction = step
         run.append(pile)
+    if sum(max(len(values) for _, values in run) for run in runs if run) > MOST_RUNS:
+        raise MeasurementError(f"these are more than {MOST_RUNS} runs")
     return [part for run in runs for part in _layers(run)]
 
 
-def _turns(
-    piles: Sequence[tuple[Fraction, list[Fraction]]],
-    points: Sequence[tuple[Fraction, Fraction]],
-    at: Fraction,
-) -> bool:
+def _later(points: Sequence[tuple[Fraction, Fraction]]) -> list[Fraction | None]:
+    """Return for each point the next position that is another one; None behind the last."""
+    found: list[Fraction | None] = [None] * len(points)
+    for n in range(len(points) - 2, -1, -1):
+        found[n] = points[n + 1][0] if points[n + 1][0] != points[n][0] else found[n + 1]
+    return found
+
+
+def _turns(piles: Sequence[tuple[Fraction, list[Fraction]]], at: Fraction, later: Fraction | None) -> bool:
     """Return whether a target that comes twice in a row is the turning point between two runs."""
-    done = sum(len(values) for _, values in piles)
-    later = next((p for p, _ in points[done:] if p != at), None)
     if len(piles) < 2 or later is None or len(piles[-1][1]) > 1:
         return False
     return (later - at) * (at - piles[-2][0]) < 0
@@ -286,8 +302,11 @@ def _with_directions(runs: Sequence[RawRun]) -> list[MeasuredRun]:
             raise MeasurementError(f"a run reaches the target {_text(targets)} twice: number the runs")
         rising = run.rising if run.rising is not None else len(targets) < 2 or targets[1] > targets[0]
         found.append(MeasuredRun(rising, tuple(sorted(run.points))))
-    if len({at for run in found for at, _ in run.points}) < 2:
+    count = len({at for run in found for at, _ in run.points})
+    if count < 2:
         raise MeasurementError("points at two positions at least are needed")
+    if count > MOST_TARGETS:
+        raise MeasurementError(f"{count} target positions are too many: {MOST_TARGETS} at most")
     return found
 
 

@@ -25,6 +25,7 @@ from amp_studio.calibration import (
 )
 from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
 from amp_studio.files import Change, Document, ParameterFile, RangeError, describe
+from amp_studio.report.wording import counted
 from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, show_value, shown, write_value
 from amp_studio.schema.values import read_exact
 
@@ -101,6 +102,7 @@ def _wanted(
         _STARTS.get(options.start or "", ""),
         table=options.only != "reversal",
         reversal=options.only != "table",
+        circle=options.circle or "",
     )
     proposal = propose(file, axis, measurement, wish)
     found = _Found(dict(proposal.settings))
@@ -193,6 +195,11 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
     """Yield what was read, its figures, and what error is expected to remain."""
     figures, unit = proposal.figures, shown(proposal.unit)
     used = measurement.answers
+    for text in proposal.notes:
+        note(text)
+    if measurement.is_circle:
+        yield f"{counted(len(measurement.runs), 'circle')} of a ball-bar; errors of the radius in {shown(used.error_unit)}, {used.sign}"
+        return
     yield (f"{len(measurement.targets)} targets, {figures.runs_rising} runs rising and {figures.runs_falling} falling; "
            f"positions in {shown(used.unit)}, errors in {shown(used.error_unit)}, {used.sign}")  # fmt: skip
     rows = (
@@ -207,8 +214,6 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
         if value is not None:
             yield f"{name}: {value:.5f} {unit}"
     yield f"Error of both directions: {float(proposal.span_before):.5f} {unit} measured, {float(proposal.span_after):.5f} {unit} expected"
-    for text in proposal.notes:
-        note(text)
 
 
 def _table_lines(
@@ -279,6 +284,9 @@ def _proposal_json(measurement: Measurement, proposal: Proposal) -> dict[str, An
     figures = asdict(proposal.figures)
     targets = [asdict(t) | {"mean": t.mean, "reversal": t.reversal} for t in proposal.figures.targets]
     names = {True: "rising", False: "falling"}
+    if measurement.is_circle:
+        asked = [_OPTIONS[name] for name in measurement.assumed]
+        return {"answers": asdict(measurement.answers), "assumed": asked, "notes": list(proposal.notes)}
     return {
         "answers": asdict(measurement.answers),
         "assumed": [_OPTIONS[name] for name in measurement.assumed],

@@ -28,6 +28,8 @@ def calibrate_options(verbs: Verbs) -> None:
     sub.add_argument("--decimal", choices=("point", "comma"), help="decimal sign of the points")
     sub.add_argument("--compensation", choices=("on", "off"),
                      help="whether the axis was measured with its compensation on")  # fmt: skip
+    sub.add_argument("--circle", choices=("first", "second"),
+                     help="which axis of the circle of a ball-bar (angle, deviation) it is")  # fmt: skip
     sub.add_argument("--only", choices=("table", "reversal"), help="make only one of both")
     sub.add_argument("--input", choices=("measurement", "deviation"), help="how the control has its points")
     sub.add_argument(

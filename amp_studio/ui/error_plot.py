@@ -57,7 +57,7 @@ class ErrorPlot(QWidget):
         item = self.plot.getPlotItem()
         item.clear()
         self.plot.setBackground(colour("base"))
-        times, error_unit = (MICRO, "µm") if unit == "mm" else (1, unit)
+        times, error_unit = (MICRO, "µm") if "mm" in unit else (1, unit)
         drawn = [trace for trace in traces if trace.curve.points]
         names = "&nbsp;&nbsp;&nbsp; ".join(
             f'<span style="color:{colour(t.ink).name()}">{"- -" if t.dashed else "—"} {t.name}</span>'

@@ -54,6 +54,7 @@ class MeasuredDialog(QDialog):
         super().__init__(parent)
         self._file, self._axis, self._path = file, axis, path
         self.proposal: Proposal | None = None
+        self._is_circle = False
         self.setWindowTitle(self.tr("Measured Points — {name}").format(name=path.name))
         self.resize(920, 620)
         self._offered = compensation_of(file.schema.family.family)
@@ -106,6 +107,11 @@ class MeasuredDialog(QDialog):
             (self.tr("off"), "off"),
             (self.tr("on: points are what is left over"), "on"),
         )
+        self.circle = _choice(
+            (self.tr("choose…"), ""),
+            (self.tr("the first one: it turns round at 0° and 180°"), "first"),
+            (self.tr("the second one: at 90° and 270°"), "second"),
+        )
         form = self._offered.table
         names = {"deviation": self.tr("deviation"), "measurement": self.tr("measured position")}
         self.input = _choice(*((names[key], key) for key in reversed(form.inputs if form else ())))
@@ -139,6 +145,7 @@ class MeasuredDialog(QDialog):
             (self.tr("An error &is"), self.sign),
             (self.tr("&Decimal sign"), self.decimal),
             (self.tr("&Compensation was"), self.was_on),
+            (self.tr("A&xis of the circle"), self.circle),
             (self.tr("&Figures are"), self.input),
             (self.tr("Table starts &at the"), self.start),
         )
@@ -146,6 +153,8 @@ class MeasuredDialog(QDialog):
             box.setAccessibleName(label.replace("&", ""))
             form.addRow(label, box)
         form.setRowVisible(self.was_on, self._is_compensated())
+        form.setRowVisible(self.circle, False)
+        self._rows = form
         for box in (self.input, self.start):
             form.setRowVisible(box, box.count() > 0)
         form.addRow(self.tr("Set"), self.table)
@@ -177,6 +186,7 @@ class MeasuredDialog(QDialog):
             self.start.currentData() or "",
             table=self.table.isChecked() and self.table.isEnabled(),
             reversal=self.reversal.isChecked(),
+            circle=self.circle.currentData(),
         )
         try:
             measurement, self.proposal = in_background(
@@ -187,10 +197,12 @@ class MeasuredDialog(QDialog):
             self._show_nothing(str(error))
         else:
             self._show(measurement, self.proposal)
+        self._rows.setRowVisible(self.circle, self._is_circle)
 
     def _work(self, answers: MeasurementAnswers, wish: Wish) -> tuple[Measurement, Proposal]:
         unit = base_unit(self._file, self._offered, self._axis)
         measurement = read_measured_file(self._path, answers, unit)
+        self._is_circle = measurement.is_circle
         return measurement, propose(self._file, self._axis, measurement, wish)
 
     def _show_nothing(self, why: str) -> None:
@@ -229,6 +241,15 @@ class MeasuredDialog(QDialog):
         """Return what was read, the figures of ISO 230-2, and what would be set."""
         figures, unit = proposal.figures, shown(proposal.unit)
         used = measurement.answers
+        if measurement.is_circle:
+            return [
+                self.tr("%n circles of a ball-bar", "", len(measurement.runs)),
+                self.tr("Read as {error_unit}, {sign}").format(
+                    error_unit=shown(used.error_unit), sign=used.sign
+                ),
+                "",
+                *self._set_lines(proposal),
+            ]
         lines = [
             self.tr("{count} targets, {up} runs rising, {down} falling").format(
                 count=len(measurement.targets), up=figures.runs_rising, down=figures.runs_falling
@@ -253,6 +274,11 @@ class MeasuredDialog(QDialog):
             ),
             "",
         ]
+        return lines + self._set_lines(proposal)
+
+    def _set_lines(self, proposal: Proposal) -> list[str]:
+        """Return what would be set."""
+        lines = []
         for address, value in proposal.settings.items():
             parameter = self._file.schema.parameters[address[0]]
             if parameter.type == "text" and proposal.table is not None:

@@ -187,6 +187,19 @@ def test_neighbours_that_are_too_far_apart_get_points_between_them(mill) -> None
     assert calibration_fault(text, turns=False) == ""
 
 
+def test_thousands_of_targets_become_the_points_that_matter_in_a_moment(mill) -> None:
+    targets = np.arange(2_000) * 0.5
+    error = 0.001 * np.sin(targets / 40)
+    proposal = propose(mill, "1", laser(error, targets, 0, runs=1), OFF)
+    assert len(read_calibration(table_of(proposal)).points) <= 1001
+    assert float(proposal.span_after) < 2e-5
+
+
+def test_positions_with_too_many_digits_for_the_screen_are_refused(mill) -> None:
+    with pytest.raises(CalibrationError, match="six digits"):
+        propose(mill, "1", laser(np.zeros(2), np.array([0.0, 2e6]), 0), OFF)
+
+
 # -- a table that turns ---------------------------------------------------------------------------
 
 

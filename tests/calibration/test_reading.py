@@ -255,3 +255,12 @@ def test_what_cannot_be_read_is_named_with_its_line(text: str, named: str) -> No
 def test_an_answer_that_is_none_is_refused(answers: MeasurementAnswers) -> None:
     with pytest.raises(MeasurementError, match="of measured points"):
         read_measurement("0,0\n1,1\n", answers)
+
+
+def test_what_would_take_minutes_is_refused_at_once() -> None:
+    with pytest.raises(MeasurementError, match="more than 1000 runs"):
+        read_measurement("0,0\n" * 1_001 + "1,0\n", KNOWN)
+    with pytest.raises(MeasurementError, match="too many"):
+        read_measurement("\n".join(f"{n},0" for n in range(10_001)), KNOWN)
+    with pytest.raises(MeasurementError, match="100001 lines"):
+        read_measurement("0,0\n" * 100_001, KNOWN)

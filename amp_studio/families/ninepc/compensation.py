@@ -23,6 +23,7 @@ from .formulas.calibration import (
     read_calibration,
 )
 
+_FARTHEST = 10**6
 _STEP = Fraction(1, 10**DECIMALS)
 
 
@@ -76,6 +77,10 @@ class NinePcTable:
         """Return points that leave the least error within the limits of the screen; raises CalibrationError."""
         table = self.empty(file, axis, input_ or "deviation", start or "-")
         notes: list[str] = []
+        if any(abs(at) >= _FARTHEST for at, _ in errors.points):
+            raise CalibrationError(
+                "a calibration point has at most six digits before the point: check the units"
+            )
         points = [(_rounded(at), by) for at, by in _filled(errors, LONGEST_INTERVAL[table.unit]).points]
         first = 0 if table.start == "-" else -1
         origin = points[first][1]
@@ -187,27 +192,23 @@ def _thinned(points: list[tuple[Fraction, Fraction]], most: int) -> list[tuple[F
         )
     if len(points) <= most:
         return points
-    kept = {0, len(points) - 1}
-    worst = {(0, len(points) - 1): _farthest(points, 0, len(points) - 1)}
-    while len(kept) < most:
-        (low, high), (at, miss) = max(worst.items(), key=lambda entry: entry[1][1])
-        if at < 0:
-            break
-        del worst[low, high]
-        kept.add(at)
-        worst[low, at], worst[at, high] = _farthest(points, low, at), _farthest(points, at, high)
-        _ = miss
+    rough = [(float(at), float(by)) for at, by in points]  # only to choose: what is kept stays exact
+    kept = [0, len(points) - 1]
+    worst = [(*_farthest(rough, 0, len(points) - 1), 0, len(points) - 1)]
+    while len(kept) < most and worst:
+        _, at, low, high = worst.pop(worst.index(max(worst)))
+        kept.append(at)
+        for one, other in ((low, at), (at, high)):
+            if other - one > 1:
+                worst.append((*_farthest(rough, one, other), one, other))
     return [points[n] for n in sorted(kept)]
 
 
-def _farthest(points: list[tuple[Fraction, Fraction]], low: int, high: int) -> tuple[int, Fraction]:
-    """Return the point between two that their line misses most, and by how much; -1 where there is none between."""
-    line = ErrorCurve((points[low], points[high]))
-    return max(
-        ((n, abs(points[n][1] - line.at(points[n][0]))) for n in range(low + 1, high)),
-        key=lambda found: found[1],
-        default=(-1, Fraction(-1)),
-    )
+def _farthest(points: list[tuple[float, float]], low: int, high: int) -> tuple[float, int]:
+    """Return by how much the line between two points misses the point between them that it misses most, and which it is."""
+    (x, y), (far, above) = points[low], points[high]
+    slope = (above - y) / (far - x)
+    return max((abs(points[n][1] - y - slope * (points[n][0] - x)), n) for n in range(low + 1, high))
 
 
 def _gentle(points: list[tuple[Fraction, Fraction]], *, reverse: bool) -> list[tuple[Fraction, Fraction]]:

@@ -64,6 +64,8 @@ _FAST = frozenset((
 def _obstacle(file: ParameterFile, address: Address) -> str:
     if address[0] == "patch.internal":
         return "by the manual it is not to be adjusted (page 37-3)"
+    if address[0] == "calibration.table":
+        return "its points are entered on the screen {AXIS CALIB}, or the file is downloaded (page 36-6)"
     if not file.schema.parameters[address[0]].patchable:
         return "Patch AMP does not offer it: it has to be downloaded (page 37-2)"
     return ""
