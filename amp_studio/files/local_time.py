@@ -26,6 +26,11 @@ def with_local_times(text: str) -> str:
     return _STAMP.sub(lambda found: local_time(found[0]), text)
 
 
+def with_days_and_times(text: str) -> str:
+    """Return a text with every stored time in it as ``day_and_time`` has it."""
+    return _STAMP.sub(lambda found: day_and_time(found[0]), text)
+
+
 def day_and_time(stamp: str, now: datetime | None = None) -> str:
     """Return a stored time in the words of a person: ``today 14:35``, ``yesterday 17:48``, ``18 Nov 16:20``, ``18 Nov 2024``.
 

@@ -32,7 +32,8 @@ class CalculatorDialog(QDialog):
         self._known = calculators(self._family)
         own = workspace.file.schema.parameters[address[0]].formulas if address else ()
         self.formula = QComboBox()
-        self.formula.addItems([*own, *(name for name in sorted(self._known) if name not in own)])
+        for name in (*own, *(name for name in sorted(self._known) if name not in own)):
+            self.formula.addItem(name.replace("_", " ").capitalize(), name)
         self.description, self.outcome = QLabel(), QLabel()
         for label in (self.description, self.outcome):
             label.setWordWrap(True)
@@ -53,7 +54,7 @@ class CalculatorDialog(QDialog):
         for field in self.fields.values():
             self._form.removeRow(field)
         self.fields.clear()
-        calculator = self._known[self.formula.currentText()]
+        calculator = self._known[self.formula.currentData()]
         self.description.setText(calculator.description)
         for n, argument in enumerate(calculator.arguments):
             field = self.fields[argument.name] = QLineEdit()
@@ -67,7 +68,7 @@ class CalculatorDialog(QDialog):
         self.use.setEnabled(False)
         self.use.setText("Use the result as a value")
         try:
-            result = calculate(self._family, self.formula.currentText(), texts)
+            result = calculate(self._family, self.formula.currentData(), texts)
         except ValueError as error:
             self.outcome.setText(f"{error}.".replace("..", "."))
             return

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from PySide6.QtCore import QCoreApplication
 
 from amp_studio.files import axis_letter
-from amp_studio.files.local_time import day_and_time, with_local_times
+from amp_studio.files.local_time import day_and_time, with_days_and_times
 from amp_studio.files.notes import group_note, value_note
 from amp_studio.files.storage_text import storage_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
@@ -183,7 +183,7 @@ class DetailPage:
         if workspace.control is not None:
             values, when = workspace.control
             rows.append(
-                (tr("In the control, {time}").format(time=with_local_times(when)), values.get(address))
+                (tr("In the control, {time}").format(time=with_days_and_times(when)), values.get(address))
             )
         if self.last_download is not None:
             rows.append(

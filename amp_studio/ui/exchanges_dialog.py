@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.files import real_path, text_of_name
-from amp_studio.files.local_time import local_time
+from amp_studio.files.local_time import day_and_time
 from amp_studio.report.wording import counted
 
 from .workspace import Workspace
@@ -33,7 +33,7 @@ class ExchangesDialog(QDialog):
         for each in reversed(found):
             digests = (each.before[:12], each.after[:12])
             item = QTreeWidgetItem(
-                [local_time(each.when), each.who, each.verb, each.control, *digests, each.text]
+                [day_and_time(each.when), each.who, each.verb, each.control, *digests, each.text]
             )
             kept = f"\nKept copy: {each.kept}" if each.kept else ""
             item.setToolTip(6, each.text + kept)

@@ -22,7 +22,7 @@ from amp_studio.files import (
     same_file,
     write_atomic,
 )
-from amp_studio.files.local_time import local_time
+from amp_studio.files.local_time import day_and_time
 from amp_studio.files.lock import EditLock
 from amp_studio.report.wording import counted
 from amp_studio.validate import Validator, rules_beside
@@ -269,7 +269,7 @@ class FileActions:
         note = "" if unsaved.fits else "\n\nThe file was changed since then. Check the recovered values."
         changes = len(unsaved.changes) + len(unsaved.header)
         count = counted(changes, "change")
-        text = (f"The program ended before {count} from {local_time(unsaved.when)} ({unsaved.who}) could be saved."
+        text = (f"The program ended before {count} from {day_and_time(unsaved.when)} ({unsaved.who}) could be saved."
                 f"{note}\n\nRecover the unsaved work? You can undo this.")  # fmt: skip
         answer = ask(self.window, "Unsaved work found", text, "&Recover", "&Discard", "Decide &Later")
         if answer == "&Recover":

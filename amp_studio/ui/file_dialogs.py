@@ -30,7 +30,7 @@ from .questions import show_message
 
 
 class _Form(QDialog):
-    """A dialog of labelled fields with OK and Cancel."""
+    """A dialog of labelled fields, with a button for what it does and Cancel."""
 
     def __init__(self, title: str, parent: QWidget | None) -> None:
         super().__init__(parent)
@@ -43,11 +43,12 @@ class _Form(QDialog):
         super().done(result)
         self.deleteLater()
 
-    def add_buttons(self) -> None:
-        """Add OK and Cancel below the fields."""
+    def add_buttons(self, does: str) -> None:
+        """Add Cancel below the fields, and the button that ``does`` it."""
         buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
         )
+        buttons.button(QDialogButtonBox.StandardButton.Ok).setText(does)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         self.form.addRow(buttons)
@@ -71,7 +72,7 @@ class FactsDialog(_Form):
         for label, field in (("&Name", self.name), ("&Application", self.application),
                              ("Control software &revision", self.revision), ("N&otes", self.notes)):  # fmt: skip
             self.form.addRow(label, field)
-        self.add_buttons()
+        self.add_buttons(self.tr("Change &Facts"))
 
     def texts(self) -> dict[str, str]:
         """Return the header entries as typed."""
@@ -119,7 +120,7 @@ class ReportDialog(_Form):
         self.form.addRow("", self.inactive)
         self.form.addRow(label, row)
         self.form.addRow("", self.show_it)
-        self.add_buttons()
+        self.add_buttons(self.tr("&Write Report"))
 
     def _browse(self) -> None:
         endings = "PDF (*.pdf);;HTML (*.html);;CSV (*.csv);;Text (*.txt)"
@@ -169,7 +170,7 @@ class ProjectDialog(_Form):
         self._machines()
         if info and info.machine:
             self.machine.setCurrentIndex(self.machine.findData(info.machine))
-        self.add_buttons()
+        self.add_buttons(self.tr("Save Pro&ject") if info else self.tr("Create Pro&ject"))
 
     def _machines(self) -> None:
         self.machine.clear()

@@ -21,10 +21,11 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import FindingGroup, finding_groups, fix_lines, why_parts
+from amp_studio.report.wording import severity_name
 from amp_studio.schema import Address, written
 from amp_studio.validate import Finding, explain
 
-from .theme import severity_icon, severity_ink
+from .theme import severity_html, severity_icon
 from .workspace import Workspace
 
 
@@ -51,11 +52,8 @@ class WhyDialog(QDialog):
 
     def _written(self, workspace: Workspace, finding: Finding) -> str:
         file, why = workspace.file, explain(workspace.validator, finding)
-        ink = severity_ink(finding.severity).name()
-        lines, before = (
-            [f'<p style="color:{ink}"><b>{html.escape(finding.message)}</b></p><table cellpadding=3>'],
-            "",
-        )
+        mark = f"{severity_html(finding.severity)} <b>{severity_name(finding.severity).capitalize()}:</b>"
+        lines, before = [f"<p>{mark} {html.escape(finding.message)}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
             cell = html.escape(text)
             if title in ("Applies where", "Demands", "With the values", "Comes to"):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, Qt, Signal
-from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QPainter, QResizeEvent
+from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QPainter, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
@@ -115,6 +115,8 @@ class FindingsPanel(QWidget):
             lambda *_: self.current_changed.emit(self.current())
         )
         self.empty = QLabel()
+        self.empty.setAutoFillBackground(True)
+        self.empty.setBackgroundRole(QPalette.ColorRole.Base)
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.empty.linkActivated.connect(self._follow)
         self.empty.setTextInteractionFlags(

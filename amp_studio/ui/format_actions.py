@@ -152,7 +152,7 @@ class FormatActions:
         )
         left_out = 0 if secrets else len(secret_values(file))
         left_out_note = (
-            f"; {counted(left_out, 'secret value')} left out (to export them, switch on Options > Show Secrets)"
+            f"; {counted(left_out, 'secret value')} left out (to export them, switch on View > Show Secrets)"
             if left_out
             else ""
         )

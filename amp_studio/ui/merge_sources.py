@@ -14,7 +14,7 @@ from PySide6.QtCore import QObject
 from amp_studio.files import HistoryEntry, ParameterFile, backup_path, open_file, real_path
 from amp_studio.files.axis_match import as_axis, axis_letters, matched_by_letter
 from amp_studio.files.by_schema import by_schema
-from amp_studio.files.local_time import local_time
+from amp_studio.files.local_time import day_and_time
 from amp_studio.files.parameter_file import Marks
 from amp_studio.files.versions import before_saves, with_defaults
 
@@ -111,7 +111,7 @@ class MergeSources(QObject):
         return MergeSource(self.tr("Defaults"), self.tr("as the manual prints them"), with_defaults(file))
 
     def _earlier(self, file: ParameterFile, entries: Sequence[HistoryEntry]) -> MergeSource:
-        title = self.tr("Before {time}").format(time=local_time(entries[-1].when))
+        title = self.tr("Before {time}").format(time=day_and_time(entries[-1].when))
         return MergeSource(title, self._name, before_saves(file, entries))
 
     def _saves(self) -> list[list[HistoryEntry]]:
@@ -160,7 +160,7 @@ class MergeSources(QObject):
         from amp_studio.transfer.client.last_download import last_download
 
         found = last_download(file, self._workspace.path)
-        return MergeSource(self.tr("Last download"), local_time(found.when), found.file)
+        return MergeSource(self.tr("Last download"), day_and_time(found.when), found.file)
 
     def kept_copy(self, file: ParameterFile, path: Path) -> MergeSource:
         """Return a copy of what a control contained; raises CopyError, ParameterFileError, ValueError."""
@@ -258,7 +258,7 @@ class MergeSources(QObject):
         if saves := self._saves():
             text = self.tr("Before {time}, {who}")
             yield Offer(self.tr("&Earlier Saves"), inner=tuple(
-                Offer(text.format(time=local_time(save[-1].when), who=save[-1].who), partial(self._before, save))
+                Offer(text.format(time=day_and_time(save[-1].when), who=save[-1].who), partial(self._before, save))
                 for save in saves
             ))  # fmt: skip
         yield Offer(self.tr("Default &Values"), self.defaults)

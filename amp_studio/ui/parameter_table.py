@@ -13,7 +13,7 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 
 from amp_studio.files import axis_head, shown_axes
-from amp_studio.files.local_time import with_local_times
+from amp_studio.files.local_time import with_days_and_times
 from amp_studio.files.notes import value_note
 from amp_studio.report.wording import state_name
 from amp_studio.schema import Address, Parameter, show_value
@@ -349,7 +349,7 @@ class ParameterTable(QAbstractTableModel):
             used = values.text(address, values.effective[address])
             lines.append(self.tr("Effective value in the control: {value}").format(value=used))
         if address in file.forced:
-            lines.append(self.tr("Forced {when}").format(when=with_local_times(file.forced[address])))
+            lines.append(self.tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
         if note := value_note(file, address):
             lines.append(self.tr("Note: {text}").format(text=note))
         value, saved = file.get(address), self.workspace.document.saved.get(address)

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QMessageBox, QPushButton, QWidget
 
+from .theme import icon, severity_icon
+
 Icon = QMessageBox.Icon
+_SIDE = 24
+"""Width and height of the icon of a box, in logical pixels."""
 
 
-def show_message(parent: QWidget | None, title: str, text: str, icon: Icon = Icon.Warning) -> None:
+def show_message(parent: QWidget | None, title: str, text: str, kind: Icon = Icon.Warning) -> None:
     """Show a message and wait until it is closed."""
-    QMessageBox(icon, title, text, QMessageBox.StandardButton.Ok, parent).exec()
+    box = QMessageBox(kind, title, text, QMessageBox.StandardButton.Close, parent)
+    _show_icon(box, kind)
+    box.exec()
+
+
+def _show_icon(box: QMessageBox, kind: Icon) -> None:
+    """Show the icon of the same hand as in the window."""
+    severity = {Icon.Critical: "error", Icon.Warning: "warning"}.get(kind, "information")
+    box.setIconPixmap(
+        (icon("question", "dim") if kind == Icon.Question else severity_icon(severity)).pixmap(_SIDE, _SIDE)
+    )
 
 
 def ask(
@@ -17,6 +31,7 @@ def ask(
 ) -> str:
     """Return the text of the clicked button; Escape is the last one."""
     box = QMessageBox(icon, title, text, parent=parent)
+    _show_icon(box, icon)
     roles = QMessageBox.ButtonRole
     buttons: list[QPushButton] = []
     for n, answer in enumerate(answers):

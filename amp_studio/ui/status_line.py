@@ -9,7 +9,7 @@ from amp_studio.files import fitted_axes
 from amp_studio.report.wording import severity_name
 from amp_studio.validate import SEVERITIES, not_set
 
-from .theme import GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
+from .theme import GAP2, GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
 from .workspace import Workspace
 
 
@@ -40,6 +40,8 @@ class StatusLine(QObject):
         for widget in (*self.counts.values(), self.not_set, self.changes, self.file, self.control):
             widget.setFont(font("small"))
             bar.addPermanentWidget(widget)
+            if isinstance(widget, QLabel):
+                widget.setContentsMargins(GAP2, 0, GAP2, 0)
         self.value.setFont(font("small"))
 
     def _count(self, picture: object) -> QToolButton:
@@ -66,10 +68,14 @@ class StatusLine(QObject):
         self.not_set.setText(self.tr("{number} not set").format(number=len(not_set(workspace.findings))))
         file = workspace.file
         count = workspace.changes()
-        self.changes.setText(self.tr("%n unsaved change(s)", "", count) if count else "")
+        some = self.tr("1 unsaved change") if count == 1 else self.tr("%n unsaved changes", "", count)
+        self.changes.setText(some if count else "")
         self.changes.setVisible(bool(count))
         units = self.tr("as entered") if workspace.as_entered else file.header.units
-        parts = [file.schema.family.name, file.machine]
+        parts = [
+            file.schema.family.name,
+            next(m.name for m in file.schema.family.machines if m.key == file.machine),
+        ]
         if file.schema.family.axes is not None:
             parts.append(self.tr("%n axes", "", len(fitted_axes(file))))
         state = self.tr("not saved") if workspace.is_dirty else self.tr("saved")

@@ -63,6 +63,7 @@ QLineEdit, QPlainTextEdit, QAbstractSpinBox, QComboBox { background: $base; colo
 QLineEdit, QAbstractSpinBox, QComboBox { min-height: 20px; }
 QLineEdit:focus, QPlainTextEdit:focus, QAbstractSpinBox:focus, QComboBox:focus { border: 1px solid $sel; }
 QLineEdit:disabled, QPlainTextEdit:disabled, QAbstractSpinBox:disabled, QComboBox:disabled { color: $off; border-color: $line2; }
+QComboBox::drop-down, QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { border: 0; background: transparent; width: 18px; }
 QAbstractItemView QLineEdit, QAbstractItemView QComboBox { min-height: 0; border-radius: 0; padding: 0 4px; border: 2px solid $sel; }
 
 QFrame#find-popup { background: $raised; border: 1px solid $line2; border-radius: 4px; }

@@ -23,7 +23,7 @@ class ViewActions:
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act = window.action
-        self.menu = menu = window.menuBar().addMenu("&Options")
+        self.menu = menu = window.menuBar().addMenu(QCoreApplication.translate("ViewActions", "&View"))
         self.units_menu, self.machine_menu = QMenu("&Units", window), QMenu("Control &Type", window)
         self._groups: list[QActionGroup] = []
         self.switch = act("S&witch mm / inch", self._switch, "Ctrl+M", "units", "ruler", "mm / inch")

@@ -22,8 +22,8 @@ def test_the_formulas_of_the_parameter_come_first_and_the_result_can_be_used(win
     window.go_to(GAIN_BREAK)
     dialog = calculator(window)
     own = window.workspace.file.schema.parameters[GAIN_BREAK[0]].formulas
-    assert tuple(dialog.formula.itemText(n) for n in range(len(own))) == own
-    dialog.formula.setCurrentText("gain_break_point")
+    assert tuple(dialog.formula.itemData(n) for n in range(len(own))) == own
+    dialog.formula.setCurrentText("Gain break point")
     dialog.fields["max_contouring"].setText("4000")
     assert dialog.outcome.text() == "gain_break_point needs gain."
     assert not dialog.use.isEnabled()
@@ -37,7 +37,7 @@ def test_the_formulas_of_the_parameter_come_first_and_the_result_can_be_used(win
 def test_another_formula_asks_for_its_own_arguments(window: MainWindow, person: Person) -> None:
     """Page 14-2, example 14.1: 1000 to 3000 with 800 to 1500, asked for 1800."""
     dialog = calculator(window)
-    dialog.formula.setCurrentText("synchronized_speed")
+    dialog.formula.setCurrentText("Synchronized speed")
     assert list(dialog.fields) == ["requested", "controlling", "follower"]
     for name, text in (("requested", "1800"), ("controlling", "1000, 3000"), ("follower", "800, 1500")):
         dialog.fields[name].setText(text)

@@ -77,7 +77,7 @@ def test_the_find_box_lists_every_enabled_command_and_no_other(window: MainWindo
     found = listed(window)
     assert set(found.values()) == {a for _, a in commands(window.menuBar()) if a.isEnabled()}
     assert window.edits.undo not in found.values()
-    assert found["✓ Options › Units › Metric"].isChecked()
+    assert found["✓ View › Units › Metric"].isChecked()
     assert any(row.text == "File › Save" and row.right == "Ctrl+S" for row in window.finder.box.model.rows)
 
 
@@ -147,9 +147,7 @@ def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
     window = open_window()
     enabled = {name for name, a in commands(window.menuBar()) if a.isEnabled()}
     assert {"File › New", "File › Open", "Control › Upload From Control", "Help › Commands"} <= enabled
-    assert (
-        not {"File › Save", "Edit › Clear Value (Not Set)", "Axis › Copy Axis", "Options › Motion"} & enabled
-    )
+    assert not {"File › Save", "Edit › Clear Value (Not Set)", "Axis › Copy Axis", "View › Motion"} & enabled
 
 
 def test_what_an_action_refuses_is_told_in_one_sentence(window: MainWindow, person) -> None:
