@@ -66,7 +66,7 @@ class Marks:
     # -- asking ------------------------------------------------------------------------
 
     def has(self, mark: Mark, address: Address) -> bool:
-        """Return whether a value by itself has a mark; that of the row is none of its own."""
+        """Return whether a value by itself has a mark; whether axes differ is asked of the row."""
         return self._asks[mark](address)
 
     def passing(self, marks: Collection[Mark], row: Sequence[Address]) -> int:

@@ -15,6 +15,7 @@ from amp_studio.schema import Address, Parameter, shown, write_figure
 from amp_studio.validate import Finding, not_set
 
 from .detail_panel import DetailPanel
+from .filter_bar import FilterBar
 from .findings_panel import FindingsPanel
 from .left_panel import LeftPanel
 from .message_bar import MessageBar
@@ -62,12 +63,12 @@ class FilePage(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        for widget in (self.bar, self.list_title, self.table_view):
+        self.filters = FilterBar(self.list_title, self.table)
+        for widget in (self.bar, self.filters, self.table_view):
             layout.addWidget(widget)
         self.setFocusProxy(self.table_view)
         self.left.chosen.connect(self._show_parameters)
         self.left.steps.wanted.connect(self.go_to)
-        self.groups.left.connect(self.table_view.setFocus)
         self.table_view.selected.connect(self.detail.show_address)
         self.table_view.selected.connect(self.selected)
         self.table_view.range_changed.connect(lambda: self.selected.emit(self.table_view.address()))
@@ -119,6 +120,15 @@ class FilePage(QWidget):
         ids = dict.fromkeys(address[0] for address in not_set(self.workspace.findings))
         self._show_parameters(self.tr("Not set"), [self.workspace.file.schema.parameters[i] for i in ids])
 
+    def show_found(self, words: str, ids: Iterable[str]) -> None:
+        """Show the parameters that were found for some words."""
+        self.front_wanted.emit(self)
+        self.show_pictures(False)
+        self.groups.show_none()
+        title = self.tr("Found: {words}").format(words=words)
+        self._show_parameters(title, [self.workspace.file.schema.parameters[i] for i in ids])
+        self.table_view.setFocus()
+
     def _tell_findings(self, *_: object) -> None:
         """Let the findings know what the table shows, and the axis of its current cell."""
         address, file = self.table_view.address(), self.workspace.file
@@ -156,7 +166,7 @@ class FilePage(QWidget):
         """Show the pictures, or the table."""
         if self.pictures is None or wanted == self.shows_pictures:
             return
-        for widget in (self.list_title, self.table_view):
+        for widget in (self.filters, self.table_view):
             widget.setVisible(not wanted)
         self.pictures.setVisible(wanted)
         self.setFocusProxy(self.pictures if wanted else self.table_view)
@@ -192,6 +202,8 @@ class FilePage(QWidget):
         """Select an address and come to the front; shows its group when the table does not contain it."""
         self.front_wanted.emit(self)
         self.show_pictures(False)
+        if not self.table.index_of(address).isValid() and self.filters.active:
+            self.filters.clear()
         if not self.table.index_of(address).isValid():
             self.left.show_place_of(address[0])
         if not self.table.values.exists(address):

@@ -34,7 +34,9 @@ class FindActions:
         self._indexed: set[tuple[int, str]] = set()
         self._commands: dict[str, QAction] = {}
         self._menu = Index(())
-        self.box.entered.connect(self._read_menus)
+        self._is_read = False
+        """Whether the commands are those of the present menus; they are read at the first key, as Qt gives the focus at odd moments."""
+        self.box.entered.connect(self._forget_menus)
         act = window.action
         self.actions = [
             act("&Find…", self.box.begin, "Ctrl+F", ""),
@@ -80,6 +82,7 @@ class FindActions:
 
     def rows(self, query: str) -> list[FindRow]:
         """Return what a question finds: in the file in front and among the commands, or among these alone."""
+        self._read_menus()
         own = query.removeprefix(COMMANDS).strip()
         if query.startswith(COMMANDS):
             every = [self._hit(entry, 1.0) for entry in self._menu.entries]
@@ -89,7 +92,7 @@ class FindActions:
         found = finder.find(own) if finder is not None else []
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
-            return rows_of(found, self._commands)
+            return rows_of(found, self._commands) + self._every(found)
         return self._nothing(finder.nearest(own) if finder is not None else "")
 
     def _finder(self) -> Finder | None:
@@ -98,8 +101,14 @@ class FindActions:
         is_ready = finder is not None and (id(finder.schema), finder.machine) in self._indexed
         return finder if is_ready else None
 
+    def _forget_menus(self) -> None:
+        self._is_read = False
+
     def _read_menus(self) -> None:
         """Learn which commands can be used now; the menus do not change while somebody types here."""
+        if self._is_read:
+            return
+        self._is_read = True
         able = [(name, action) for name, action in commands(self.window.menuBar()) if action.isEnabled()]
         self._commands = {str(n): action for n, (_, action) in enumerate(able)}
         self._menu = Index(
@@ -112,6 +121,16 @@ class FindActions:
     @staticmethod
     def _hit(entry: Entry, score: float) -> Hit:
         return Hit("command", entry.title, "", "name", entry.key, score)
+
+    def _every(self, hits: list[Hit]) -> list[FindRow]:
+        """Return the row that shows in the table all parameters that were found, where there are several."""
+        ids = tuple(
+            dict.fromkeys(hit.key for hit in hits if hit.kind in ("parameter", "value", "choice", "note"))
+        )
+        if len(ids) < 2:
+            return []
+        text = self.box.tr("Show %n parameters in the table", "", len(ids))
+        return [FindRow(text, icon="table", every=ids)]
 
     def _nothing(self, nearest: str) -> list[FindRow]:
         nothing = FindRow(self.box.tr("Nothing found"))
@@ -127,6 +146,10 @@ class FindActions:
             self.box.clear()
             self._leave()
             row.action.trigger()
+        elif row.every and self.window.page is not None:
+            self.window.guarded(
+                partial(self.window.page.show_found, self.box.text().strip(), row.every), "Find"
+            )
         elif row.hit is not None and self.window.page is not None:
             self.window.guarded(partial(self._follow, row.hit, self.window.page), "Find")
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QEvent, QModelIndex, QObject, QPoint, QSize, Qt, Signal
+from PySide6.QtCore import QModelIndex, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import (
     QAccessible,
     QAccessibleAnnouncementEvent,
@@ -16,6 +16,7 @@ from PySide6.QtGui import (
     QKeyEvent,
     QPainter,
     QPaintEvent,
+    QResizeEvent,
 )
 from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QListView, QVBoxLayout, QWidget
 
@@ -26,6 +27,8 @@ COMMANDS = ">"
 """What a question begins with that is about commands alone."""
 _WIDE, _SHARE = 640, 0.7
 """Width of the list, and the part of the window that it may be high."""
+_KEY_ROOM = 110
+"""Room in pixels for the icon and the key beside the words of an empty box."""
 _STEPS = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_PageUp: -8, Qt.Key.Key_PageDown: 8}
 
 
@@ -75,14 +78,13 @@ class FindBox(QLineEdit):
         layout.addWidget(self._foot)
         self._popup.hide()
         self._window = window
-        window.installEventFilter(self)
         self.textEdited.connect(self.search)
         self.textChanged.connect(self._emptied)
 
     # -- asking ----------------------------------------------------------------------
 
     def begin(self, text: str | None = None) -> None:
-        """Put the cursor here; with a text ask that, else what stands here can be typed over."""
+        """Put the cursor here; with a text ask that, else the present question can be typed over."""
         self.setFocus(Qt.FocusReason.ShortcutFocusReason)
         if text is None:
             self.selectAll()
@@ -176,11 +178,11 @@ class FindBox(QLineEdit):
         if event.reason() != Qt.FocusReason.PopupFocusReason:  # the menu of this field
             self.close_list()
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Keep the list below the box when the window changes its size."""
-        if event.type() == QEvent.Type.Resize and self.is_open:
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the list below the box, which changes its size with the window."""
+        super().resizeEvent(event)
+        if self.is_open:
             self._place()
-        return False
 
     def sizeHint(self) -> QSize:
         return QSize(320, super().sizeHint().height())
@@ -191,7 +193,8 @@ class FindBox(QLineEdit):
     def paintEvent(self, event: QPaintEvent) -> None:
         """Show the key at the right while nothing is typed."""
         super().paintEvent(event)
-        if self.text() or self.hasFocus() or self.width() < 260:
+        wanted = self.fontMetrics().horizontalAdvance(self.placeholderText()) + _KEY_ROOM
+        if self.text() or self.hasFocus() or self.width() < wanted:
             return
         painter = QPainter(self)
         painter.setFont(font("caption"))

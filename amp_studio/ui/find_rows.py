@@ -50,11 +50,13 @@ class FindRow(NamedTuple):
     action: QAction | None = None
     instead: str = ""
     """The question that Enter puts in place of the present one."""
+    every: tuple[str, ...] = ()
+    """Ids of all parameters that were found, to be shown in the table."""
 
     @property
     def is_head(self) -> bool:
         """Whether nothing can be done with it."""
-        return self.hit is None and self.action is None and not self.instead
+        return self.hit is None and self.action is None and not self.instead and not self.every
 
 
 def _head(kind: HitKind) -> str:

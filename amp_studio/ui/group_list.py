@@ -1,91 +1,50 @@
-"""The parameter groups beside the table: areas, groups and their sections, with a search field over them."""
+"""The parameter groups beside the table: areas, groups and their sections."""
 
 from __future__ import annotations
 
 from collections import Counter
 
-from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHeaderView, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.report.wording import counted
 from amp_studio.schema import Group, Parameter
 from amp_studio.validate import NOT_SET, SEVERITIES
 
 from .place_tree import COUNTS, INK, RIGHT, PlaceTree
-from .theme import GAP, GAP2
 from .workspace import Workspace
 
 _KEYS = Qt.ItemDataRole.UserRole
-_ALL, _CHANGED, _FINDINGS = "*", "changed", "findings"
-
-
-class _Search(QLineEdit):
-    """A search field; Down and Enter move to the results."""
-
-    left = Signal()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Down):
-            self.left.emit()
-        elif event.key() == Qt.Key.Key_Escape and self.text():
-            self.clear()
-        else:
-            super().keyPressEvent(event)
+_ALL = "*"
 
 
 class GroupList(QWidget):
-    """Chooses which parameters the table shows; every word of a search must be found."""
+    """Chooses which parameters the table shows."""
 
     chosen = Signal(str, list)
     """Title and parameters."""
-    left = Signal()
-    """Enter was pressed in the search field."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self._workspace = workspace
-        self.search = _Search()
-        self.search.setPlaceholderText("Search  (Ctrl+F)")
-        self.search.setClearButtonEnabled(True)
-        self.search.setToolTip("Search numbers, names and help texts; every word must be found")
-        self.search.setAccessibleName("Search parameters")
-        self.search.textChanged.connect(self.choose)
-        self.search.left.connect(self.left)
         self.tree = PlaceTree()
         self.tree.setColumnCount(3)
         self.tree.setAccessibleName(self.tr("Parameter groups"))
-        layout, above = QVBoxLayout(self), QVBoxLayout()
+        layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        above.setContentsMargins(GAP2, GAP, GAP2, GAP)
-        above.addWidget(self.search)
-        layout.addLayout(above)
         layout.addWidget(self.tree)
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
-        self._machine, self._texts = workspace.file.machine, _search_texts(workspace)
+        self._machine = workspace.file.machine
         self._fill()
-        self.tree.currentItemChanged.connect(self._choose_group)
-        self.tree.itemClicked.connect(self._choose_group)
-        self._later = QTimer(self)
-        self._later.setSingleShot(True)
-        self._later.timeout.connect(self.choose)
+        self.tree.currentItemChanged.connect(self.choose)
+        self.tree.itemClicked.connect(self.choose)
         workspace.changed.connect(self._follow)
-
-    def focus_search(self) -> None:
-        """Put the cursor into the search field."""
-        self.search.setFocus()
-        self.search.selectAll()
 
     def _fill(self) -> None:
         schema = self._workspace.file.schema
-        for text, key in (
-            ("All parameters", _ALL),
-            ("Changed from default", _CHANGED),
-            ("With findings", _FINDINGS),
-        ):
-            self._add(None, text, [key])
+        self._add(None, self.tr("All parameters"), [_ALL])
         areas = [(area.name, area.groups) for area in schema.family.areas]
         by_key = {group.key: group for group in schema.groups}
         for name, keys in areas or [("", tuple(by_key))]:
@@ -100,7 +59,7 @@ class GroupList(QWidget):
             header.hideSection(column)
         self.update_counts()
         self._hide_empty()
-        self.tree.setCurrentItem(next(i for i in self._items[3:] if not i.isHidden() and i.data(0, _KEYS)))
+        self.tree.setCurrentItem(next(i for i in self._items[1:] if not i.isHidden() and i.data(0, _KEYS)))
 
     def _add_head(self, name: str) -> QTreeWidgetItem:
         """Add an area: a head over its groups, no page."""
@@ -167,64 +126,30 @@ class GroupList(QWidget):
             parts += [self.tr("%n values not set", "", missing)] if missing else []
             item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
 
-    def _follow(self, addresses: list[object]) -> None:
-        """Update the counts, and a list that depends on values, after the present edit."""
-        if self._workspace.file.machine != self._machine:  # another machine type has other numbers
-            self._machine, self._texts = self._workspace.file.machine, _search_texts(self._workspace)
+    def _follow(self, *_: object) -> None:
+        """Update the counts after the present edit."""
+        if self._workspace.file.machine != self._machine:  # another machine type has other groups
+            self._machine = self._workspace.file.machine
             self._hide_empty()
         self.update_counts()
-        item = self.tree.currentItem()
-        if (
-            item is not None
-            and item.data(0, _KEYS)[:1]
-            and item.data(0, _KEYS)[0] in (_CHANGED, _FINDINGS)
-            and not self.search.text()
-        ):
-            self._later.start(0)
 
     # -- choosing --------------------------------------------------------------
 
-    def _choose_group(self, *_: object) -> None:
-        if self.search.text():
-            self.search.blockSignals(True)
-            self.search.clear()
-            self.search.blockSignals(False)
-        self.choose()
-
     def choose(self, *_: object) -> None:
         """Emit the present choice again."""
-        words = self.search.text().casefold().split()
         item = self.tree.currentItem()
-        if item is not None:  # while a search is shown no group is
-            item.setSelected(not words)
-        if words:
-            self.chosen.emit(f"Search: {self.search.text()}", self.found(words))
-        elif item is not None and item.data(0, _KEYS):
+        if item is not None and item.data(0, _KEYS):
+            item.setSelected(True)
             self.chosen.emit(item.toolTip(0), self._parameters(item.data(0, _KEYS)))
 
-    def found(self, words: list[str]) -> list[Parameter]:
-        """Return the parameters whose numbers, name, id or help contain every word; matches of number and name first."""
-        schema = self._workspace.file.schema
-        heads, rest = [], []
-        for parameter in schema.parameters.values():
-            head, text = self._texts[parameter.id]
-            if all(word in head for word in words):
-                heads.append(parameter)
-            elif all(word in text for word in words):
-                rest.append(parameter)
-        return heads + rest
+    def show_none(self) -> None:
+        """Mark no group, while the table shows something else."""
+        self.tree.clearSelection()
 
     def _parameters(self, keys: list[str]) -> list[Parameter]:
-        schema, file = self._workspace.file.schema, self._workspace.file
-        every = list(schema.parameters.values())
+        schema = self._workspace.file.schema
         if keys == [_ALL]:
-            return every
-        if keys == [_CHANGED]:
-            ids = {a[0] for a in file.values if not file.is_default(a)}
-            return [p for p in every if p.id in ids]
-        if keys == [_FINDINGS]:
-            ids = {a[0] for f in self._workspace.listed for a in f.addresses if f.rule != NOT_SET}
-            return [p for p in every if p.id in ids]
+            return list(schema.parameters.values())
         return [p for g in schema.groups if g.key in keys for p in g.parameters]
 
     def choose_group_of(self, parameter_id: str) -> None:
@@ -233,18 +158,5 @@ class GroupList(QWidget):
         for item in self._items:
             if item.data(0, _KEYS) == [wanted]:
                 self.tree.setCurrentItem(item)
-                self._choose_group()
+                self.choose()
                 return
-
-
-def _search_texts(workspace: Workspace) -> dict[str, tuple[str, str]]:
-    """Return two lower-case texts for each parameter: its numbers, id and name, and all of its help."""
-    schema, machine = workspace.file.schema, workspace.file.machine
-    texts = {}
-    for parameter in schema.parameters.values():
-        numbers = " ".join(schema.on(machine).numbers(parameter).values())
-        choices = " ".join(c.label for c in parameter.choices or ())
-        help_text = f"{parameter.help.what} {parameter.help.find} {parameter.help.wrong}"
-        head = f"{numbers} {parameter.id} {parameter.name}".casefold()
-        texts[parameter.id] = (head, f"{head} {choices} {help_text}".casefold())
-    return texts

@@ -18,6 +18,7 @@ from .disk_watch import DiskWatch
 from .edit_actions import EditActions
 from .file_actions import FileActions
 from .file_page import FilePage
+from .filter_actions import FilterActions
 from .find_actions import FindActions
 from .garbage import collect_by_timer
 from .guide_actions import GuideActions
@@ -63,6 +64,8 @@ class MainWindow(StudioWindow):
         self.view = ViewActions(self)
         self.pictures = PictureActions(self)
         self.view.menu.addActions([self.pictures.action, self.pictures.save])
+        self.filters = FilterActions(self, self.view.menu)
+        self.edits.menu.addAction(self.filters.bookmark)
         self.themes = ThemeActions(self, self.view.menu)
         self.control = ControlActions(self, self.files)
         self.projects = ProjectActions(self, self.files.open_path)
@@ -128,6 +131,7 @@ class MainWindow(StudioWindow):
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
         self.finder.add(page)
+        self.filters.add(page)
         self.view.apply_options(page)
         self.tabs.add(page, instead)
         page.changed.connect(self._update)
@@ -222,6 +226,7 @@ class MainWindow(StudioWindow):
             self.close_page(page)
         self.summaries.stop()
         Task.end_all()
+        self.finder.box.setEnabled(False)  # else Qt gives it the focus while the window is taken apart
         event.accept()
 
     def open_first(self, path: Path) -> None:

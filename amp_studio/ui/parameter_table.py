@@ -103,6 +103,13 @@ class ParameterTable(QAbstractTableModel):
         self._filter = wanted
         self.show_again()
 
+    def unfiltered(self) -> list[list[Address]]:
+        """Return the values of each row that the list has without the filter, in the columns that are shown."""
+        here, exists = set(self.columns), self.values.exists
+        rows = (row for p in self.asked for row in self._layout(p))
+        cells = ([a for c, a in row.cells.items() if c in here and exists(a)] for row in rows)
+        return [addresses for addresses in cells if addresses]
+
     def outline(self, addresses: frozenset[Address], severity: str) -> None:
         """Outline the cells of the selected finding, in the colour of its severity."""
         if (addresses, severity) != (self.outlined, self.outline_severity):

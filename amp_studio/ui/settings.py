@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -93,6 +94,21 @@ class UserSettings:
         """Store which side the left panel is turned to."""
         self._stored.setValue("left", side)
 
+    def bookmarks(self, path: Path) -> set[str]:
+        """Return the ids of the parameters that this person has bookmarked in a file."""
+        kept = self._value(_bookmarks_key(path))
+        return {
+            name for name in (kept if isinstance(kept, list) else [kept]) if isinstance(name, str) and name
+        }
+
+    def keep_bookmarks(self, path: Path, ids: Iterable[str]) -> None:
+        """Store the bookmarks of a file."""
+        names = sorted(ids)
+        if names:
+            self._stored.setValue(_bookmarks_key(path), names)
+        else:
+            self._stored.remove(_bookmarks_key(path))
+
     # -- windows -------------------------------------------------------------------
 
     def place(self, window: QMainWindow) -> None:
@@ -129,6 +145,11 @@ class UserSettings:
             return self._stored.value(key)
         except (TypeError, ValueError, RuntimeError):  # a stored type that Python has no class for
             return None
+
+
+def _bookmarks_key(path: Path) -> str:
+    """Return the key of the bookmarks of a file: of its place, as settings take no path for a key."""
+    return f"bookmarks/{hashlib.sha256(str(path.absolute()).encode()).hexdigest()[:16]}"
 
 
 def is_there(path: Path) -> bool:

@@ -28,7 +28,7 @@ TARGETS = {
     "first paint of the desktop program, cold process",
     "load the schema from its cache",
     "the loaded schema in memory",
-    "the search alone",
+    "keystroke in the find box, painted",
     "index of 9pc",
     "a question, every keystroke of it",
     "the slowest keystroke",

@@ -79,6 +79,18 @@ def test_notes_are_found_and_secrets_are_not(finder: Finder, mill: ParameterFile
     assert secret.id not in {hit.key for hit in finder.find("7") if hit.kind == "value"}
 
 
+def test_a_shared_number_finds_both_its_parameters(finder: Finder) -> None:
+    """1013 is a gear on an axis and another one on a spindle."""
+    found = {hit.key for hit in finder.find("1013") if hit.kind == "parameter"}
+    assert {"servo.velocity_gear_teeth", "servo.spindle_motor_teeth"} <= found
+
+
+def test_every_word_counts_in_any_order_and_case_and_an_id_is_found(finder: Finder) -> None:
+    assert finder.find("ERROR excess")[0].key == "servo.excess_error"
+    assert finder.find("servo.excess_error")[0].key == "servo.excess_error"
+    assert "servo.hardware_type" in {hit.key for hit in finder.find("sercos interface")}
+
+
 def test_every_hit_has_its_reason(finder: Finder) -> None:
     assert finder.find("excess error")[0].why == "name"
     assert finder.find("exess error")[0].why == "name, 'exess' as 'excess'"

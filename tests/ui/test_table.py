@@ -258,7 +258,7 @@ def test_a_refused_text_comes_back_when_its_field_loses_the_focus(
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
     QTest.keyClicks(editor(window), "many")
-    window.groups.search.setFocus()
+    window.finder.box.setFocus()
     qtbot.waitUntil(lambda: editor(window).refusal_text != "", timeout=WAIT_MS)
     assert editor(window).text() == "many"
     assert "is not a number" in editor(window).refusal_text
