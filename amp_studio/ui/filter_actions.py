@@ -35,7 +35,7 @@ class FilterActions:
         menu.addSeparator()
         menu.addAction(window.action(_tr("&All Rows"), self._clear, "Ctrl+0"))
         self.bookmark = window.action(
-            _tr("&Bookmark"), self.toggle_bookmark, "Ctrl+B", "file", "bookmark-simple"
+            _tr("Boo&kmark"), self.toggle_bookmark, "Ctrl+B", "file", "bookmark-simple"
         )
 
     def add(self, page: FilePage) -> None:
