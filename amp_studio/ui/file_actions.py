@@ -234,7 +234,8 @@ class FileActions:
     def restore_session(self) -> None:
         """Open the files that were open when the program was left; what cannot be opened is named."""
         missing, self.last_session = [], []
-        for path in self.window.settings.session():
+        tabs, paths = self.window.tabs, self.window.settings.session()
+        for path in paths:
             try:
                 try:
                     opened = in_background(self.window, "Opening", partial(_opened, Document.open, path))
@@ -244,13 +245,24 @@ class FileActions:
                 missing.append(path.name)
             else:
                 self._show(opened)
+        for path in self.window.settings.beside():
+            page = self.window.page_of(path)
+            if page is not None and page in tabs.pages_of(0):
+                tabs.move_across(page)
+        last = self.window.page_of(paths[-1]) if paths else None
+        if last is not None:
+            tabs.bring(last)
         if missing:
             self.window.show_status(f"Not opened again: {', '.join(missing)}")
 
     def keep_session(self) -> None:
-        """Store which files are open, the one in front last."""
-        pages = sorted(self.window.tabs.pages(), key=lambda page: page is self.window.page)
-        self.window.settings.keep_session(p.workspace.path.absolute() for p in pages)
+        """Store which files are open, the one in front last, and which are on the second side."""
+        tabs = self.window.tabs
+        pages = sorted(tabs.pages(), key=lambda page: page is self.window.page)
+        self.window.settings.keep_session(
+            (p.workspace.path.absolute() for p in pages),
+            (p.workspace.path.absolute() for p in tabs.pages_of(1)),
+        )
 
     def _show(self, opened: CheckedDocument, instead: FilePage | None = None) -> FilePage | None:
         """Show a document; returns its page, None where it was closed again."""

@@ -52,6 +52,10 @@ class FileTabs(QSplitter):
         """Return the pages, those of the left side first."""
         return [page for side in self.sides for page in _pages(side)]
 
+    def pages_of(self, side: int) -> list[FilePage]:
+        """Return the pages of one side, 0 or 1."""
+        return list(_pages(self.sides[side]))
+
     @property
     def current(self) -> FilePage | None:
         """The page in front."""

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QFileSystemWatcher, QObject, QPoint, Qt, QTimer
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QHideEvent, QKeyEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.transfer.client.folder_content import FolderContent, FolderFile, folder_content
 from amp_studio.validate.summary import FileSummary
 
 from .file_page import FilePage
@@ -21,6 +21,9 @@ from .project_files import ProjectFiles
 from .task import Task
 from .theme import GAP2
 from .time_words import in_words
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.folder_content import FolderContent, FolderFile
 
 _SETTLE_MS = 300
 """Milliseconds to wait, as a program may write several files."""
@@ -88,8 +91,7 @@ class ProjectTree(QWidget):
             return
         if not self.isVisible():
             return
-        folder = self.folder
-        self._reading = task = Task(lambda *_: folder_content(folder))
+        self._reading = task = Task(partial(_content_of, self.folder))
         task.done.connect(self._show)
         task.finished.connect(self._done)
         task.begin()
@@ -303,6 +305,12 @@ class ProjectTree(QWidget):
                 path = Path(url.toLocalFile())
                 self._window.guarded(partial(self._files.take, path, self.folder), self.tr("Add file"))
         self.refresh()
+
+
+def _content_of(folder: Path, *_: object) -> FolderContent:
+    from amp_studio.transfer.client.folder_content import folder_content  # a start does without
+
+    return folder_content(folder)
 
 
 def _words(moment: datetime) -> str:

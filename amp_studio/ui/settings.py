@@ -65,9 +65,15 @@ class UserSettings:
         kept = self._value("session")
         return [Path(p) for p in (kept if isinstance(kept, list) else [kept]) if isinstance(p, str) and p]
 
-    def keep_session(self, paths: Iterable[Path]) -> None:
-        """Store the open files, the one in front last."""
+    def beside(self) -> list[Path]:
+        """Return which of those files were on the second side."""
+        kept = self._value("beside")
+        return [Path(p) for p in (kept if isinstance(kept, list) else [kept]) if isinstance(p, str) and p]
+
+    def keep_session(self, paths: Iterable[Path], beside: Iterable[Path] = ()) -> None:
+        """Store the open files, the one in front last, and which of them are on the second side."""
         self._stored.setValue("session", [str(path) for path in paths])
+        self._stored.setValue("beside", [str(path) for path in beside])
 
     def control(self) -> str:
         """Return the address of the last control, or an empty text."""

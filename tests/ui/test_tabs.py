@@ -245,3 +245,34 @@ def test_a_kept_layout_that_leaves_no_room_for_the_table_is_not_used(open_window
     assert again.table_view.width() >= 300
     again.close()
     again.deleteLater()
+
+
+def test_five_families_on_two_sides_are_there_again_after_a_restart(
+    open_window, checkout: Path, tmp_path: Path, qtbot: QtBot
+) -> None:
+    window: MainWindow = open_window()
+    window.resize(1440, 900)
+    examples = ("mill-1394", "num-1060-mill", "syntec-mill", "acromill-router", "57c422b-label-press")
+    paths = []
+    for name in examples:
+        (source,) = (checkout / "examples" / name).glob("*.amp")
+        paths.append(tmp_path / source.name)
+        paths[-1].write_bytes(source.read_bytes())
+        window.files.open_path(paths[-1])
+    for path in paths[1:3]:
+        window.tabs.move_across(window.page_of(path))
+    window.tabs.bring(window.page_of(paths[3]))
+    window.close()
+
+    again = MainWindow()
+    again.show()
+    again.files.restore_session()
+    QApplication.processEvents()
+    assert [p.workspace.path for p in again.tabs.pages_of(1)] == paths[1:3]
+    assert {p.workspace.path for p in again.tabs.pages_of(0)} == {paths[0], *paths[3:]}
+    assert again.workspace.path == paths[3], "the one in front"
+    assert [side.isVisible() for side in again.tabs.sides] == [True, True]
+    assert min(side.width() for side in again.tabs.sides) >= 300
+    assert all(p.table_view.width() >= 300 for p in again.tabs.pages() if p.isVisible())
+    again.close()
+    again.deleteLater()
