@@ -19,7 +19,7 @@ from .measurement import (
     Measurement,
     MeasurementAnswers,
 )
-from .proposal import Proposal, Wish, axes_of, base_unit, lost_motion, present_table, propose
+from .proposal import Proposal, Wish, axes_of, base_unit, lost_motion, present_table, propose, shown_unit
 from .reading import read_measured_file, read_measurement
 
 __all__ = [
@@ -52,4 +52,5 @@ __all__ = [
     "propose",
     "read_measured_file",
     "read_measurement",
+    "shown_unit",
 ]

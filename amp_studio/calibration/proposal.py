@@ -173,6 +173,13 @@ def base_unit(file: ParameterFile, offered: Compensation, axis: str) -> str:
     return "counts" if file.schema.parameters[address[0]].quantity == "counts" else "mm"
 
 
+def shown_unit(file: ParameterFile, table: CalibrationTable) -> tuple[str, Fraction]:
+    """Return the unit in which a table is shown and typed, that of the file, and what one of it is in the unit of the table."""
+    if table.unit == "mm" and file.header.units == "inch":
+        return "in", Fraction("25.4")
+    return table.unit, Fraction(1)
+
+
 def check_unit(file: ParameterFile, offered: Compensation, axis: str, unit: str) -> None:
     """Raise CalibrationError where positions have no unit of this axis."""
     wanted = base_unit(file, offered, axis)

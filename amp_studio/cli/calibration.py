@@ -22,6 +22,7 @@ from amp_studio.calibration import (
     present_table,
     propose,
     read_measured_file,
+    shown_unit,
 )
 from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
 from amp_studio.files import Change, Document, ParameterFile, RangeError, describe
@@ -135,13 +136,14 @@ def _edited(
         table = form.empty(file, axis, options.input or "", start)
     else:
         table = rechosen(table, options.input or table.input, start or table.start)
+    _, size = shown_unit(file, table)
     for text in options.delete or ():
-        table = deleted(table, _number(text))
+        table = deleted(table, _number(text) * size)
     for text in options.replace or ():
-        at, figure = _pair(text)
+        at, figure = (number * size for number in _pair(text))
         table = replaced(table, at, form.error(table, at, figure))
     for text in options.insert or ():
-        at, figure = _pair(text)
+        at, figure = (number * size for number in _pair(text))
         if form.is_even:
             raise UsageError("the positions of this table are fixed: --replace changes a figure")
         table = inserted(table, at, form.error(table, at, figure))
@@ -234,9 +236,10 @@ def _table_lines(
             if table.input
             else ""
         )
-        yield f"Calibration table: {len(table.points)} points in {shown(table.unit)}{how}"
+        unit, size = shown_unit(file, table)
+        yield f"Calibration table: {len(table.points)} points in {shown(unit)}{how}"
         for at, by in table.points:
-            yield f"{float(at):14.5f} {float(form.figure(table, at, by)):14.5f}"
+            yield f"{float(at / size):14.5f} {float(form.figure(table, at, by) / size):14.5f}"
     yield from form.limits(file, axis)
     yield form.switching
 
@@ -268,9 +271,10 @@ def _json(
         "dry_run": options.dry_run,
     }  # fmt: skip
     if form is not None and table is not None:
+        unit, size = shown_unit(file, table)
         data["table"] = {
-            "param": file.machine_schema.short((form.parameter, axis)), "unit": table.unit, "input": table.input, "start": table.start,
-            "points": [{"position": float(at), "figure": float(form.figure(table, at, by)), "error": float(by)}
+            "param": file.machine_schema.short((form.parameter, axis)), "unit": unit, "input": table.input, "start": table.start,
+            "points": [{"position": float(at / size), "figure": float(form.figure(table, at, by) / size), "error": float(by / size)}
                        for at, by in table.points],
         }  # fmt: skip
     if form is not None:

@@ -30,6 +30,7 @@ from amp_studio.calibration import (
     axes_of,
     compensation_of,
     present_table,
+    shown_unit,
 )
 from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
 from amp_studio.files import ParameterFile
@@ -69,7 +70,7 @@ class CalibrationPage(QWidget):
         self.insert = self._button(self.tr("&Insert Point…"), self._insert)
         self.replace = self._button(self.tr("&Replace"), self._edit)
         self.delete = self._button(self.tr("De&lete Point"), self._delete)
-        self.clear = self._button(self.tr("Delete All Poi&nts"), self._clear)
+        self.clear = self._button(self.tr("Delete All P&oints"), self._clear)
         self.read = self._button(self.tr("Read &Measured Points…"), lambda: measured(self.axis.currentData()))
         self.read.setProperty("primary", "true")
         self._arrange()
@@ -202,8 +203,8 @@ class CalibrationPage(QWidget):
         )
         has, state = bool(table.points), file.evaluation.state((form.parameter, axis))
         may = self.target.may_edit and state.is_active
-        self.insert.setEnabled(may and not form.is_even)
-        self.insert.setVisible(not form.is_even)
+        self.insert.setEnabled(may and not (form.is_even and has))
+        self.insert.setText(self.tr("&New Table") if form.is_even else self.tr("&Insert Point…"))
         self.delete.setVisible(not form.is_even)
         for button in (self.replace, self.delete, self.clear):
             button.setEnabled(may and has)
@@ -220,18 +221,19 @@ class CalibrationPage(QWidget):
     def _fill(self, table: CalibrationTable) -> None:
         form = self._offered(self.target.file).table if self.target else None
         assert form is not None
-        unit = shown(table.unit)
+        unit, size = shown_unit(self._file(), table)
+        unit = shown(unit)
         figure = {"measurement": self.tr("Measured"), "deviation": self.tr("Deviation")}.get(
             table.input, self.tr("Correction")
         )
         heads = [self.tr("Control Reads"), figure, self.tr("Error")]
         self.table.setHorizontalHeaderLabels([f"{head} ({unit})" for head in heads])
-        self.table.setColumnHidden(_ERROR, table.input == "deviation")
+        self.table.setColumnHidden(_ERROR, table.input == "deviation" or form.is_even)
         row = self.table.currentRow()
         self.table.setRowCount(len(table.points))
         for n, (at, by) in enumerate(table.points):
             for column, number in ((_AT, at), (_FIGURE, form.figure(table, at, by)), (_ERROR, by)):
-                item = QTableWidgetItem(_figure(number))
+                item = QTableWidgetItem(_figure(number / size))
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
                 flags = Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEnabled
                 item.setFlags(flags | Qt.ItemFlag.ItemIsEditable if column == _FIGURE else flags)
@@ -272,8 +274,12 @@ class CalibrationPage(QWidget):
         return points[row][0] if 0 <= row < len(points) else None
 
     def _insert(self) -> None:
+        form = self._offered(self._file()).table
+        if form is not None and form.is_even:
+            self._set(form.empty(self._file(), self.axis.currentData(), "", ""), self.tr("New table of"))
+            return
         table = self.present()
-        unit = shown(table.unit)
+        unit, size = shown_unit(self._file(), table)
         question = self.tr("Position that the control reads ({unit}), and the figure beside it:").format(
             unit=unit
         )
@@ -286,7 +292,7 @@ class CalibrationPage(QWidget):
             raise CalibrationError(
                 self.tr("{text} is not a position and a figure, as 100 0.004.").format(text=text)
             )
-        at, figure = (_number(word) for word in words)
+        at, figure = (_number(word) * size for word in words)
         form = self._offered(self._file()).table
         assert form is not None
         self._set(inserted(table, at, form.error(table, at, figure)), self.tr("Insert point of"))
@@ -311,10 +317,9 @@ class CalibrationPage(QWidget):
                 table = self.present()
                 form = self._offered(self._file()).table
                 assert form is not None
-                at = table.points[row][0]
-                self._set(
-                    replaced(table, at, form.error(table, at, _number(text))), self.tr("Replace point of")
-                )
+                at, (_, size) = table.points[row][0], shown_unit(self._file(), table)
+                error = form.error(table, at, _number(text) * size)
+                self._set(replaced(table, at, error), self.tr("Replace point of"))
             finally:
                 self._refresh([])
 

@@ -63,7 +63,7 @@ class ErrorPlot(QWidget):
             f'<span style="color:{colour(t.ink).name()}">{"- -" if t.dashed else "—"} {t.name}</span>'
             for t in drawn
         )
-        self.names.setText(names)
+        self.names.setText(names or self.tr("No points"))
         for side, text in (("left", error_unit), ("bottom", unit)):
             axis = item.getAxis(side)
             axis.enableAutoSIPrefix(False)

@@ -41,8 +41,13 @@ class ValuesPage(QWidget):
     axis_chosen = Signal(str)
     """The axis under the cursor."""
 
-    def __init__(self, page: TuningPage, guarded: Callable[[Callable[[], object]], object]) -> None:
-        """``guarded`` runs what may fail and shows the error."""
+    def __init__(
+        self,
+        page: TuningPage,
+        guarded: Callable[[Callable[[], object]], object],
+        measured: Callable[[str], object] | None = None,
+    ) -> None:
+        """``guarded`` runs what may fail and shows the error; ``measured`` asks for measured points of an axis."""
         super().__init__()
         self.page, self._guarded = page, guarded
         self.target: TuningTarget | None = None
@@ -93,6 +98,12 @@ class ValuesPage(QWidget):
         for widget in (self.decrease, self.increase, step_label, self.step, self.replace, self.add):
             row.addWidget(widget)
         row.addStretch()
+        self.read: QPushButton | None = None
+        if measured is not None:
+            self.read = self._button(
+                self.tr("Read &Measured Points…"), lambda: measured(self.address[1]) if self.address else None
+            )
+            row.addWidget(self.read)
         layout = QVBoxLayout(self)
         layout.setSpacing(GAP2)
         layout.addWidget(self.note)
@@ -147,8 +158,9 @@ class ValuesPage(QWidget):
         none = self.tr("No axis of this file has any of these values.") if not addresses else ""
         self.note.setText(" ".join(filter(None, (none, self.page.note, page))))
         may = self.target.may_edit and bool(addresses)
-        for widget in (self.decrease, self.increase, self.replace, self.add, self.step):
-            widget.setEnabled(may)
+        for widget in (self.decrease, self.increase, self.replace, self.add, self.step, self.read):
+            if widget is not None:
+                widget.setEnabled(may)
         self._offer_steps()
 
     def _fill_row(self, row: int, address: Address) -> None:

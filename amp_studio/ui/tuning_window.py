@@ -99,7 +99,8 @@ class TuningWindow(QWidget):
         offered = compensation_of(family)
         titles: list[tuple[str, QWidget]] = []
         for page in offered.pages:
-            values = ValuesPage(page, self.guarded)
+            is_reversal = page.params == (offered.reversal,)
+            values = ValuesPage(page, self.guarded, self.read_measured if is_reversal else None)
             self.values.append(values)
             widget: QWidget = values
             if page.key == "servo" and registration_of(family).law:
@@ -110,7 +111,7 @@ class TuningWindow(QWidget):
                 widget.addWidget(self.answer)
                 widget.setChildrenCollapsible(False)
             titles.append((page.title, widget))
-        if offered.table is not None or offered.reversal:
+        if offered.table is not None:
             self.calibration = CalibrationPage(self.guarded, self.read_measured)
             at = next(
                 (n for n, page in enumerate(offered.pages) if page.key in ("servo", "filters", "steps")),

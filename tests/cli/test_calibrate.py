@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 from pathlib import Path
 
@@ -145,3 +146,31 @@ def test_the_other_families_have_what_they_have(amp, tmp_path: Path, laser: Path
     path = tmp_path / "syntec.amp"
     assert amp("new", "syntec", path).code == 0
     assert "neither a calibration table nor a reversal error" in amp("calibrate", path, "--axis", "X").err
+
+
+def test_an_inch_file_shows_and_takes_its_points_in_inches(amp, tmp_path: Path) -> None:
+    path = tmp_path / "router.amp"
+    assert amp("new", "acromill", path).code == 0
+    limits = ("axes.soft_limit_minus@X=-1 in", "axes.soft_limit_plus@X=1 in", "control.default_units=Inch")
+    assert amp("set", path, *limits).code == 0
+    path.write_text(path.read_text().replace("units: metric", "units: inch"))
+    points = tmp_path / "laser.csv"
+    points.write_text("position [in],measured [in]\n-1,-1.001\n0,0\n1,1.002\n")
+    found = amp("calibrate", path, "--axis", "X", "--from", points, "--json").json["table"]
+    assert found["unit"] == "in"
+    assert [(p["position"], p["figure"]) for p in found["points"]] == [(-1, 0.001), (0, 0), (1, -0.002)]
+    assert amp("calibrate", path, "--axis", "X", "--replace", "1=-0.003").code == 0
+    assert "X0E.00000 X1E-.00300 X2E.00100" in amp("get", path, "ballscrew.table@X").out
+
+
+def test_a_circle_of_a_ball_bar_needs_to_know_which_axis(amp, mill: Path, tmp_path: Path) -> None:
+    points = tmp_path / "ballbar.csv"
+    rows = [(n, (2.5 if 0 < n % 360 < 180 else -2.5) * math.cos(math.radians(n))) for n in range(-20, 200)]
+    points.write_text("angle [deg],deviation [um]\n" + "".join(f"{n},{by:.4f}\n" for n, by in rows))
+    sign = ("--sign", "measured-target")
+    assert "first or the second" in amp("calibrate", mill, "--axis", "X", "--from", points, *sign).err
+    said = amp(
+        "calibrate", mill, "--axis", "X", "--from", points, *sign, "--circle", "first", "--dry-run", "--json"
+    )
+    assert [change["param"] for change in said.json["changes"]] == ["1340"]
+    assert "residual" not in said.json
