@@ -8,7 +8,7 @@ from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, real_path, text_of_name
 from amp_studio.files.local_time import local_time
-from amp_studio.report import Contents, Drawing, ExchangeLine, write_report
+from amp_studio.report import Contents, ExchangeLine, PrintedFigure, write_report
 from amp_studio.validate import NO_RULES, BuilderRules
 
 _DRAWN = (".pdf", ".html")
@@ -41,7 +41,7 @@ def write_dossier(
     )  # fmt: skip
 
 
-def motion_figures(file: ParameterFile) -> Iterator[Drawing]:
+def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
     """Yield step and frequency response of each axis that can be simulated; why one cannot is a figure without a drawing."""
     from amp_studio.sim import SimulationError, listing, plot_svg, simulate
 
@@ -56,14 +56,14 @@ def motion_figures(file: ParameterFile) -> Iterator[Drawing]:
             try:
                 trace = simulate(file, scenario, axis)
             except SimulationError as error:
-                yield Drawing(f"{scenario.capitalize()}, axis {axis}", "", (f"Not simulated: {error}",))
+                yield PrintedFigure(f"{scenario.capitalize()}, axis {axis}", "", (f"Not simulated: {error}",))
                 continue
             named = f"{axis} ({trace.letter})" if trace.letter and trace.letter != axis else axis
             drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False)
             assumed |= dict.fromkeys(trace.assumptions)
-            yield Drawing(f"{scenario.capitalize()}, axis {named}", drawn)
+            yield PrintedFigure(f"{scenario.capitalize()}, axis {named}", drawn)
     if assumed:
-        yield Drawing("What was assumed", "", tuple(assumed))
+        yield PrintedFigure("What was assumed", "", tuple(assumed))
 
 
 def exchanges_of(source: Path) -> Iterator[ExchangeLine]:

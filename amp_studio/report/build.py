@@ -28,7 +28,7 @@ from .axes import printed_axes, scope_of
 from .drawings import drawings
 from .findings import joined_places, notes_of, suppressed_notes
 from .manual_page import help_parts
-from .model import SORTS, UNIT_CHOICES, Contents, Drawing, ExchangeLine, Report, ReportRow
+from .model import SORTS, UNIT_CHOICES, Contents, ExchangeLine, PrintedFigure, Report, ReportRow
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
 from .wording import counted
@@ -45,7 +45,7 @@ def build_report(
     project: ProjectInfo | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    motion: Sequence[Drawing] = (),
+    motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
 ) -> Report:
     """Return the report of a file as it is in memory; secrets are masked.

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from amp_studio.files import ParameterFile
 from amp_studio.pictures import FilePicture, Scene, pictures_of, scene_svg
 
-from .model import Drawing
+from .model import PrintedFigure
 
 WIDTH, HEIGHT = 620.0, 360.0
 """Size of a drawing in points of its letters: in the width of a page they are 8.5 points or more."""
@@ -15,17 +15,17 @@ _MOST_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
 
 
-def drawings(file: ParameterFile) -> tuple[Drawing, ...]:
+def drawings(file: ParameterFile) -> tuple[PrintedFigure, ...]:
     """Return each picture of a file that shows something, part by part."""
     return tuple(figure for picture in pictures_of(file) for figure in _drawn(picture))
 
 
-def _drawn(picture: FilePicture) -> Iterator[Drawing]:
+def _drawn(picture: FilePicture) -> Iterator[PrintedFigure]:
     for part in _parts(picture):
         scene = picture.scene(part)
         if _shows(scene):
             title = f"{scene.title} {scene.subtitle.partition(',')[0]}".strip() if part else scene.title
-            yield Drawing(
+            yield PrintedFigure(
                 title, scene_svg(scene, WIDTH, HEIGHT, notes=False), tuple(n.text for n in scene.notes)
             )
 

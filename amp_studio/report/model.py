@@ -232,7 +232,7 @@ def _reasons(rows: Iterable[ReportRow]) -> tuple[tuple[str, str], ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawing:
+class PrintedFigure:
     """One drawing."""
 
     title: str
@@ -290,8 +290,8 @@ class Report:
     not_set: tuple[tuple[str, str, str], ...]
     """(number, parameter, places) of each active parameter without a value."""
     sections: tuple[Section, ...]
-    pictures: tuple[Drawing, ...]
-    motion: tuple[Drawing, ...]
+    pictures: tuple[PrintedFigure, ...]
+    motion: tuple[PrintedFigure, ...]
     exchanges: tuple[ExchangeLine, ...]
     help: dict[str, tuple[tuple[str, str], ...]]
     """Id of a printed parameter -> (title, text) of its help and its page."""

@@ -10,7 +10,7 @@ from amp_studio.files import Notify, ParameterFile, Project, ProjectInfo, real_p
 from amp_studio.validate import NO_RULES, BuilderRules
 
 from .build import build_report
-from .model import Contents, Drawing, ExchangeLine, Report
+from .model import Contents, ExchangeLine, PrintedFigure, Report
 from .page import render_html
 from .pdf import render_pdf
 from .table_csv import render_csv
@@ -32,7 +32,7 @@ def write_report(
     source: Path | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    motion: Sequence[Drawing] = (),
+    motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
 ) -> None:
