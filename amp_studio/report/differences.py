@@ -1,0 +1,115 @@
+"""Papers of what differs: two files, a file and a control, several machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+from itertools import groupby
+
+from amp_studio.files import Comparison, Difference, ParameterFile
+from amp_studio.files.by_schema import by_schema
+from amp_studio.files.merging import in_order
+from amp_studio.schema import Address, Value, same_value, show_value
+
+from .paper import Paper, PaperTable
+from .wording import counted
+
+_SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
+
+
+def differences_paper(
+    file: ParameterFile, found: Comparison, names: tuple[str, str], facts: Sequence[tuple[str, str]] = (), date: datetime | None = None
+) -> Paper:  # fmt: skip
+    """Return what differs between a file and another side, group by group; secrets are masked."""
+    counts = [
+        ("A", names[0]), ("B", names[1]), *facts,
+        ("Differ", str(len(found.differences))), ("The same", str(found.same)),
+        ("Not set in A", str(found.not_set_in_a)), ("Not set in B", str(found.not_set_in_b)),
+    ]  # fmt: skip
+    title = file.header.name or names[0]
+    return Paper("Differences", title, tuple(counts), tuple(_by_group(file, found.differences)),
+                 date or datetime.now().astimezone(), "Nothing differs.")  # fmt: skip
+
+
+def _by_group(file: ParameterFile, differences: Sequence[Difference]) -> Iterator[PaperTable]:
+    def group_name(difference: Difference) -> str:
+        return file.schema.group_of[difference.address[0]].name
+
+    for title, members in groupby(differences, key=group_name):
+        rows = []
+        for each in members:
+            sides = (_shown(file, each.address, value) for value in each.in_one_unit())
+            rows.append((*_named(file, each.address), *sides))
+        yield PaperTable(title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES)
+
+
+def machines_paper(
+    files: Sequence[ParameterFile], names: Sequence[str], *, everything: bool = False, date: datetime | None = None
+) -> Paper:
+    """Return a table with a line for each value and a column for each machine; only what differs unless ``everything``.
+
+    What most machines have is plain, what departs from it is strong. Raises ValueError for files of different families, or
+    fewer than two.
+    """
+    rows, same = machine_rows(files, everything=everything)
+    first = files[0]
+    heads = ("Number", "Parameter", "Belongs to", *names)
+    cells, strong = [], set()
+    for at, (address, values) in enumerate(rows):
+        cells.append((*_named(first, address), *(_shown(first, address, value) for value in values)))
+        strong |= {(at, 3 + n) for n in _departing(values)}
+    differing = sum(any(not same_value(values[0], v) for v in values[1:]) for _, values in rows)
+    facts = (
+        ("Control family", first.schema.family.name), ("Machines", str(len(files))),
+        ("Differ", counted(differing, "value")), ("The same", counted(same, "value")),
+    )  # fmt: skip
+    shares = (2.0, 4.0, 1.6, *(2.4 for _ in files))
+    table = PaperTable("", heads, tuple(cells), shares, frozenset(strong))
+    return Paper("Machines compared", ", ".join(names), facts, (table,) if cells else (),
+                 date or datetime.now().astimezone(), "Nothing differs.")  # fmt: skip
+
+
+def machine_rows(
+    files: Sequence[ParameterFile], *, everything: bool = False
+) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
+    """Return each address with its value in each file, and how many are the same in all; only what differs unless ``everything``."""
+    if len(files) < 2:
+        raise ValueError("give two files or more")
+    families = dict.fromkeys(file.schema.family.name for file in files)
+    if len(families) > 1:
+        raise ValueError(f"files of different control families cannot be compared: {', '.join(families)}")
+    same_schema = [files[0], *(by_schema(file, files[0].schema) for file in files[1:])]
+    rows, same = [], 0
+    for address in in_order(files[0].schema, {a for file in same_schema for a in file.values}):
+        values = tuple(file.get(address) for file in same_schema)
+        differs = any(not same_value(values[0], value) for value in values[1:])
+        same += not differs
+        if differs or everything:
+            rows.append((address, _in_one_unit(address, values)))
+    return rows, same
+
+
+def _in_one_unit(address: Address, values: tuple[Value | None, ...]) -> tuple[Value | None, ...]:
+    """Return values in the unit of the first that is set."""
+    first = next((value for value in values if value is not None), None)
+    return tuple(value if value is None else Difference(address, first, value).in_one_unit()[1] for value in values)
+
+
+def _departing(values: Sequence[Value | None]) -> Iterator[int]:
+    """Yield the places of the values that are not what most have; none where no value is more frequent than another."""
+    counts = [sum(same_value(value, other) for other in values) for value in values]
+    most = max(counts)
+    if most * 2 > len(values):
+        yield from (n for n, count in enumerate(counts) if count < most)
+
+
+def _named(file: ParameterFile, address: Address) -> tuple[str, str, str]:
+    here = file.machine_schema
+    number = "" if here.is_disputed(address[0]) else here.number(address) or ""
+    return number, file.schema.parameters[address[0]].name, here.instance_label(address)
+
+
+def _shown(file: ParameterFile, address: Address, value: Value | None) -> str:
+    return show_value(file.schema.parameters[address[0]], value)
+
+

@@ -1,0 +1,111 @@
+"""Papers that are tables: differences, machines side by side, results, forms; as PDF, web page, workbook, CSV or text."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio import __version__
+from amp_studio.files import Notify, write_atomic
+from amp_studio.files.spreadsheet import text_cell
+
+from .page import filled_page
+from .pdf import filled_template, typeset
+
+_MANY_COLUMNS = 6
+_MOST_COLUMNS = 14
+"""Columns that a page takes; a wider table is for a screen or a spreadsheet."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaperTable:
+    """One table; every row has as many cells as there are heads."""
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    shares: tuple[float, ...] = ()
+    """Widths of the columns on paper, in relation to each other; equal where there are none."""
+    strong: frozenset[tuple[int, int]] = frozenset()
+    """Cells (row, column) that stand out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A paper."""
+
+    kind: str
+    """``Differences``."""
+    title: str
+    facts: tuple[tuple[str, str], ...]
+    tables: tuple[PaperTable, ...]
+    date: datetime
+    empty: str = ""
+    """What is printed where there is no table."""
+    signed: bool = False
+    """Whether there are lines for signatures."""
+
+    @property
+    def when(self) -> str:
+        """Date and time in printed form."""
+        return self.date.strftime("%Y-%m-%d %H:%M")
+
+    @property
+    def program(self) -> str:
+        """The program that has made it."""
+        return f"AMP Studio {__version__}"
+
+    @property
+    def lies_across(self) -> bool:
+        """Whether its widest table needs landscape paper."""
+        return max((len(table.heads) for table in self.tables), default=0) > _MANY_COLUMNS
+
+
+def _pdf(paper: Paper) -> bytes:
+    if any(len(table.heads) > _MOST_COLUMNS for table in paper.tables):
+        raise ValueError(
+            f"more than {_MOST_COLUMNS} columns are too many for paper: write it as .html, .xlsx or .csv"
+        )
+    return typeset(filled_template("paper.typ.j2", paper=paper))
+
+
+def _page(paper: Paper) -> bytes:
+    return filled_page("paper.html.j2", paper=paper)
+
+
+def _workbook(paper: Paper) -> bytes:
+    from .workbook import Sheet, workbook
+
+    sheets = [Sheet(paper.kind, ("", ""), (("", paper.title), *paper.facts, ("Printed", paper.when)))]
+    sheets += [Sheet(table.title or paper.kind, table.heads, table.rows) for table in paper.tables]
+    return workbook(sheets)
+
+
+def _csv(paper: Paper) -> bytes:
+    text = io.StringIO(newline="")
+    lines = csv.writer(text)
+    several = len(paper.tables) > 1
+    for n, table in enumerate(paper.tables):
+        if not n:
+            lines.writerow(map(text_cell, ("table", *table.heads) if several else table.heads))
+        lines.writerows(map(text_cell, (table.title, *row) if several else row) for row in table.rows)
+    return text.getvalue().encode("utf-8-sig")
+
+
+PAPER_FORMATS: dict[str, Callable[[Paper], bytes]] = {".pdf": _pdf, ".html": _page, ".xlsx": _workbook, ".csv": _csv}
+
+
+def check_paper_ending(path: Path, endings: Sequence[str] = tuple(PAPER_FORMATS)) -> None:
+    """Refuse a name whose ending is that of no such paper; raises ValueError."""
+    if path.suffix.lower() not in endings:
+        raise ValueError(f"{path}: the table is written as {', '.join(endings[:-1])} or {endings[-1]}")
+
+
+def write_paper(paper: Paper, path: Path, notify: Notify = lambda _note: None) -> None:
+    """Write a paper in the format of its file extension, whole or not at all; raises ValueError, SaveError."""
+    check_paper_ending(path)
+    write_atomic(path, PAPER_FORMATS[path.suffix.lower()](paper), keep_backup=False, notify=notify)

@@ -1,0 +1,86 @@
+"""Tables as a workbook (XLSX), written with openpyxl: it writes every number to its last digit, and a text stays a text."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+Cell = str | float | int | None
+
+_FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
+_MOST_NAME = 31
+_WIDEST = 60
+_MOST_TEXT = 32_767
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One sheet: heads, and rows of texts and numbers."""
+
+    title: str
+    heads: tuple[str, ...]
+    rows: Sequence[Sequence[Cell]]
+
+
+def workbook(sheets: Iterable[Sheet]) -> bytes:
+    """Return the file; heads stay in view and can be filtered by."""
+    from openpyxl import Workbook
+    from openpyxl.styles import Font
+
+    book = Workbook()
+    book.remove(book.active)
+    names: set[str] = set()
+    for sheet in sheets:
+        page = book.create_sheet(_name(sheet.title, names))
+        has_heads = any(sheet.heads)
+        for at, row in enumerate((sheet.heads, *sheet.rows) if has_heads else sheet.rows, 1):
+            for column, content in enumerate(row, 1):
+                if content is None or content == "":
+                    continue
+                cell = page.cell(at, column)
+                if isinstance(content, str):
+                    cell.set_explicit_value(_text(content))  # also one that begins with "=": it is no formula
+                elif math.isfinite(content):
+                    cell.value = content
+                else:
+                    cell.set_explicit_value(str(content))
+                if has_heads and at == 1:
+                    cell.font = Font(bold=True)
+        for column, width in _widths(sheet).items():
+            page.column_dimensions[page.cell(1, column).column_letter].width = width
+        if has_heads:
+            page.freeze_panes = "A2"
+            page.auto_filter.ref = page.dimensions
+    stream = io.BytesIO()
+    book.save(stream)
+    return stream.getvalue()
+
+
+def _name(title: str, names: set[str]) -> str:
+    """Return a name that a workbook allows and does not have yet."""
+    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "Sheet"
+    chosen, n = name, 1
+    while chosen.casefold() in names:
+        n += 1
+        chosen = f"{name[: _MOST_NAME - len(str(n)) - 1]} {n}"
+    names.add(chosen.casefold())
+    return chosen
+
+
+def _text(text: str) -> str:
+    """Return a text without the control characters that a workbook cannot contain."""
+    from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
+
+    return ILLEGAL_CHARACTERS_RE.sub(" ", text)[:_MOST_TEXT]
+
+
+def _widths(sheet: Sheet) -> dict[int, float]:
+    widths: dict[int, float] = {}
+    for row in (sheet.heads, *sheet.rows):
+        for column, content in enumerate(row, 1):
+            length = len(str(content)) if content is not None else 0
+            widths[column] = min(max(widths.get(column, 6.0), length + 2.0), _WIDEST)
+    return widths
