@@ -33,10 +33,13 @@ def diff_verb(options: argparse.Namespace) -> int:
     other = by_schema(b, a.schema)
     of_b = _of_other_schema(b, other)  # settings that only the control of B has
     if options.by_letter:
-        other = _by_letter(other, a)
+        other = matched_by_letter_noted(other, a)
     if options.base:
         return _print_three(options, Merge(a, other, _side(options.base)[0]))
     found = compare(a.schema, a.values, other.values)
+    if options.output:
+        _write_paper(options, a, found, name, (a_digest, b_digest))
+        return 1 if found.differences or of_b else 0
     if options.json:
         rows = [difference_json(a, d, options.secrets) for d in found.differences]
         rows += [difference_json(b, d, options.secrets) for d in of_b]
@@ -47,6 +50,25 @@ def diff_verb(options: argparse.Namespace) -> int:
     for digest in filter(None, (a_digest, b_digest)):
         print(f"sha256 {digest}")
     return 1 if found.differences or of_b else 0
+
+
+def _write_paper(
+    options: argparse.Namespace,
+    a: ParameterFile,
+    found: Comparison,
+    name: str,
+    digests: tuple[str | None, str | None],
+) -> None:
+    from amp_studio.report.differences import differences_paper
+    from amp_studio.report.paper import write_paper
+
+    facts = [
+        (f"SHA-256 of {side}", digest)
+        for side, digest in zip("AB", digests, strict=True)
+        if digest is not None
+    ]
+    write_paper(differences_paper(a, found, (options.a, name), facts), options.output, notify=note)
+    print(options.output)
 
 
 def _other_side(options: argparse.Namespace, a: ParameterFile) -> tuple[ParameterFile, str | None, str]:
@@ -86,7 +108,7 @@ def _other_axis(file: ParameterFile, target: str, source: str) -> ParameterFile:
     return as_axis(file, source, target)
 
 
-def _by_letter(b: ParameterFile, a: ParameterFile) -> ParameterFile:
+def matched_by_letter_noted(b: ParameterFile, a: ParameterFile) -> ParameterFile:
     """Return B with its axes at the numbers that their letters have in A; which moved is a note."""
     from amp_studio.files.axis_match import matched_by_letter
 

@@ -1,15 +1,18 @@
-"""The verb that prints the documentation of a parameter file."""
+"""The verbs that print the documentation of a parameter file."""
 
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from amp_studio.dossier import write_dossier
-from amp_studio.files import open_file, real_path
+from amp_studio.files import new_file, open_file, real_path
 from amp_studio.report import Contents
+from amp_studio.schema import family_ids
 from amp_studio.validate import RULES_FILE, rules_beside
 
 from .console import note
+from .errors import UsageError
 from .output import check_replaced
 
 
@@ -32,5 +35,23 @@ def report_verb(options: argparse.Namespace) -> int:
         own=own,
         notify=note,
     )
+    print(options.output)
+    return 0
+
+
+def form_verb(options: argparse.Namespace) -> int:
+    """Write tables to fill in by hand."""
+    from amp_studio.report.form import form_paper
+    from amp_studio.report.paper import write_paper
+
+    if options.what in family_ids():
+        file, everything = new_file(options.what, options.machine), True
+    else:
+        if options.machine is not None:
+            raise UsageError("--machine belongs to a family; a file has its own machine type")
+        path = Path(options.what)
+        check_replaced(options.output, path)
+        file, everything = open_file(path).file, False
+    write_paper(form_paper(file, everything=everything), options.output, note)
     print(options.output)
     return 0

@@ -63,7 +63,13 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio diff {MILL} other.amp",
         f"amp-studio diff {MILL} --axes X Y",
         f"amp-studio diff {MILL} other.amp --base {MILL}",
+        f"amp-studio diff {MILL} other.amp -o differences.pdf",
     ),
+    "compare": (
+        f"amp-studio compare {MILL} other.amp",
+        f"amp-studio compare {MILL} other.amp -o machines.xlsx",
+    ),
+    "form": ("amp-studio form num -o tables.pdf", f"amp-studio form {MILL} -o form.html"),
     "merge": (
         f"amp-studio merge {MILL} other.amp {MILL} -o merged.amp",
         f"amp-studio merge {MILL} other.amp {MILL} --dry-run --take theirs --json",

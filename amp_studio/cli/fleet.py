@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
-from amp_studio.report.results import check_ending, write_results
+from amp_studio.report.paper import check_paper_ending, results_paper, write_paper
 from amp_studio.report.wording import counted
 from amp_studio.transfer.client.fleet import (
     HEADS,
@@ -34,7 +34,7 @@ def check_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> None:
     """Refuse what cannot be used before anything is begun. Raises UsageError, ValueError."""
     check_addresses(addresses)
     if options.report is not None:
-        check_ending(options.report)
+        check_paper_ending(options.report)
         check_new(options.report, "a table of results")
 
 
@@ -120,7 +120,7 @@ def _end(options: argparse.Namespace, rows: list[FleetRow]) -> int:
         for row in rows:
             print(f"{row.address:{wide}}  {row.word:14}  {row.sha256[:12]:12}  {row.text}".rstrip())
     if options.report is not None:
-        write_results(options.report, "Controls", HEADS, [row.cells for row in rows])
+        write_paper(results_paper("Controls", HEADS, [row.cells for row in rows]), options.report)
     wrong = [row for row, code in zip(rows, codes, strict=True) if code > 1]
     if not wrong:
         return max(codes)

@@ -222,7 +222,9 @@ def _checks(verbs: Verbs) -> None:
 
 def _comparing(verbs: Verbs) -> None:
     """Add the verbs that compare files."""
-    sub = verbs.add("diff", "comparing", "differences by parameter; A or B may be a control's address")
+    sub = verbs.add(
+        "diff", "comparing", "differences by parameter; A or B may be a control's address", writes="output"
+    )
     sub.add_argument("a", type=file_or_address)
     sub.add_argument("b", type=file_or_address, nargs="?")
     for option, what in (
@@ -240,8 +242,24 @@ def _comparing(verbs: Verbs) -> None:
     sub.add_argument(
         "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
     )
+    sub.add_argument("-o", "--output", type=path_of, help="the report of them, as .pdf, .html, .xlsx or .csv")
     json_option(sub)
     secrets_option(sub)
+    sub = verbs.add(
+        "compare",
+        "machines",
+        "several machines side by side: a row for each value that differs",
+        writes="output",
+    )
+    sub.add_argument(
+        "paths", type=path_of, nargs="+", metavar="PATH", help="parameter files (.amp) of one family"
+    )
+    sub.add_argument("--everything", action="store_true", help="also what is the same on all of them")
+    sub.add_argument(
+        "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
+    )
+    sub.add_argument("-o", "--output", type=path_of, help="the table, as .pdf, .html, .xlsx or .csv")
+    json_option(sub)
     sub = verbs.add("merge", "merging", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
         sub.add_argument(name, type=path_of)
@@ -261,7 +279,9 @@ def _comparing(verbs: Verbs) -> None:
 
 def _documents(verbs: Verbs) -> None:
     """Add the verbs about documentation and text formats."""
-    sub = verbs.add("report", "documentation", "documentation as .pdf, .html, .csv or .txt", writes="output")
+    sub = verbs.add(
+        "report", "documentation", "documentation as .pdf, .html, .xlsx, .csv, .json or .txt", writes="output"
+    )
     sub.add_argument("path", type=path_of)
     sub.add_argument("-o", "--output", type=path_of, required=True)
     sub.add_argument("--sort", choices=("axis", "number", "group", "steps"), default="group")
@@ -279,6 +299,14 @@ def _documents(verbs: Verbs) -> None:
         default="file",
         help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
     )
+    sub = verbs.add(
+        "form", "documentation", "tables to fill in by hand, as .pdf, .html, .xlsx or .csv", writes="output"
+    )
+    sub.add_argument(
+        "what", metavar="FAMILY|PATH", help="a control family, or a parameter file for what its machine has"
+    )
+    sub.add_argument("--machine", metavar="TYPE", help="machine type of the family")
+    sub.add_argument("-o", "--output", type=path_of, required=True)
     sub = verbs.add(
         "sheet",
         "sheet",

@@ -31,3 +31,10 @@ def axis_note(file: ParameterFile, axis: str) -> str:
     """Return what is beside the letter of an axis: ``1 linear``; without its number if that is its name."""
     number = axis if axis_letter(file, axis) not in ("", axis) else ""
     return f"{number} {other_use(file, axis) or axis_kind(file, axis)}".strip()
+
+
+def place_of(file: ParameterFile, address: Address) -> str:
+    """Return which axis, spindle or process a value belongs to; empty for one of the whole control."""
+    if scope_of(file, address) == "axis":
+        return axis_label(file, address[1])
+    return file.machine_schema.instance_label(address)

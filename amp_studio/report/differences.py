@@ -11,6 +11,7 @@ from amp_studio.files.by_schema import by_schema
 from amp_studio.files.merging import in_order
 from amp_studio.schema import Address, Value, same_value, show_value
 
+from .axes import place_of
 from .paper import Paper, PaperTable
 from .wording import counted
 
@@ -44,7 +45,11 @@ def _by_group(file: ParameterFile, differences: Sequence[Difference]) -> Iterato
 
 
 def machines_paper(
-    files: Sequence[ParameterFile], names: Sequence[str], *, everything: bool = False, date: datetime | None = None
+    files: Sequence[ParameterFile],
+    names: Sequence[str],
+    *,
+    everything: bool = False,
+    date: datetime | None = None,
 ) -> Paper:
     """Return a table with a line for each value and a column for each machine; only what differs unless ``everything``.
 
@@ -92,7 +97,9 @@ def machine_rows(
 def _in_one_unit(address: Address, values: tuple[Value | None, ...]) -> tuple[Value | None, ...]:
     """Return values in the unit of the first that is set."""
     first = next((value for value in values if value is not None), None)
-    return tuple(value if value is None else Difference(address, first, value).in_one_unit()[1] for value in values)
+    return tuple(
+        value if value is None else Difference(address, first, value).in_one_unit()[1] for value in values
+    )
 
 
 def _departing(values: Sequence[Value | None]) -> Iterator[int]:
@@ -106,10 +113,8 @@ def _departing(values: Sequence[Value | None]) -> Iterator[int]:
 def _named(file: ParameterFile, address: Address) -> tuple[str, str, str]:
     here = file.machine_schema
     number = "" if here.is_disputed(address[0]) else here.number(address) or ""
-    return number, file.schema.parameters[address[0]].name, here.instance_label(address)
+    return number, file.schema.parameters[address[0]].name, place_of(file, address)
 
 
 def _shown(file: ParameterFile, address: Address, value: Value | None) -> str:
     return show_value(file.schema.parameters[address[0]], value)
-
-

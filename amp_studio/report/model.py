@@ -90,6 +90,8 @@ class ReportRow:
     place: str
     """``Axis 1 X``; empty for a value of the whole control."""
     is_set: bool
+    is_number: bool
+    """Whether it is a number, not a choice or a text."""
     value: str
     """Label, or number without its unit to the last digit, as in the file; empty when not set."""
     unit: str

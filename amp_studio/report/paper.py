@@ -96,7 +96,18 @@ def _csv(paper: Paper) -> bytes:
     return text.getvalue().encode("utf-8-sig")
 
 
-PAPER_FORMATS: dict[str, Callable[[Paper], bytes]] = {".pdf": _pdf, ".html": _page, ".xlsx": _workbook, ".csv": _csv}
+PAPER_FORMATS: dict[str, Callable[[Paper], bytes]] = {
+    ".pdf": _pdf,
+    ".html": _page,
+    ".xlsx": _workbook,
+    ".csv": _csv,
+}
+
+
+def results_paper(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Paper:
+    """Return a table of results of this moment."""
+    table = PaperTable("", tuple(heads), tuple(map(tuple, rows)))
+    return Paper("Results", title, (), (table,), datetime.now().astimezone())
 
 
 def check_paper_ending(path: Path, endings: Sequence[str] = tuple(PAPER_FORMATS)) -> None:

@@ -47,8 +47,8 @@ def typst_literal(value: object) -> str:
         return value
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int):
-        return str(value)
+    if isinstance(value, (int, float)):
+        return repr(value)
     text = printable(str(value)).replace("\\", "\\\\").replace('"', '\\"')
     return f'"{text if isinstance(value, Exact) else _breakable(text)}"'
 

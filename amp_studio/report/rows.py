@@ -20,7 +20,7 @@ from amp_studio.schema import (
     write_value,
 )
 
-from .axes import axis_label, printed_axes, scope_of
+from .axes import place_of, printed_axes, scope_of
 from .model import ReportRow, UnitChoice
 
 _EXACT = 9
@@ -92,7 +92,6 @@ def row_of(
     if parameter.secret:
         figure, also, is_rounded, default = MASKED if value is not None else "", "", False, None
     number = "" if here.is_disputed(address[0]) else here.number(address) or ""
-    on_axis = scope_of(file, address) == "axis"
     is_changed = value is not None and not file.is_default(address)
     has_default = file.default(address) is not None
     return ReportRow(
@@ -101,8 +100,9 @@ def row_of(
         number=number,
         name=parameter.name,
         group=schema.group_of[address[0]].name,
-        place=axis_label(file, address[1]) if on_axis else here.instance_label(address),
+        place=place_of(file, address),
         is_set=value is not None,
+        is_number=parameter.type in ("real", "integer"),
         value=MASKED if parameter.secret and value is not None else _bare(parameter, value),
         unit=unit,
         figure=figure,

@@ -33,10 +33,11 @@ def render_csv(report: Report) -> bytes:
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\r\n")
     table.writerow(HEADS)
-    table.writerows(map(text_cell, _line(row)) for row in report.rows())
+    table.writerows(map(text_cell, line_of(row)) for row in report.rows())
     return stream.getvalue().encode("utf-8-sig")
 
 
-def _line(row: ReportRow) -> tuple[str, ...]:
+def line_of(row: ReportRow) -> tuple[str, ...]:
+    """Return the cells of a value, in the order of ``HEADS``."""
     return (row.number, row.id, row.instance, row.name, row.group, row.value, row.unit, row.plain_default,
             "yes" if row.is_changed else "no", row.state, row.forced, "no" if row.no_default else "yes")  # fmt: skip

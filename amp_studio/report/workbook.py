@@ -41,12 +41,11 @@ def workbook(sheets: Iterable[Sheet]) -> bytes:
                 if content is None or content == "":
                     continue
                 cell = page.cell(at, column)
-                if isinstance(content, str):
-                    cell.set_explicit_value(_text(content))  # also one that begins with "=": it is no formula
-                elif math.isfinite(content):
-                    cell.value = content
+                if isinstance(content, str) or not math.isfinite(content):
+                    cell.value = _text(str(content))
+                    cell.data_type = "s"  # also of a text that begins with "=": it is no formula
                 else:
-                    cell.set_explicit_value(str(content))
+                    cell.value = content
                 if has_heads and at == 1:
                     cell.font = Font(bold=True)
         for column, width in _widths(sheet).items():
@@ -74,7 +73,7 @@ def _text(text: str) -> str:
     """Return a text without the control characters that a workbook cannot contain."""
     from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
 
-    return ILLEGAL_CHARACTERS_RE.sub(" ", text)[:_MOST_TEXT]
+    return str(ILLEGAL_CHARACTERS_RE.sub(" ", text))[:_MOST_TEXT]
 
 
 def _widths(sheet: Sheet) -> dict[int, float]:

@@ -10,6 +10,7 @@ from amp_studio.files import Notify, ParameterFile, Project, ProjectInfo, real_p
 from amp_studio.validate import NO_RULES, BuilderRules
 
 from .build import build_report
+from .everything import render_json, render_workbook
 from .model import Contents, ExchangeLine, PrintedFigure, Report
 from .page import render_html
 from .pdf import render_pdf
@@ -19,7 +20,9 @@ from .text import render_text
 FORMATS: dict[str, Callable[[Report], bytes]] = {
     ".pdf": render_pdf,
     ".html": render_html,
+    ".xlsx": render_workbook,
     ".csv": render_csv,
+    ".json": render_json,
     ".txt": render_text,
 }
 

@@ -145,13 +145,13 @@ class FleetDialog(QDialog):
 
     def save(self) -> None:
         """Ask for a name and write the table of results."""
-        from amp_studio.report.results import write_results
+        from amp_studio.report.paper import results_paper, write_paper
         from amp_studio.transfer.client.fleet import HEADS
 
         near = str(self._workspace.path.with_name("controls.csv"))
-        text, _ = QFileDialog.getSaveFileName(self, "Save table", near, "Tables (*.csv *.html)")
+        text, _ = QFileDialog.getSaveFileName(self, "Save table", near, "Tables (*.csv *.html *.pdf *.xlsx)")
         if text:
-            write_results(Path(text), "Controls", HEADS, [row.cells for row in self.rows])
+            write_paper(results_paper("Controls", HEADS, [row.cells for row in self.rows]), Path(text))
 
 
 def _of_each(progress: Progress) -> Callable[[str], Progress]:

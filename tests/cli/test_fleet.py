@@ -78,7 +78,11 @@ def test_a_control_that_does_not_answer_is_in_the_table_and_the_others_go_on(
     first, second = sent.out.splitlines()
     assert first.split()[:2] == [DEAD, "failed"]
     assert second.split()[:2] == [control, "done"]
-    heads, *rows = csv.reader(table.open())
+    heads, *rows = csv.reader(
+        table.open(
+            encoding="utf-8-sig",
+        )
+    )
     assert heads[:2] == ["Address", "Result"]
     assert [row[:2] for row in rows] == [[DEAD, "failed"], [control, "done"]]
 
@@ -120,7 +124,10 @@ def test_an_upload_from_several_controls_writes_a_file_for_each(
     [
         (("--to", DEAD, "--to", DEAD), "is named twice"),
         (("--to", DEAD, "--to", "nonsense"), "is no address"),
-        (("--to", DEAD, "--to", "tcp://127.0.0.1:2", "--report", "table.pdf"), "written as .csv or .html"),
+        (
+            ("--to", DEAD, "--to", "tcp://127.0.0.1:2", "--report", "table.doc"),
+            "written as .pdf, .html, .xlsx or .csv",
+        ),
     ],
 )
 def test_what_cannot_be_used_is_refused_before_anything_is_begun(

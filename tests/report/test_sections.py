@@ -17,7 +17,7 @@ from amp_studio.schema import Value
 
 def row_with(number: str) -> ReportRow:
     return ReportRow(
-        id="a.b", instance="", number=number, name="", group="", place="", is_set=False, value="", unit="", shown_unit="",
+        id="a.b", instance="", number=number, name="", group="", place="", is_set=False, is_number=False, value="", unit="", shown_unit="",
         figure="", also="", entered="", no_default=False,
         detail="", default="", plain_default="", is_changed=False, state="in-force", why="", state_mark="", forced="",
     )  # fmt: skip

@@ -20,7 +20,7 @@ from amp_studio.report.text import render_text
 
 def row(number: str, name: str, value: str, **more: object) -> ReportRow:
     known: dict[str, object] = {
-        "id": name, "instance": "", "number": number, "name": name, "group": "Home", "place": "", "is_set": True, "value": value,
+        "id": name, "instance": "", "number": number, "name": name, "group": "Home", "place": "", "is_set": True, "is_number": True, "value": value,
         "figure": value, "unit": "mm", "shown_unit": "mm", "also": "", "entered": "", "detail": "", "no_default": False, "default": "0", "plain_default": "0", "is_changed": False,
         "state": "in-force", "why": "", "state_mark": "", "forced": "",
     }  # fmt: skip

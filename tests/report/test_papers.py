@@ -1,0 +1,170 @@
+"""Papers that are tables: differences, machines side by side, forms, and the workbook a real spreadsheet opens."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import re
+import shutil
+import subprocess
+import zipfile
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, compare, new_file
+from amp_studio.report import Contents, write_report
+from amp_studio.report.differences import differences_paper, machine_rows, machines_paper
+from amp_studio.report.form import form_paper
+from amp_studio.report.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
+from amp_studio.report.workbook import Sheet, workbook
+from amp_studio.schema import Value
+
+DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
+NASTY = '=HYPERLINK("http://x","y")'
+SOFFICE = shutil.which("soffice")
+
+
+def opened_by_a_spreadsheet(path: Path, sheet: int = 1) -> list[list[str]]:
+    """Return what LibreOffice shows of a sheet, every number in full."""
+    assert SOFFICE
+    out = path.parent / "out"
+    options = f"csv:Text - txt - csv (StarCalc):44,34,76,1,,0,false,false,false,false,false,{sheet}"
+    profile = f"-env:UserInstallation={(path.parent / 'profile').as_uri()}"
+    subprocess.run(
+        [SOFFICE, profile, "--headless", "--convert-to", options, "--outdir", out, path],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    return list(csv.reader(io.StringIO(next(out.glob("*.csv")).read_text("utf-8"))))
+
+
+@pytest.fixture
+def other(mill: ParameterFile) -> ParameterFile:
+    changed = mill.copy()
+    changed.set(("home.calibration", "1"), Value(13.0, "mm"))
+    changed.set(("home.calibration", "3"), Value(1.0, "in"))
+    return changed
+
+
+def test_differences_are_in_their_group_and_in_one_unit(mill: ParameterFile, other: ParameterFile) -> None:
+    paper = differences_paper(
+        mill, compare(mill.schema, mill.values, other.values), ("mill.amp", "other.amp"), date=DATE
+    )
+    assert [(t.title, t.rows) for t in paper.tables] == [
+        ("Home Parameters", (
+            ("1300", "Home Calibration", "X", "12.5 mm", "13 mm"), ("3300", "Home Calibration", "Z", "0 mm", "25.4 mm")))]  # fmt: skip
+    assert dict(paper.facts)["Differ"] == "2"
+
+
+def test_of_several_machines_the_one_that_departs_stands_out(
+    mill: ParameterFile, other: ParameterFile
+) -> None:
+    paper = machines_paper([mill, other, mill], ["A", "B", "C"], date=DATE)
+    (table,) = paper.tables
+    assert table.heads == ("Number", "Parameter", "Belongs to", "A", "B", "C")
+    assert table.rows[0] == ("1300", "Home Calibration", "X", "12.5 mm", "13 mm", "12.5 mm")
+    assert table.strong == {(0, 4), (1, 4)}
+    rows, same = machine_rows([mill, other, mill], everything=True)
+    assert len(rows) == same + 2
+    assert machines_paper([mill, mill], ["A", "B"]).tables == ()
+
+
+def test_machines_of_different_families_are_not_compared(mill: ParameterFile) -> None:
+    with pytest.raises(ValueError, match="different control families"):
+        machine_rows([mill, new_file("num")])
+    with pytest.raises(ValueError, match="two files"):
+        machine_rows([mill])
+
+
+@pytest.mark.parametrize("ending", PAPER_FORMATS)
+def test_every_format_has_every_cell_and_takes_any_text(tmp_path: Path, ending: str) -> None:
+    paper = Paper(
+        "Differences",
+        'Mill "7" #strong[x]',
+        (("A", "<b>"),),
+        (PaperTable("T", ("Number", "Value"), (("1300", NASTY),)),),
+        DATE,
+    )
+    path = tmp_path / f"p{ending}"
+    write_paper(paper, path)
+    content = path.read_bytes()
+    if ending == ".html":
+        assert b"&lt;b&gt;" in content
+        assert NASTY.replace('"', "&#34;").encode() in content
+    elif ending == ".csv":
+        assert b"\"'=HYPERLINK" in content, "no formula"
+    elif ending == ".xlsx":
+        assert b"<f>" not in zipfile.ZipFile(path).read("xl/worksheets/sheet2.xml"), "no formula"
+    elif shutil.which("pdftotext"):
+        text = subprocess.run(
+            ["pdftotext", "-layout", path, "-"], capture_output=True, check=True, text=True
+        ).stdout
+        assert "1300" in text
+        assert "HYPERLINK" in text.replace("\u200b", "")
+
+
+def test_a_table_too_wide_for_paper_is_refused_there_alone(tmp_path: Path) -> None:
+    heads = tuple(map(str, range(20)))
+    paper = Paper("Machines compared", "all", (), (PaperTable("", heads, (heads,)),), DATE)
+    with pytest.raises(ValueError, match="too many for paper"):
+        write_paper(paper, tmp_path / "p.pdf")
+    assert not list(tmp_path.iterdir())
+    write_paper(paper, tmp_path / "p.html")
+    with pytest.raises(ValueError, match="is written as"):
+        check_paper_ending(tmp_path / "p.doc")
+
+
+@pytest.mark.parametrize("family", ["9pc", "num", "57c422b", "acromill", "syntec", "grblhal"])
+def test_a_form_has_a_blank_for_each_number(family: str) -> None:
+    file = new_file(family)
+    paper = form_paper(file, everything=True, date=DATE)
+    numbers = [row[0] for table in paper.tables for row in table.rows if row[0]]
+    undisputed = {
+        n
+        for a in file.addresses()
+        if not file.machine_schema.is_disputed(a[0]) and (n := file.machine_schema.number(a))
+    }
+    assert set(numbers) == undisputed
+    assert all("____" in row[4] for table in paper.tables for row in table.rows)
+
+
+@pytest.mark.skipif(SOFFICE is None, reason="needs LibreOffice")
+def test_a_spreadsheet_opens_the_workbook_with_every_number_to_its_last_digit(tmp_path: Path) -> None:
+    numbers = [0.1, 1 / 3, 123456789.125, 1e300, 5e-324, math.pi, -2.0]
+    path = tmp_path / "w.xlsx"
+    path.write_bytes(
+        workbook(
+            [Sheet("Val:ues", ("text", "number"), [(NASTY, n) for n in numbers] + [("007", float("inf"))])]
+        )
+    )
+    shown = opened_by_a_spreadsheet(path)
+    assert shown[0] == ["text", "number"]
+    assert [row[0] for row in shown[1:]] == [NASTY] * len(numbers) + ["007"]
+    cells = zipfile.ZipFile(path).read("xl/worksheets/sheet1.xml").decode()
+    assert set(numbers) <= {float(text) for text in re.findall(r"<v>([^<]*)</v>", cells)}
+    assert [float(row[1]) for row in shown[1:-1]] == pytest.approx(numbers, rel=1e-14)
+
+
+def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill: ParameterFile) -> None:
+    for ending in (".json", ".xlsx"):
+        write_report(mill, tmp_path / f"r{ending}", Contents(inactive=True), date=DATE)
+    document = json.loads((tmp_path / "r.json").read_text("utf-8"))
+    values = {(v["id"], v["instance"]): v for v in document["values"]}
+    assert (values["home.calibration", "1"]["value"], values["home.calibration", "1"]["unit"]) == (
+        "12.5",
+        "mm",
+    )
+    assert document["title"] == "Mill 7"
+    assert any(f["severity"] == "error" for f in document["findings"])
+    from openpyxl import load_workbook
+
+    book = load_workbook(tmp_path / "r.xlsx", read_only=True)
+    assert book.sheetnames[0] == "Values"
+    rows = list(book["Values"].iter_rows(values_only=True))
+    assert len(rows) == len(document["values"]) + 1
+    assert (12.5, "mm") in {(row[5], row[6]) for row in rows}
