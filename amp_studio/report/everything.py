@@ -8,7 +8,7 @@ from amp_studio.schema import write_figure
 
 from .model import Report, ReportRow
 from .table_csv import HEADS, line_of
-from .workbook import Cell, Sheet, workbook
+from .workbook import Cell, WorkbookSheet, workbook
 
 
 def render_json(report: Report) -> bytes:
@@ -36,26 +36,28 @@ def render_workbook(report: Report) -> bytes:
         tuple(_number(text, row) if n in number_columns else text for n, text in enumerate(line_of(row)))
         for row in report.rows()
     ]
-    sheets = [Sheet("Values", heads, values)]
+    sheets = [WorkbookSheet("Values", heads, values)]
     findings = [
         (n.severity, n.count, n.place, ", ".join(x for _, x in n.about), n.message, n.fix, n.page)
         for n in report.notes
     ]
     if findings:
         sheets.append(
-            Sheet("Findings", ("severity", "count", "place", "about", "message", "fix", "page"), findings)
+            WorkbookSheet(
+                "Findings", ("severity", "count", "place", "about", "message", "fix", "page"), findings
+            )
         )
     if report.not_set:
-        sheets.append(Sheet("Not set", ("number", "parameter", "belongs to"), report.not_set))
+        sheets.append(WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set))
     if report.exchanges:
         own = report.exchanges[0].__slots__
         sheets.append(
-            Sheet(
+            WorkbookSheet(
                 "Exchanges", tuple(own), [tuple(getattr(e, name) for name in own) for e in report.exchanges]
             )
         )
     about = (("", report.title), ("Printed", report.when), *report.machine, *report.facts, *report.counts)
-    return workbook([*sheets, Sheet("Machine", ("", ""), about)])
+    return workbook([*sheets, WorkbookSheet("Machine", ("", ""), about)])
 
 
 def _number(text: str, row: ReportRow) -> Cell:

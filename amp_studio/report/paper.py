@@ -31,7 +31,7 @@ class PaperTable:
     shares: tuple[float, ...] = ()
     """Widths of the columns on paper, in relation to each other; equal where there are none."""
     strong: frozenset[tuple[int, int]] = frozenset()
-    """Cells (row, column) that stand out."""
+    """Cells (row, column) in bold."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,10 +78,10 @@ def _page(paper: Paper) -> bytes:
 
 
 def _workbook(paper: Paper) -> bytes:
-    from .workbook import Sheet, workbook
+    from .workbook import WorkbookSheet, workbook
 
-    sheets = [Sheet(paper.kind, ("", ""), (("", paper.title), *paper.facts, ("Printed", paper.when)))]
-    sheets += [Sheet(table.title or paper.kind, table.heads, table.rows) for table in paper.tables]
+    sheets = [WorkbookSheet(paper.kind, ("", ""), (("", paper.title), *paper.facts, ("Printed", paper.when)))]
+    sheets += [WorkbookSheet(table.title or paper.kind, table.heads, table.rows) for table in paper.tables]
     return workbook(sheets)
 
 

@@ -17,7 +17,7 @@ _MOST_TEXT = 32_767
 
 
 @dataclass(frozen=True)
-class Sheet:
+class WorkbookSheet:
     """One sheet: heads, and rows of texts and numbers."""
 
     title: str
@@ -25,7 +25,7 @@ class Sheet:
     rows: Sequence[Sequence[Cell]]
 
 
-def workbook(sheets: Iterable[Sheet]) -> bytes:
+def workbook(sheets: Iterable[WorkbookSheet]) -> bytes:
     """Return the file; heads stay in view and can be filtered by."""
     from openpyxl import Workbook
     from openpyxl.styles import Font
@@ -60,7 +60,7 @@ def workbook(sheets: Iterable[Sheet]) -> bytes:
 
 def _name(title: str, names: set[str]) -> str:
     """Return a name that a workbook allows and does not have yet."""
-    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "Sheet"
+    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "WorkbookSheet"
     chosen, n = name, 1
     while chosen.casefold() in names:
         n += 1
@@ -76,7 +76,7 @@ def _text(text: str) -> str:
     return str(ILLEGAL_CHARACTERS_RE.sub(" ", text))[:_MOST_TEXT]
 
 
-def _widths(sheet: Sheet) -> dict[int, float]:
+def _widths(sheet: WorkbookSheet) -> dict[int, float]:
     widths: dict[int, float] = {}
     for row in (sheet.heads, *sheet.rows):
         for column, content in enumerate(row, 1):

@@ -20,7 +20,7 @@ from amp_studio.report import Contents, write_report
 from amp_studio.report.differences import differences_paper, machine_rows, machines_paper
 from amp_studio.report.form import form_paper
 from amp_studio.report.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
-from amp_studio.report.workbook import Sheet, workbook
+from amp_studio.report.workbook import WorkbookSheet, workbook
 from amp_studio.schema import Value
 
 DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
@@ -139,7 +139,11 @@ def test_a_spreadsheet_opens_the_workbook_with_every_number_to_its_last_digit(tm
     path = tmp_path / "w.xlsx"
     path.write_bytes(
         workbook(
-            [Sheet("Val:ues", ("text", "number"), [(NASTY, n) for n in numbers] + [("007", float("inf"))])]
+            [
+                WorkbookSheet(
+                    "Val:ues", ("text", "number"), [(NASTY, n) for n in numbers] + [("007", float("inf"))]
+                )
+            ]
         )
     )
     shown = opened_by_a_spreadsheet(path)
