@@ -142,11 +142,13 @@ class ValueReader:
 
     def label(self, address: Address) -> str:
         """Return ``1007 Limit 3 Max Value, X``."""
-        text = self.file.machine_schema.label(address)
+        machine = self.file.machine_schema
         if self.evaluation.scope(address) != "axis":
-            return text
-        letter = self.axis(address[1])
-        return f"{text}, {letter}" if not text.endswith(f" {letter}") else text
+            return machine.label(address)
+        text, name = machine.label(address), self.file.schema.parameters[address[0]].name
+        if text.endswith(machine.instance_label(address)):
+            text = name  # without a number the label ends with the axis
+        return f"{text}, {self.axis(address[1])}"
 
     def axis(self, instance: str) -> str:
         """Return the letter of an axis, or what it is called without one."""

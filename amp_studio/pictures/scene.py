@@ -99,7 +99,10 @@ class Drag:
     address: Address
     along: Literal["x", "y"]
     value_at: Callable[[float], Value | None] = field(compare=False)
-    """World coordinate -> the value, as exact as the parameter stores it; None where there is none."""
+    """World coordinate -> the value, as exact as the parameter stores it; None where there is none.
+
+    Raises ValueError with the reason where a table does not take its point there.
+    """
     step: float
     """What a key changes the value by, in the unit of entry."""
     rises: bool = True

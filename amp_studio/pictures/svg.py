@@ -23,6 +23,8 @@ FILLS: dict[ShapeSort, str] = {
     "error": "url(#wrong)",
     "overlap": "#e8eaee",
 }
+LETTER = 6.0
+"""Width of a letter, about, in points."""
 WRAP = 118
 """Letters in a line of notes."""
 
@@ -105,7 +107,10 @@ def _grid(frame: Placement) -> Iterator[str]:
     for at, _, unit in scene.y.rows:
         yield f'<text x="{right + 10:.1f}" y="{frame.at((scene.x.low, at))[1] + 4:.1f}" fill="{DIM}">{escape(unit)}</text>'
     yield f'<text x="{right:.1f}" y="{bottom + BOTTOM - 5:.1f}" fill="{DIM}" text-anchor="end">{escape(axis_text(scene, "x"))}</text>'
-    yield f'<text x="{frame.left - 8:.1f}" y="{frame.top - 10:.1f}" fill="{DIM}" text-anchor="end">{escape(axis_text(scene, "y"))}</text>'
+    upright = axis_text(scene, "y")
+    fits = LETTER * len(upright) < frame.left - 8
+    x, anchor = (frame.left - 8, "end") if fits else (8.0, "start")
+    yield f'<text x="{x:.1f}" y="{frame.top - 10:.1f}" fill="{DIM}" text-anchor="{anchor}">{escape(upright)}</text>'
 
 
 def axis_text(scene: Scene, axis: str) -> str:

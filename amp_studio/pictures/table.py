@@ -20,15 +20,18 @@ Points = Sequence[Point]
 class CurveText:
     """How a family writes a table of (position, compensation) in one text (``curve="module:NAME"`` of its record).
 
-    ``read``    letter of the axis, text -> the points; raises ValueError for a text that is no table
-    ``write``   letter of the axis, points -> the text; raises ValueError for points it cannot be written of
-    ``put_in``  points, position -> the points with one more; raises ValueError where none can be
+    ``read``      letter of the axis, text -> the points; raises ValueError for a text that is no table
+    ``write``     letter, points, the text before ("" for a new table), unit of a new one -> the text; raises ValueError for
+                  points that the control does not take, with the reason
+    ``unit``      text -> the unit of its figures; "" for that of the axis
+    ``put_in``    points, point -> the points with one more; raises ValueError where none can be
     ``take_out``  points, index -> the points without it; raises ValueError where it cannot be missing
-    ``grain``   the smallest compensation
+    ``grain``     the smallest compensation
     """
 
     read: Callable[[str, str], list[Point]]
-    write: Callable[[str, Points], str]
+    write: Callable[[str, Points, str, str], str]
+    unit: Callable[[str], str]
     put_in: Callable[[Points, Point], list[Point]]
     take_out: Callable[[Points, int], list[Point]]
     grain: float
@@ -50,11 +53,15 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     points: list[Point] = []
     unit_at = figures.address(roles.unit_from, axis)
     unit = figures.unit(unit_at) if unit_at else ""
+    state = figures.evaluation.state(address)
+    if not state.is_active:
+        figures.note(f"{label}: inactive, {state.why}", address)
     if value is None or form is None:
         figures.note(f"{label}: not set", address)
     else:
         try:
             points = form.read(letter, str(value.value))
+            unit = form.unit(str(value.value)) or unit
         except ValueError as error:
             figures.note(f"{label}: {error}", address, wrong=True)
     low, high = (f([y for _, y in points] or [0.0]) for f in (min, max))
@@ -71,7 +78,9 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     )
     y = like.y if like else Scale("compensation", unit, min(low - margin, 0.0), max(high + margin, 0.0))
     handles = (
-        [_handle(form, address, letter, label, points, n, y) for n in range(len(points))] if form else []
+        [_handle(form, (address, letter, label, str(value.value)), points, n, y) for n in range(len(points))]
+        if form and value
+        else []
     )
     lines = [Polyline(((x.low, 0.0), (x.high, 0.0)), "dim", dashed=True)]
     if points:
@@ -80,7 +89,8 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     def with_point(at: Point) -> tuple[Address, Value] | None:
         if form is None or (value is not None and not points):
             return None
-        return address, Value(form.write(letter, form.put_in(points, (at[0], multiple(at[1], form.grain)))))
+        more = form.put_in(points, (at[0], multiple(at[1], form.grain)))
+        return address, Value(form.write(letter, more, str(value.value) if value else "", unit))
 
     return Scene(
         "calibration", axis, roles.name, f"{letter}, {len(points)} points", x, y,
@@ -94,20 +104,21 @@ def _span(points: Points) -> float:
 
 
 def _handle(
-    form: CurveText, address: Address, letter: str, label: str, points: Points, n: int, y: Scale
+    form: CurveText, table: tuple[Address, str, str, str], points: Points, n: int, y: Scale
 ) -> Handle:
-    """Return the handle of one point: its compensation follows, its position stays."""
+    """Return the handle of one point: its compensation follows, its position stays.
+
+    ``table`` is the address, the letter of the axis, what is written beside the handle, and the text.
+    """
+    address, letter, label, text = table
     step = max(form.grain, nice((y.high - y.low) / STEPS))
 
     def value_at(level: float) -> Value | None:
         changed = [*points[:n], (points[n][0], multiple(level, step)), *points[n + 1 :]]
-        try:
-            return Value(form.write(letter, changed))
-        except ValueError:
-            return None
+        return Value(form.write(letter, changed, text, ""))
 
     try:
-        without = address, Value(form.write(letter, form.take_out(points, n)))
+        without = address, Value(form.write(letter, form.take_out(points, n), text, ""))
     except ValueError:
         without = None
     at = points[n]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from amp_studio.files import ParameterFile
@@ -14,6 +14,8 @@ from .homing import MARGIN, Drawing, Home, draw_home, draw_rail, letters, read_h
 from .parts import part_name
 from .scene import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 
+TALL = 1.5
+"""How many times as long as the travel along x that along y is at most."""
 SAYS = {
     "inside": "entry not allowed",
     "either": "no entry from outside, no exit from inside",
@@ -40,7 +42,21 @@ class _Ends:
 def draw_travel(
     file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None = None
 ) -> Scene:
-    """Return the picture of a pair of axes (or of one); ``like`` gives the view that stays while a handle is dragged."""
+    """Return the picture of a pair of axes (or of one); ``like`` gives the view that stays while a handle is dragged.
+
+    A travel that is much longer than the other one lies along x.
+    """
+    back = axes[::-1]
+    if like is not None:
+        is_turned = len(axes) == 2 and like.x.label == ValueReader(file).axis(back[0])
+        return replace(_drawn(file, roles, back if is_turned else axes, like), part="+".join(axes))
+    scene = _drawn(file, roles, axes, None)
+    if not scene.equal or scene.y.high - scene.y.low < TALL * (scene.x.high - scene.x.low):
+        return scene
+    return replace(_drawn(file, roles, back, None), part="+".join(axes))
+
+
+def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None) -> Scene:
     figures, drawing = ValueReader(file), Drawing()
     travels = [[_span(figures, span, axis) for axis in axes] for span in roles.spans]
     if roles.reach:

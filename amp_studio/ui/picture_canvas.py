@@ -237,7 +237,16 @@ class PictureCanvas(QWidget):
 
     def _step(self, right: int, up: int, times: int) -> None:
         if self.handle is not None and self._drag is None:
-            self.set_values(stepped(self._workspace.file, self.handle, right, up, times))
+            try:
+                wanted = stepped(self._workspace.file, self.handle, right, up, times)
+            except ValueError as error:
+                self._refuse(str(error))
+                return
+            self.set_values(wanted)
+
+    def _refuse(self, reason: str) -> None:
+        self._refused = reason
+        self.update()
 
     def set_values(self, wanted: Mapping[Address, Value]) -> bool:
         """Set values of the chosen handle as one undo step; a value out of range is refused, with the reason in the tag."""
@@ -320,7 +329,11 @@ class PictureCanvas(QWidget):
         if self._drag is None or self._start is None or self._active is None:
             return
         # The functions of the scene in which the drag began: they know what stays the same.
-        wanted = dragged(self._start.handles[self._active], self.place.world(at.x(), at.y()))
+        try:
+            wanted = dragged(self._start.handles[self._active], self.place.world(at.x(), at.y()))
+        except ValueError as error:  # a table does not take the point
+            self._refuse(str(error))
+            return
         changed = self._drag.move(wanted)
         self._refused = self._drag.refused
         if changed:

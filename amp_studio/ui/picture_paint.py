@@ -83,9 +83,10 @@ class ScenePainter:
         painter.drawText(
             QRectF(inner.right() - 200, inner.bottom() + 18, 200, 16), right, axis_text(self._scene, "x")
         )
-        painter.drawText(
-            QRectF(0, inner.top() - 24, inner.left() - GAP2, 16), right, axis_text(self._scene, "y")
-        )
+        upright = axis_text(self._scene, "y")
+        fits = self._measure.horizontalAdvance(upright) < inner.left() - GAP2
+        box = QRectF(0 if fits else GAP2, inner.top() - 24, inner.left() - GAP2 if fits else 300, 16)
+        painter.drawText(box, right if fits else Qt.AlignmentFlag.AlignLeft, upright)
         for at, _, unit in self._scene.y.rows:
             level = place.at((self._scene.x.low, at))[1]
             painter.drawText(QPointF(inner.right() + GAP2, level + 4), unit)

@@ -336,3 +336,29 @@ def test_a_picture_as_svg_and_json_has_labels_and_notes(example):
 def test_an_unknown_picture_or_part_is_an_error(example, name, part):
     with pytest.raises(KeyError):
         draw(example("9pc"), name, part)
+
+
+def test_the_axis_calibration_of_a_9pc_is_a_curve_in_its_own_unit(example):
+    """Page 36-7: deviations over the positions, of which the first has none, and none is above 2 % of the way."""
+    file = example("9pc")
+    address = ("calibration.table", "1")
+    file.set(address, Value("deviation - mm -100:0 0:0.004 100:0.0065"))
+    scene = draw(file, "calibration", "X")
+    assert scene.lines[-1].points == ((-100.0, 0.0), (0.0, 0.004), (100.0, 0.0065))
+    assert moved(scene.handles[1], 0.005) == Value("deviation - mm -100:0 0:0.005 100:0.0065")
+    assert scene.with_point((50.0, 0.006)) == (
+        address,
+        Value("deviation - mm -100:0 0:0.004 50:0.006 100:0.0065"),
+    )
+    assert scene.handles[2].without == (address, Value("deviation - mm -100:0 0:0.004"))
+    with pytest.raises(ValueError, match="deviation 0"):
+        moved(scene.handles[0], 0.001)
+    with pytest.raises(ValueError, match="2 %"):
+        moved(scene.handles[1], 2.5)
+
+
+def test_a_table_begins_with_a_point_that_is_put_in(example):
+    file = example("9pc")
+    scene = draw(file, "calibration", "X")
+    assert notes(scene) == ["Axis Calibration, X: not set"]
+    assert scene.with_point((-100.0, 0.3)) == (("calibration.table", "1"), Value("deviation - mm -100:0"))

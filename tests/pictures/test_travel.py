@@ -192,3 +192,9 @@ def test_a_new_file_has_every_picture_and_says_what_is_missing(family):
             assert scene_svg(scene).startswith("<svg ")
             assert scene_json(scene)["picture"] == picture.name
             assert scene.handles or scene.notes
+
+
+def test_the_long_travel_of_a_lathe_lies_along_x(example):
+    scene = draw(example("lathe"), "travel", "X Z")
+    assert (scene.part, scene.x.label, scene.y.label) == ("1+2", "Z", "X")
+    assert area(scene, "Limit 2") == (-2.0, -8.0, 60.0, 125.0, "forbidden")

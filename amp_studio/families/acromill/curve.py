@@ -19,7 +19,7 @@ def read(letter: str, text: str) -> list[Point]:
     return [(float(n), float(word.partition("E")[2])) for n, word in enumerate(text.split())]
 
 
-def write(letter: str, points: Sequence[Point]) -> str:
+def write(letter: str, points: Sequence[Point], _text: str, _unit: str) -> str:
     """Return the words of points; raises ValueError for a compensation of 1 and more, for which no form is printed."""
     return ballscrew_words(letter, [compensation for _, compensation in points], 0)
 
@@ -42,4 +42,4 @@ def take_out(points: Sequence[Point], index: int) -> list[Point]:
     return list(points[:-1])
 
 
-CURVE = CurveText(read, write, put_in, take_out, grain=0.00001)
+CURVE = CurveText(read, write, lambda _text: "", put_in, take_out, grain=0.00001)

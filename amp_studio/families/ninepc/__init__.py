@@ -11,5 +11,6 @@ REGISTRATION = Registration(
     emulators={"house": "amp_studio.families.ninepc.emulated:emulate"},
     sheet="amp_studio.families.ninepc.sheet:KEYING",
     compensation="amp_studio.families.ninepc.compensation:COMPENSATION",
+    curve="amp_studio.families.ninepc.curve:CURVE",
     law="amp_studio.families.ninepc.law:LAW",
 )
