@@ -71,8 +71,10 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     values = cycle(["1", "2"])
     yield worst("edit of a value in the table, painted", EDIT,
                 timed(until_painted(lambda: workspace.enter(address, next(values))), 4 * times))  # fmt: skip
+    view.setCurrentIndex(table.index_of(address))
     view.edit(table.index_of(address))
-    field: Any = application.focusWidget()
+    field: Any = view.indexWidget(table.index_of(address))
+    assert field is not None, "the cell is edited"
     letters = cycle("=1+2*3/4+5*6-7")
     yield worst("keystroke in a cell, with its result, painted", KEYSTROKE,
                 timed(until_painted(lambda: QTest.keyClick(field, next(letters))), 4 * times))  # fmt: skip

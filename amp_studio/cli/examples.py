@@ -27,7 +27,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio set {MILL} 1300=1.5",
         f'amp-studio set {MILL} home.calibration@X="0.05 in" 1350=300',
         f"amp-studio set {MILL} 1300=not-set",
-        f"amp-studio set {MILL} 1340=25.4/5000 1750='=Y*1.1'",
+        f"amp-studio set {MILL} 1340==25.4/5000 1750='=Y*1.1'",
     ),
     "get": (
         f"amp-studio get {MILL} 1300 home.calibration@Y",

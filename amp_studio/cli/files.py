@@ -128,7 +128,12 @@ def wanted(
 
 
 def _entered(file: ParameterFile, address: Address, text: str) -> Value | None:
-    """Read a value or an expression: ``25.4/5``, ``=Y*1.1``; raises InvalidValueError."""
+    """Read a value, or an expression behind ``=``; raises InvalidValueError.
+
+    Nobody sees the result before it is set, so that what only looks like one (``10-5``) is none.
+    """
+    if not text.lstrip().startswith("="):
+        return file.read(address, text)
     return enter(file, address, text, lambda a: file.evaluation.unit(a, file.header.units)).value
 
 

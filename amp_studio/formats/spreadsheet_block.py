@@ -16,8 +16,8 @@ from typing import NamedTuple
 from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.schema import write_number
 
-LONGEST = 4_000_000
-"""Characters of a block that is read."""
+LONGEST, LONGEST_MARKUP = 4_000_000, 1_500_000
+"""Characters of a block that is read, and of its HTML; of a larger one the text is taken."""
 MOST_CELLS = 50_000
 
 _QUOTED = re.compile(r'"((?:[^"]|"")*)"(?=\t|\r\n|\n|\r|\Z)')
@@ -44,7 +44,9 @@ class BlockCell(NamedTuple):
 
 def read_block(text: str, markup: str = "") -> list[list[str]]:
     """Return the rows of a block, all of one length; from the table in the HTML ``markup`` where there is one. Raises BlockError."""
-    if max(len(text), len(markup)) > LONGEST:
+    if len(markup) > LONGEST_MARKUP:
+        markup = ""
+    if len(text) > LONGEST:
         raise BlockError("The clipboard has more than 4 million characters. Copy fewer cells.")
     rows = (_rows_of_html(markup) if "<td" in markup.lower() else []) or _rows_of_text(text)
     width = max(map(len, rows), default=0)
@@ -91,8 +93,7 @@ def _rows_of_text(text: str) -> list[list[str]]:
 
 def _rows_of_html(markup: str) -> list[list[str]]:
     reader = _TableReader()
-    reader.feed(markup)
-    reader.close()
+    reader.feed(markup)  # never closed: what has no end would be tried from each sign of it on
     return reader.whole()
 
 

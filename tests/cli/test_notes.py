@@ -39,6 +39,7 @@ def test_what_there_is_not_gets_no_note(amp, mill: Path) -> None:
 
 
 def test_set_takes_an_expression_of_other_values(amp, mill: Path) -> None:
-    amp("set", mill, "1750==Y*1.5", "1340=0.0254/2")
+    amp("set", mill, "1750==Y*1.5", "1340==0.0254/2")
     assert [v["value"] for v in amp("get", mill, "1750", "1340", "--json").json["values"]] == [16.5, 0.0127]
-    assert "divides by 0" in amp("set", mill, "1750=1/0").err
+    assert "divides by 0" in amp("set", mill, "1750==1/0").err
+    assert "not a unit" in amp("set", mill, "1750=10-5").err
