@@ -15,6 +15,7 @@ from amp_studio.files import (
     Row,
     backup_path,
     compare,
+    is_there,
     open_file,
 )
 from amp_studio.files.by_schema import by_schema
@@ -26,6 +27,7 @@ from .errors import UsageError
 
 def diff_verb(options: argparse.Namespace) -> int:
     """Compare two files, or a file and a control, or a file with another version of itself; 1 where they differ."""
+    _check_sides(options)
     a, a_digest = _side(options.a)
     b, b_digest, name = _other_side(options, a)
     if a.schema.family.family != b.schema.family.family:
@@ -71,15 +73,23 @@ def _write_paper(
     print(options.output)
 
 
-def _other_side(options: argparse.Namespace, a: ParameterFile) -> tuple[ParameterFile, str | None, str]:
-    """Return the second side of a comparison, the digest of its image where it is a control's, and its name."""
+def _check_sides(options: argparse.Namespace) -> None:
+    """Raise UsageError unless there is one other side that A can have."""
     from amp_studio.transfer.links.endpoint import is_endpoint
 
-    named = [options.b, options.axes, *(options.defaults, options.backup, options.last_download)]
+    named = [options.b, options.axes, options.defaults, options.backup, options.last_download]
     if sum(map(bool, named)) != 1:
         raise UsageError(
             "diff takes one other side: B, or one of --defaults, --backup, --last-download, --axes"
         )
+    if (options.backup or options.last_download) and is_endpoint(options.a):
+        raise UsageError(f"{options.a} is a control: a backup and a last download belong to a file")
+    if options.backup and not is_there(backup_path(Path(options.a))):
+        raise UsageError(f"{options.a} has no backup: the first change of it makes one")
+
+
+def _other_side(options: argparse.Namespace, a: ParameterFile) -> tuple[ParameterFile, str | None, str]:
+    """Return the second side of a comparison, the digest of its image where it is a control's, and its name."""
     if options.b:
         return *_side(options.b), options.b
     if options.defaults:
@@ -88,8 +98,6 @@ def _other_side(options: argparse.Namespace, a: ParameterFile) -> tuple[Paramete
         return with_defaults(a), None, "its defaults"
     if options.axes:
         return _other_axis(a, *options.axes), None, "the other axis"
-    if is_endpoint(options.a):
-        raise UsageError(f"{options.a} is a control: a backup and a last download belong to a file")
     if options.backup:
         return *_side(str(backup_path(Path(options.a)))), "its backup"
     from amp_studio.transfer.client.last_download import last_download

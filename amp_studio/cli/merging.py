@@ -41,6 +41,8 @@ def merge_verb(options: argparse.Namespace) -> int:
     _check_paths(options)
     merge = Merge(*_sources(options))
     _settle(merge, options.take)
+    if options.window:
+        return _in_window(merge, options)
     result = merge.result()
     new = _new_findings(merge, result, options.ours)
     if not options.dry_run:
@@ -54,13 +56,24 @@ def merge_verb(options: argparse.Namespace) -> int:
     return 1 if merge.open_conflicts else 0
 
 
+def _in_window(merge: Merge, options: argparse.Namespace) -> int:
+    """Have a person merge in the window; 1 where the window was closed without a result."""
+    if options.dry_run or options.json:
+        raise UsageError("--window goes with neither --dry-run nor --json")
+    from amp_studio.ui.merge_program import merge_in_window
+
+    is_written = merge_in_window(merge, options.ours, options.output, lambda result: _write(result, options))
+    print(f"{options.output}: {'written' if is_written else 'not written'}")
+    return 0 if is_written else 1
+
+
 def _check_paths(options: argparse.Namespace) -> None:
     if options.output is None and not options.dry_run:
         raise UsageError("merge needs -o OUTPUT, or --dry-run to list only")
     if options.output is None or options.dry_run:
         return
     if options.git:
-        check_output(options.output)
+        check_output(options.output, options.base, options.theirs)
     else:
         check_new(options.output, "a merge", options.base, options.ours, options.theirs)
 

@@ -273,6 +273,7 @@ def _comparing(verbs: Verbs) -> None:
     )
     sub.add_argument("--dry-run", action="store_true", help="write nothing, list the conflicts")
     sub.add_argument("--git", action="store_true", help="be git's merge driver: OUTPUT may be OURS")
+    sub.add_argument("--window", action="store_true", help="merge in a window of the desktop program")
     json_option(sub)
     secrets_option(sub)
 

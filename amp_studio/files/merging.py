@@ -13,7 +13,7 @@ from .by_schema import by_schema
 from .parameter_file import Change, ParameterFile
 
 Side = Literal["base", "a", "b"]
-Part = Literal["value", "header", "entry"]
+RowPart = Literal["value", "header", "entry"]
 """What a row is about: a parameter, an entry of the header, or an entry that the schema does not know."""
 RowKind = Literal["same", "a", "b", "both", "different", "conflict"]
 """``a``, ``b``: only that side changed it (without a base: only that side has it); ``both``: to the same; ``different``: two
@@ -27,7 +27,7 @@ MACHINE, EXTRA = "machine", "extra"
 class RowId(NamedTuple):
     """What a row is about."""
 
-    part: Part
+    part: RowPart
     address: Address
     key: str = ""
     """The name of an entry as it is written in the file; empty for a parameter."""
