@@ -135,8 +135,8 @@ class Index:
         best: dict[int, _Found] = {}
         bare = word.lstrip("0") if word.isdigit() else ""
         likes = self.vocabulary.like(word)
-        if bare and bare != word:
-            likes.setdefault(bare, 1.0)
+        if bare and bare not in likes:
+            likes = likes | {bare: 1.0}
         for known, likeness in likes.items():
             for n, where in self._having.get(known, {}).items():
                 worth = WORTH[where] * likeness

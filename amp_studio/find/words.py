@@ -23,6 +23,8 @@ _SHORTEST = 4
 """Letters from which a word is taken to be mistyped."""
 _TWO = 7
 """Letters from which a word may have two slips."""
+_REMEMBERED = 200
+"""Words of which is remembered what they can be."""
 _MEASURED = 40
 """Words that are measured for one that is mistyped; those with the most pairs of letters in common."""
 PREFIX, ONE_SLIP, TWO_SLIPS = 0.85, 0.7, 0.5
@@ -81,6 +83,7 @@ class Vocabulary:
     def __init__(self, words: Iterable[str]) -> None:
         self.words = sorted(set(words))
         self._at = {word: n for n, word in enumerate(self.words)}
+        self._like: dict[str, dict[str, float]] = {}
         self._with: dict[str, list[int]] = {}
         """Pair of letters -> the places of the words that may be mistyped and have it."""
         for n, word in enumerate(self.words):
@@ -99,6 +102,14 @@ class Vocabulary:
 
     def like(self, word: str) -> dict[str, float]:
         """Return every known word that a typed one can be, and what the match is worth (0 to 1)."""
+        known = self._like.get(word)
+        if known is None:  # the words of a question stay while the next is typed
+            if len(self._like) >= _REMEMBERED:
+                self._like.clear()
+            known = self._like[word] = self._found_like(word)
+        return known
+
+    def _found_like(self, word: str) -> dict[str, float]:
         found = {word: 1.0} if word in self._at else {}
         for longer in self.begun(word):
             found[longer] = PREFIX + (1 - PREFIX) * len(word) / (len(longer) + 1)

@@ -18,6 +18,8 @@ from .message_page import MessageWindow
 from .studio_window import StudioWindow
 from .task import Task
 
+_MOST = 30
+"""Hits in the file that are worth showing."""
 _COMMAND = 0.8
 """What a command is worth among parameters whose words match as well."""
 
@@ -89,7 +91,7 @@ class FindActions:
             hits = self._among(own) if own else every
             return rows_of(hits, self._commands) or self._nothing("")
         finder = self._finder()
-        found = finder.find(own) if finder is not None else []
+        found = finder.find(own, _MOST) if finder is not None else []
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
             return rows_of(found, self._commands) + self._every(found)

@@ -1,4 +1,4 @@
-"""The commands of the menus, for whoever lists them."""
+"""The commands of the menus, for who lists them."""
 
 from __future__ import annotations
 

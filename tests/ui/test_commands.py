@@ -107,7 +107,7 @@ def test_the_find_box_runs_every_command_it_lists(window: MainWindow) -> None:
 def test_commands_are_chosen_with_the_keys_and_slips_are_forgiven(window: MainWindow) -> None:
     action(window, "Commands").trigger()
     box = window.finder.box
-    assert box.hasFocus()
+    assert window.focusWidget() is box
     QTest.keyClicks(box, "confgure axis")
     assert box.model.rows[1].text == "Axis › Configure Axis Type"
     assert [row.text for row in box.model.rows if row.action is None] == ["Commands"]
@@ -119,7 +119,7 @@ def test_commands_are_chosen_with_the_keys_and_slips_are_forgiven(window: MainWi
     QTest.keyClick(box, Qt.Key.Key_Escape)
     assert not box.is_open
     QTest.keyClick(box, Qt.Key.Key_Escape)
-    assert (box.text(), window.table_view.hasFocus()) == ("", True)
+    assert (box.text(), window.focusWidget()) == ("", window.table_view)
 
 
 def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> None:
@@ -140,7 +140,7 @@ def test_panels_are_reached_and_brought_back_by_a_key(window: MainWindow) -> Non
 def test_find_from_anywhere(window: MainWindow) -> None:
     window.show_panel("Findings")
     action(window, "Find").trigger()
-    assert window.finder.box.hasFocus()
+    assert window.focusWidget() is window.finder.box
 
 
 def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:

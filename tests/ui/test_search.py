@@ -36,7 +36,7 @@ def test_all_that_is_found_can_be_shown_in_the_table_and_a_group_again(window: M
         "servo.gain_break_ratio",
     ]
     assert not window.groups.tree.selectedItems()
-    assert window.table_view.hasFocus()
+    assert window.focusWidget() is window.table_view
 
     window.groups.choose_group_of("servo.excess_error")
     assert window.page.list_title.text().startswith("<b>Position Loop")
