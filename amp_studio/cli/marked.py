@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
-from amp_studio.find import Mark, Marks, rows_of_file
+from amp_studio.find import Mark, Marks, noted, rows_of_file
 from amp_studio.schema import Meant
 from amp_studio.validate import Validator, rules_beside
 
@@ -17,6 +17,7 @@ _OPTIONS: dict[str, Mark] = {
     "with_findings": "findings",
     "since_download": "since-download",
     "restart": "restart",
+    "with_notes": "noted",
 }
 
 
@@ -34,6 +35,7 @@ def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: 
         from amp_studio.transfer.client.last_download import last_download
 
         marks.downloaded = last_download(file, path).file.values
+    marks.noted = noted(file)
     row_of = {address: row for row in rows_of_file(file) for address in row}
     alone = [mark for mark in wanted if mark != "axes-differ"]
     return [

@@ -123,6 +123,7 @@ def _files(verbs: Verbs) -> None:
         ("with-findings", "only values that cause a finding"),
         ("since-download", "only what is not as in the last recorded download"),
         ("restart", "only values that take effect after a restart"),
+        ("with-notes", "only values with a note"),
     ):
         sub.add_argument(f"--{name}", action="store_true", help=meaning)
     sub.add_argument(

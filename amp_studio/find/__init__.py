@@ -5,7 +5,7 @@ Typing errors are forgiven, each hit has its reason, and the words of a family a
 
 from .entries import Entry, HitKind
 from .finder import Finder, Hit, index_of
-from .marks import MARKS, Mark, Marks, rows_of_file
+from .marks import MARKS, Mark, Marks, noted, rows_of_file
 from .message_page import LinkedParameter, LinkedRule, LinkedValue, MessagePage, message_page
 
 __all__ = [
@@ -22,5 +22,6 @@ __all__ = [
     "MessagePage",
     "index_of",
     "message_page",
+    "noted",
     "rows_of_file",
 ]

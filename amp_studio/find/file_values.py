@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
+from amp_studio.files.notes import all_notes
 from amp_studio.schema import (
     Address,
     InvalidValueError,
     UnitError,
     convert,
     dimension,
+    read_address,
     read_number,
     unit_named,
 )
@@ -39,13 +41,12 @@ def asked_number(query: str) -> Number | None:
 class FileValues:
     """The values of a file at one moment. A secret is not among them."""
 
-    def __init__(self, file: ParameterFile, notes: Mapping[Address, str]) -> None:
+    def __init__(self, file: ParameterFile) -> None:
         self._numbers: dict[tuple[float, str], list[Address]] = {}
         """Number and unit -> the addresses with this value."""
         self.choices: dict[tuple[str, str], list[Address]] = {}
         """Parameter and key of a choice -> the addresses that have it."""
         self._texts: list[tuple[Address, str]] = []
-        self._notes = notes
         parameters = file.schema.parameters
         for address, value in file.values.items():
             parameter = parameters[address[0]]
@@ -72,10 +73,16 @@ class FileValues:
         return found
 
     def entries(self, file: ParameterFile) -> Iterator[Entry]:
-        """Yield texts of the file and notes on its values, to be searched by word."""
+        """Yield texts of the file and notes of people, to be searched by word."""
         for address, text in self._texts:
             if words_of(text):
                 yield Entry("value", text, address[0], (("value", text),), address[1])
-        for address, note in self._notes.items():
-            if not file.schema.parameters[address[0]].secret:
-                yield Entry("note", note, address[0], (("note", note),), address[1])
+        for note in all_notes(file):
+            shown = " ".join(note.text.split())
+            if note.subject == "group" and any(group.key == note.about for group in file.schema.groups):
+                yield Entry("group", f"{note.label}: {shown}", note.about, (("note", shown),))
+            elif (
+                note.subject == "value"
+                and (address := read_address(note.about)) in file.machine_schema.places
+            ):
+                yield Entry("note", shown, address[0], (("note", shown),), address[1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -67,15 +67,12 @@ class Finder:
         self.schema, self.machine, self.file = schema, machine, file
         self._here = schema.on(machine)
         self._commands = Index(commands)
-        self._notes: Mapping[Address, str] = {}
         self._values: FileValues | None = None
         self._texts = Index(())
 
-    def forget_values(self, notes: Mapping[Address, str] | None = None) -> None:
-        """Read the values of the file again at the next question, after an edit."""
+    def forget_values(self) -> None:
+        """Read the values and notes of the file again at the next question, after an edit."""
         self._values = None
-        if notes is not None:
-            self._notes = notes
 
     def find(self, query: str, most: int = 40) -> list[Hit]:
         """Return the best hits, the best first."""
@@ -138,7 +135,7 @@ class Finder:
         if file is None:
             return []
         if self._values is None:
-            self._values = FileValues(file, self._notes)
+            self._values = FileValues(file)
             self._texts = Index(self._values.entries(file))
         number = asked_number(query)
         found: dict[str, list[Address]] = {}

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, same_value
+from amp_studio.schema import Address, Value, read_address, same_value
 from amp_studio.validate import NOT_SET, Finding, not_set
 
 Mark = Literal[
@@ -139,6 +139,11 @@ class Marks:
         schema = self.file.schema
         effect = schema.parameters[address[0]].effect or schema.family.effect
         return effect.level in _RESTART and self.file.get(address) is not None
+
+
+def noted(file: ParameterFile) -> frozenset[Address]:
+    """Return the values of a file on which there is a note."""
+    return frozenset(map(read_address, file.header.value_notes))
 
 
 def rows_of_file(file: ParameterFile) -> list[tuple[Address, ...]]:

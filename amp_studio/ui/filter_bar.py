@@ -11,7 +11,7 @@ from PySide6.QtCore import QCoreApplication, QSize, QTimer, Signal
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
-from amp_studio.find import MARKS, Mark, Marks
+from amp_studio.find import MARKS, Mark, Marks, noted
 from amp_studio.schema import Address, Value
 
 from .parameter_table import ParameterTable, TableRow
@@ -170,6 +170,7 @@ class FilterBar(QWidget):
     def _take_state(self) -> None:
         self.marks.take_findings(self._workspace.findings)
         self.marks.saved = self._workspace.document.saved
+        self.marks.noted = noted(self._workspace.file)
 
     def set_bookmarks(self, ids: Collection[str]) -> None:
         """Know which parameters are bookmarked."""

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.files import digest_of, open_file, save_file
+from amp_studio.files.notes import set_value_note
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 
 
@@ -45,6 +48,14 @@ def test_marks_together_are_all_demanded(amp, mill: Path) -> None:
     found = numbers(amp("get", mill, "--with-findings", "--json"))
     assert "1740" in found or "1750" in found
     assert numbers(amp("get", mill, "--with-findings", "--changed", "--json")) <= found
+
+
+def test_values_with_a_note_are_listed(amp, mill: Path) -> None:
+    document = open_file(mill).file
+    set_value_note(document, ("servo.excess_error", "2"), "ask Karl")
+    save_file(document, mill, expected=digest_of(mill))
+    assert numbers(amp("get", mill, "--with-notes", "--json")) == {"2750"}
+    assert amp("find", mill, "karl").out.splitlines()[0].startswith("note ask Karl: 2750 Excess Error Y")
 
 
 def test_without_a_download_nothing_can_be_newer_than_it(amp, mill: Path) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.notes import set_group_note, set_value_note
 from amp_studio.find import Entry, Finder, message_page
 from amp_studio.schema import load_schema
 from amp_studio.schema.quoting import quoted
@@ -70,9 +71,10 @@ def test_notes_are_found_and_secrets_are_not(finder: Finder, mill: ParameterFile
     secret = next(p for p in mill.schema.parameters.values() if p.secret)
     instance = mill.machine_schema.instances(secret)[0]
     mill.set((secret.id, instance), mill.read((secret.id, instance), "7"))
-    finder.forget_values(
-        {("servo.excess_error", "1"): "ask Karl about the slideway", (secret.id, instance): "Karl"}
-    )
+    set_value_note(mill, ("servo.excess_error", "1"), "ask Karl\nabout the slideway")
+    set_group_note(mill, "home", "Karl set the switches")
+    finder.forget_values()
+    assert [hit.key for hit in finder.find("karl") if hit.kind == "group"] == ["home"]
     assert [(hit.kind, hit.address) for hit in finder.find("karl") if hit.kind == "note"] == [
         ("note", ("servo.excess_error", "1"))
     ]
