@@ -37,6 +37,11 @@ def rechosen(table: CalibrationTable, input_: str, start: str) -> CalibrationTab
     return replace(table, input=input_, start=start)
 
 
+def left_over(table: CalibrationTable, at: Fraction, error: Fraction) -> Fraction:
+    """Return the whole error of a position where ``error`` was measured with the table switched on (page 36-10)."""
+    return error + table.curve.at(at)
+
+
 def _demand(table: CalibrationTable, at: Fraction) -> None:
     if all(position != at for position, _ in table.points):
         near = min((p for p, _ in table.points), key=lambda p: abs(p - at), default=None)

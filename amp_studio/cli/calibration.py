@@ -16,6 +16,7 @@ from amp_studio.calibration import (
     Measurement,
     MeasurementAnswers,
     Proposal,
+    TableForm,
     Wish,
     base_unit,
     compensation_of,
@@ -24,7 +25,7 @@ from amp_studio.calibration import (
     read_measured_file,
     shown_unit,
 )
-from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
+from amp_studio.calibration.edit import deleted, inserted, left_over, rechosen, replaced
 from amp_studio.files import Change, Document, ParameterFile, RangeError, describe
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, show_value, shown, write_value
@@ -129,9 +130,7 @@ def _edited(
     if form is None:
         raise UsageError(f"{file.schema.family.name} has no calibration table of an axis")
     start = _STARTS.get(options.start or "", "")
-    table = present_table(file, offered, axis)
-    if options.clear:
-        table = None
+    table = None if options.clear else present_table(file, offered, axis)
     if table is None:
         table = form.empty(file, axis, options.input or "", start)
     else:
@@ -141,14 +140,22 @@ def _edited(
         table = deleted(table, _number(text) * size)
     for text in options.replace or ():
         at, figure = (number * size for number in _pair(text))
-        table = replaced(table, at, form.error(table, at, figure))
+        table = replaced(table, at, _error(options, form, table, at, figure))
     for text in options.insert or ():
         at, figure = (number * size for number in _pair(text))
         if form.is_even:
             raise UsageError("the positions of this table are fixed: --replace changes a figure")
-        table = inserted(table, at, form.error(table, at, figure))
+        table = inserted(table, at, _error(options, form, table, at, figure))
     text = "" if options.clear and not (options.insert or options.replace) else form.write(file, axis, table)
     return {(form.parameter, axis): Value(text) if text else None}
+
+
+def _error(
+    options: argparse.Namespace, form: TableForm, table: CalibrationTable, at: Fraction, figure: Fraction
+) -> Fraction:
+    """Return the error that a figure means; measured with the calibration on it comes on top of the table's."""
+    error = form.error(table, at, figure)
+    return left_over(table, at, error) if options.compensation == "on" else error
 
 
 def _pair(text: str) -> tuple[Fraction, Fraction]:

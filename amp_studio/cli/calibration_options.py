@@ -27,7 +27,7 @@ def calibrate_options(verbs: Verbs) -> None:
                      help="what an error is: measured less target (ISO 230-2), or the correction")  # fmt: skip
     sub.add_argument("--decimal", choices=("point", "comma"), help="decimal sign of the points")
     sub.add_argument("--compensation", choices=("on", "off"),
-                     help="whether the axis was measured with its compensation on")  # fmt: skip
+                     help="whether the axis was measured with its compensation on; points are then added to it")  # fmt: skip
     sub.add_argument("--circle", choices=("first", "second"),
                      help="which axis of the circle of a ball-bar (angle, deviation) it is")  # fmt: skip
     sub.add_argument("--only", choices=("table", "reversal"), help="make only one of both")

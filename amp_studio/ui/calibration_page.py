@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QCheckBox,
     QComboBox,
     QFormLayout,
     QHBoxLayout,
@@ -32,7 +33,7 @@ from amp_studio.calibration import (
     present_table,
     shown_unit,
 )
-from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
+from amp_studio.calibration.edit import deleted, inserted, left_over, rechosen, replaced
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, shown
 from amp_studio.schema.values import read_exact
@@ -62,6 +63,12 @@ class CalibrationPage(QWidget):
             self.start.addItem(text, key)
         self.table = self._table()
         self.plot = ErrorPlot(self.tr("Errors that the table takes away"))
+        self.was_on = QCheckBox(self.tr("Calibration is &on while points are measured"))
+        self.was_on.setToolTip(
+            self.tr(
+                "A figure that is put in is what the table has left over, and is added to it (page 36-10)"
+            )
+        )
         self.fault, self.limits = QLabel(), QLabel()
         for label in (self.fault, self.limits):
             label.setWordWrap(True)
@@ -70,7 +77,7 @@ class CalibrationPage(QWidget):
         self.insert = self._button(self.tr("&Insert Point…"), self._insert)
         self.replace = self._button(self.tr("&Replace"), self._edit)
         self.delete = self._button(self.tr("De&lete Point"), self._delete)
-        self.clear = self._button(self.tr("Delete All P&oints"), self._clear)
+        self.clear = self._button(self.tr("Delete All Poin&ts"), self._clear)
         self.read = self._button(self.tr("Read &Measured Points…"), lambda: measured(self.axis.currentData()))
         self.read.setProperty("primary", "true")
         self._arrange()
@@ -119,6 +126,7 @@ class CalibrationPage(QWidget):
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, GAP2, 0)
         column.addLayout(form)
+        column.addWidget(self.was_on)
         column.addWidget(self.table, 1)
         column.addLayout(buttons)
         column = QVBoxLayout(right)
@@ -206,8 +214,9 @@ class CalibrationPage(QWidget):
         self.insert.setEnabled(may and not (form.is_even and has))
         self.insert.setText(self.tr("&New Table") if form.is_even else self.tr("&Insert Point…"))
         self.delete.setVisible(not form.is_even)
-        for button in (self.replace, self.delete, self.clear):
+        for button in (self.replace, self.delete):
             button.setEnabled(may and has)
+        self.clear.setEnabled(may and file.get((form.parameter, axis)) is not None)
         for box, present in ((self.input, table.input), (self.start, table.start)):
             box.setEnabled(may and not has)
             box.setToolTip(
@@ -295,7 +304,14 @@ class CalibrationPage(QWidget):
         at, figure = (_number(word) * size for word in words)
         form = self._offered(self._file()).table
         assert form is not None
-        self._set(inserted(table, at, form.error(table, at, figure)), self.tr("Insert point of"))
+        self._set(inserted(table, at, self._error(table, at, figure)), self.tr("Insert point of"))
+
+    def _error(self, table: CalibrationTable, at: Fraction, figure: Fraction) -> Fraction:
+        """Return the error that a typed figure means."""
+        form = self._offered(self._file()).table
+        assert form is not None
+        error = form.error(table, at, figure)
+        return left_over(table, at, error) if self.was_on.isChecked() else error
 
     def _file(self) -> ParameterFile:
         assert self.target is not None
@@ -315,10 +331,8 @@ class CalibrationPage(QWidget):
         def act() -> None:
             try:
                 table = self.present()
-                form = self._offered(self._file()).table
-                assert form is not None
                 at, (_, size) = table.points[row][0], shown_unit(self._file(), table)
-                error = form.error(table, at, _number(text) * size)
+                error = self._error(table, at, _number(text) * size)
                 self._set(replaced(table, at, error), self.tr("Replace point of"))
             finally:
                 self._refresh([])

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.calibration import CalibrationError, TuningPage
 from amp_studio.calibration.steps import stepped, steps_of
+from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, axis_name, limits, show_value, shown, write_number
 from amp_studio.schema.values import read_exact
 
@@ -127,17 +128,23 @@ class ValuesPage(QWidget):
         self._refresh([])
 
     def addresses(self) -> list[Address]:
-        """Return what can be tuned here: what the file does not hide."""
+        """Return what can be tuned here, one axis after the other."""
         assert self.target is not None
         file = self.target.file
         found = [
             (name, instance)
             for name in self.page.params
             for instance in file.machine_schema.instances(file.schema.parameters[name])
-            if file.evaluation.state((name, instance)).state != "hidden"
+            if self._is_of_use(file, (name, instance))
         ]
         order = list(dict.fromkeys(instance for _, instance in found))
         return sorted(found, key=lambda address: order.index(address[1]))  # one axis after the other
+
+    @staticmethod
+    def _is_of_use(file: ParameterFile, address: Address) -> bool:
+        """Whether a value is shown: active, or inactive and set."""
+        state = file.evaluation.state(address)
+        return state.is_active or (state.state != "hidden" and file.get(address) is not None)
 
     @property
     def address(self) -> Address | None:

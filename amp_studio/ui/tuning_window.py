@@ -85,7 +85,8 @@ class TuningWindow(QWidget):
         QShortcut(Qt.Key.Key_Escape, self, self._escape)
         for n in range(self.pages.count()):
             QShortcut(QKeySequence(f"Ctrl+{n + 1}"), self, lambda n=n: self.pages.setCurrentRow(n))
-        workspace.closed.connect(self.close)
+        self._file_is_closed = False
+        workspace.closed.connect(self._follow_file)
         self._show(self.file_target)
 
     def _button(self, text: str, act: Callable[[], object], icon_name: str) -> QPushButton:
@@ -282,11 +283,16 @@ class TuningWindow(QWidget):
         else:
             self.close()
 
+    def _follow_file(self) -> None:
+        """Close with the file: nobody can stay on it."""
+        self._file_is_closed = True
+        self.close()
+
     # -- the end -------------------------------------------------------------------
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Offer the old values back before the control is left with others."""
-        if self.control is not None and not self._may_leave(self.control):
+        if self.control is not None and not self._may_leave(self.control) and not self._file_is_closed:
             event.ignore()
             return
         if self.control is not None:

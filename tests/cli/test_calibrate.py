@@ -174,3 +174,23 @@ def test_a_circle_of_a_ball_bar_needs_to_know_which_axis(amp, mill: Path, tmp_pa
     )
     assert [change["param"] for change in said.json["changes"]] == ["1340"]
     assert "residual" not in said.json
+
+
+def test_a_table_that_cannot_be_used_is_named_deleted_or_replaced(amp, mill: Path, laser: Path) -> None:
+    assert amp("set", mill, "calibration.table@X=deviation - mm 0:0 100:9").code == 0
+    assert "PARAMETER OUT OF RANGE" in amp("calibrate", mill, "--axis", "X").err
+    measured = ("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "measured-target")
+    assert "cannot be used" in amp(*measured, "--compensation", "on").err
+    assert amp(*measured, "--compensation", "off", "--dry-run").code == 0
+    assert amp("calibrate", mill, "--axis", "X", "--clear").code == 0
+    assert table(amp, mill) is None
+
+
+def test_a_point_measured_with_the_calibration_on_is_added_to_what_the_table_takes_away(
+    amp, mill: Path
+) -> None:
+    first = ("--input", "deviation", "--start", "negative", "--insert", "0=0", "--insert", "100=0.004")
+    assert amp("calibrate", mill, "--axis", "X", *first).code == 0
+    assert amp("calibrate", mill, "--axis", "X", "--compensation", "on", "--insert", "50=0.001").code == 0
+    assert amp("calibrate", mill, "--axis", "X", "--compensation", "on", "--replace", "100=0.001").code == 0
+    assert [p["figure"] for p in table(amp, mill)["points"]] == [0, 0.003, 0.005]
