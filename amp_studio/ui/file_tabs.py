@@ -15,6 +15,10 @@ from .tab_end import TabEnd
 _RIGHT = QTabBar.ButtonPosition.RightSide
 
 
+_LONGEST_NAME = 28
+"""Characters of a name that a tab shows."""
+
+
 class FileTabs(QSplitter):
     """Two rows of tabs, of which the second is there only while it has a file. One page of all is in front: the current one."""
 
@@ -36,7 +40,7 @@ class FileTabs(QSplitter):
         side = QTabWidget()
         side.setDocumentMode(True)
         side.setMovable(True)
-        side.setElideMode(Qt.TextElideMode.ElideMiddle)
+        side.setElideMode(Qt.TextElideMode.ElideNone)  # Qt would leave nothing of a name; the row scrolls
         side.setUsesScrollButtons(True)
         side.setAccessibleName(name)
         bar = side.tabBar()
@@ -91,7 +95,7 @@ class FileTabs(QSplitter):
         """Update the name on a tab."""
         side = self._side_of(page)
         place = side.indexOf(page)
-        name, bar = page.workspace.path.stem, side.tabBar()
+        name, bar = _short(page.workspace.path.stem), side.tabBar()
         if side.tabText(place) != name.replace("&", "&&"):
             side.setTabText(place, name.replace("&", "&&"))
         family = page.workspace.file.schema.family
@@ -182,6 +186,13 @@ class FileTabs(QSplitter):
         for other in self.pages():
             if other is not page:
                 self.close_wanted.emit(other)
+
+
+def _short(name: str) -> str:
+    """Return a name that a tab has room for."""
+    return (
+        name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME // 2]}…{name[-_LONGEST_NAME // 2 :]}"
+    )
 
 
 def _pages(side: QTabWidget) -> Iterator[FilePage]:

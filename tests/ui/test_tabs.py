@@ -276,3 +276,21 @@ def test_five_families_on_two_sides_are_there_again_after_a_restart(
     assert all(p.table_view.width() >= 300 for p in again.tabs.pages() if p.isVisible())
     again.close()
     again.deleteLater()
+
+
+def test_the_name_on_a_tab_is_read_however_many_there_are(
+    window: MainWindow, path: Path, tmp_path: Path
+) -> None:
+    long = tmp_path / "a_machine_with_a_name_that_is_longer_than_a_tab.amp"
+    long.write_bytes(path.read_bytes())
+    for n in range(4):
+        copy = tmp_path / f"machine_{n}.amp"
+        copy.write_bytes(path.read_bytes())
+        window.files.open_path(copy)
+    window.files.open_path(long)
+    bar = window.tabs.sides[0].tabBar()
+    texts = [bar.tabText(n) for n in range(bar.count())]
+    assert texts[:2] == ["mill", "machine_0"]
+    assert texts[-1] == "a_machine_with…nger_than_a_tab"[:15] + "onger_than_a_tab"[-14:]
+    for n in range(bar.count()):
+        assert bar.tabRect(n).width() >= bar.fontMetrics().horizontalAdvance(bar.tabText(n))
