@@ -23,6 +23,7 @@ import exchange
 import find
 import grid
 import machine
+import many_files
 import rules
 import screen
 import sim
@@ -61,6 +62,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from grid.measures(folder, times)
     yield from comparing.measures(folder, times)
     yield from drag.measures(folder, times)
+    yield from many_files.measures(folder, full, times)
     yield from exchange.measures(folder, full, example, max(1, times // 3))
 
 

@@ -28,6 +28,8 @@ TARGETS = {
     "first paint of the desktop program, cold process",
     "load the schema from its cache",
     "the loaded schema in memory",
+    "memory with five families open in one window",
+    "full file open in a window, painted",
     "keystroke in the find box, painted",
     "index of 9pc",
     "a question, every keystroke of it",
