@@ -85,6 +85,10 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
     lines += _section("Formulas", formula_lines(schema, parameter))
     lines += _section("Commissioning", _commissioning(schema, parameter))
     lines += _section("Guides", _steps(schema, parameter))
+    messages = schema.messages_of(parameter.id)
+    lines += _section(
+        "Messages of the control", (f"{m.name} (page {', '.join(m.every_page)})" for m in messages)
+    )
     for table in tables_of(schema, parameter):
         lines += [
             f"{table.title} (page {table.page})",

@@ -71,6 +71,10 @@ class Schema:
         """What the controls of the family show, by id."""
         return {message.id: message for listed in self.message_lists for message in listed.messages}
 
+    def messages_of(self, parameter_id: str) -> tuple[ControlMessage, ...]:
+        """Return the messages that point to a parameter, in the manual's order."""
+        return tuple(message for message in self.messages.values() if parameter_id in message.params)
+
     # -- words -----------------------------------------------------------------
 
     def parameter(self, parameter_id: str) -> Parameter:

@@ -20,8 +20,9 @@ from .pages import drawn, link
 from .theme import colour, icon_html, severity_html
 from .workspace import Workspace
 
-USE, FOLD, DOWNLOAD, CALCULATE = "use:", "fold:", "download:", "calculate:"
-"""What a link begins with that is no parameter: take a calculated value, open a section, read the last download, calculate."""
+USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calculate:", "message:"
+"""What a link begins with that is no parameter: take a calculated value, open a section, read the last download, calculate,
+show a message of the control."""
 
 
 def tr(text: str) -> str:
@@ -168,6 +169,9 @@ class DetailPage:
             related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
             body = ", ".join(related) if title == "Related" else html.escape(text)
             lines.append(f"<p><b>{title}</b><br>{body}</p>")
+        if messages := schema.messages_of(parameter.id):
+            names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
+            lines.append(f"<p><b>{tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
         if formulas := formula_lines(schema, parameter):
             lines.append(
                 f"<p><b>{tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)

@@ -11,7 +11,7 @@ from amp_studio.files import axis_letter, real_path, shown_axes
 from amp_studio.schema import Address, Value, convert, limits
 from amp_studio.validate import NOT_SET, SEVERITIES
 
-from .detail_page import CALCULATE, DOWNLOAD, FOLD, USE, DetailPage
+from .detail_page import CALCULATE, DOWNLOAD, FOLD, MESSAGE, USE, DetailPage
 from .pages import LINK
 from .range_bar import RangeBar, ValueInRange
 from .segment import Segment
@@ -33,6 +33,8 @@ class DetailPanel(QWidget):
     """A parameter id that was clicked."""
     axis_wanted = Signal(object)
     """The same parameter of another axis is to be selected."""
+    message_wanted = Signal(str)
+    """The id of a message of the control that was clicked."""
     calculator_wanted = Signal()
     """The formulas of the parameter are to be opened."""
 
@@ -194,6 +196,8 @@ class DetailPanel(QWidget):
             self._show()
         elif text.startswith(CALCULATE):
             self.calculator_wanted.emit()
+        elif text.startswith(MESSAGE):
+            self.message_wanted.emit(text.removeprefix(MESSAGE))
         elif text.startswith(USE) and address is not None:
             self._use(address, int(text.removeprefix(USE)))
         elif text.startswith(DOWNLOAD) and address is not None:

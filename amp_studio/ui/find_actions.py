@@ -55,6 +55,7 @@ class FindActions:
         finder = self._finders[page] = Finder(file.schema, file.machine, file)
         page.workspace.changed.connect(lambda *_: self._changed(page, finder))
         page.destroyed.connect(lambda: self._finders.pop(page, None))
+        page.detail.message_wanted.connect(lambda message: MessageWindow(page, message).show())
         self._index(file.schema, file.machine)
 
     def _changed(self, page: FilePage, finder: Finder) -> None:

@@ -132,3 +132,10 @@ def test_a_closed_file_is_forgotten(window: MainWindow, box: FindBox, qtbot) -> 
     qtbot.waitUntil(lambda: not window.finder._finders, timeout=WAIT_MS)
     box.begin("home")
     assert "Parameters" not in heads(box)
+
+
+def test_the_panel_of_a_parameter_leads_to_the_messages_that_name_it(window: MainWindow) -> None:
+    window.go_to(("servo.excess_error", "1"))
+    assert "EXCESS FOLLOWING ERROR" in window.detail.page.toPlainText()
+    window.detail.page.anchorClicked.emit(QUrl("message:excess-following-error"))
+    assert window.findChild(MessageWindow).windowTitle() == "EXCESS FOLLOWING ERROR"
