@@ -10,16 +10,16 @@ from amp_studio.schema import Address, Value, convert, dimension
 from .figures import multiple
 from .scene import Drag, Handle, Point
 
-Wanted = Mapping[Address, Value]
+WantedValues = Mapping[Address, Value]
 
 
-def dragged(handle: Handle, at: Point) -> Wanted:
+def dragged(handle: Handle, at: Point) -> WantedValues:
     """Return the values of a handle that is at a world point; a value that has none there is left out."""
     found = {drag.address: drag.value_at(at[0] if drag.along == "x" else at[1]) for drag in handle.drags}
     return {address: value for address, value in found.items() if value is not None}
 
 
-def stepped(file: ParameterFile, handle: Handle, right: int, up: int, times: int = 1) -> Wanted:
+def stepped(file: ParameterFile, handle: Handle, right: int, up: int, times: int = 1) -> WantedValues:
     """Return the values of a handle that keys move so many steps to the right and up; one value follows all four keys."""
     found = {}
     for drag in handle.drags:

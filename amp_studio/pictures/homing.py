@@ -20,7 +20,7 @@ ALONG: tuple[Literal["x", "y"], ...] = ("x", "y")
 
 
 @dataclass
-class Drawing:
+class TravelShapes:
     """The shapes of a picture while it is drawn."""
 
     areas: list[FilledArea] = field(default_factory=list)
@@ -82,7 +82,7 @@ def _directions(figures: ValueReader, role: HomePlace, axis: str, file: Paramete
 
 def draw_rail(
     figures: ValueReader,
-    drawing: Drawing,
+    drawing: TravelShapes,
     n: int,
     travel: tuple[float, float],
     home: Home,
@@ -178,7 +178,7 @@ def draw_rail(
 
 
 def draw_home(
-    figures: ValueReader, drawing: Drawing, homes: list[Home], views: list[tuple[float, float]]
+    figures: ValueReader, drawing: TravelShapes, homes: list[Home], views: list[tuple[float, float]]
 ) -> None:
     """Draw the home position of both axes as one cross."""
     if len(homes) != 2 or any(home.place is None for home in homes):

@@ -10,7 +10,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema.model import ReachRole, SpanRole, TravelRoles, ZoneRole
 
 from .figures import DrawnValue, ValueReader
-from .homing import MARGIN, Drawing, Home, draw_home, draw_rail, letters, read_home
+from .homing import MARGIN, Home, TravelShapes, draw_home, draw_rail, letters, read_home
 from .parts import part_name
 from .scene import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 
@@ -57,7 +57,7 @@ def draw_travel(
 
 
 def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None) -> Scene:
-    figures, drawing = ValueReader(file), Drawing()
+    figures, drawing = ValueReader(file), TravelShapes()
     travels = [[_span(figures, span, axis) for axis in axes] for span in roles.spans]
     if roles.reach:
         travels.append([_reach(figures, roles, axis, file) for axis in axes])
@@ -200,7 +200,7 @@ def _shown_edges(ends: _Ends, view: tuple[float, float]) -> tuple[float, float]:
 
 def _draw_box(
     figures: ValueReader,
-    drawing: Drawing,
+    drawing: TravelShapes,
     row: list[_Ends],
     views: list[tuple[float, float]],
     sort: ShapeSort,
@@ -250,7 +250,7 @@ def _edge_drag(
 
 def _draw_zone(
     figures: ValueReader,
-    drawing: Drawing,
+    drawing: TravelShapes,
     zone: ZoneRole,
     box: list[_Ends],
     views: list[tuple[float, float]],
@@ -294,7 +294,7 @@ def _side(figures: ValueReader, zone: ZoneRole) -> str:
 
 def _name_travel(
     figures: ValueReader,
-    drawing: Drawing,
+    drawing: TravelShapes,
     name: str,
     row: list[_Ends],
     axes: tuple[str, ...],

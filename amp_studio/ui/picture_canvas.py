@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QPointF, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from amp_studio.files import RangeError
@@ -24,7 +24,7 @@ REACH = 12.0
 ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
 
 DrawScene = Callable[[Scene | None], Scene]
-"""Draws the scene anew, in the scales of another one while a handle is dragged."""
+"""Draws the scene again, in the scales of another one while a handle is dragged."""
 
 
 class HandleSpot(QWidget):
@@ -106,6 +106,11 @@ class PictureCanvas(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         return QSize(220, 150)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Give the old values back where the picture goes while a handle is dragged."""
+        self.end_drag(cancel=True)
+        super().hideEvent(event)
 
     # -- what is shown -----------------------------------------------------------
 
@@ -199,7 +204,7 @@ class PictureCanvas(QWidget):
             paint_tag(painter, self.place, chosen.at, self.tag(chosen))
 
     def tag(self, handle: Handle) -> Tag:
-        """Return what is said beside a handle: its value, and while it is dragged the old one and what is wrong."""
+        """Return what is shown beside a handle: its value, and while it is dragged the old one and what is wrong."""
         finding, old = self._finding(handle, self._about), ""
         if self._drag is not None and self._start is not None and self._active is not None:
             before = self._start.handles[self._active].value

@@ -167,7 +167,7 @@ class ScenePainter:
         box = QRectF(left, at.y() + dy - self._measure.ascent(), width, height)
         box = self._kept_inside(box)
         if not text.value and any(taken.intersects(box) for taken in self._taken):
-            return  # a figure that the handle beside it tells as well
+            return  # a figure that the handle beside it has as well
         box = self._free(box)
         self._taken.append(box)
         if text.address is not None:

@@ -35,7 +35,7 @@ from amp_studio.schema import (
 
 from .picture_canvas import PictureCanvas
 from .segment import Segment
-from .theme import CONTROL, GAP2, GAP3, HEAD, colour, font, icon
+from .theme import CONTROL, GAP2, GAP3, HEAD, colour, font, icon, scheme
 from .workspace import Workspace
 
 ALL = "all"
@@ -92,6 +92,7 @@ class PictureCard(QFrame):
         layout.addWidget(self.canvas, 1)
         layout.addWidget(self.notes)
         self.canvas.parameter_wanted.connect(self.parameter_wanted)
+        scheme().changed.connect(self.show_notes)
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self.follow(picture)
 
@@ -352,6 +353,8 @@ class HandleFooter(QFrame):
         for label in (self.more, self.keys):
             label.setFont(font("small"))
             label.setForegroundRole(QPalette.ColorRole.PlaceholderText)
+        for label in (self.name, self.more, self.keys):
+            label.setMinimumWidth(1)  # a long name never widens the page
         row = QHBoxLayout(self)
         row.setContentsMargins(GAP3, 4, GAP3, 4)
         row.setSpacing(GAP3)

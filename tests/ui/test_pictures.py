@@ -99,6 +99,36 @@ def test_esc_during_a_drag_gives_the_old_value_back(window, pictures, file, whol
     assert whole() == before
 
 
+def test_no_other_key_works_during_a_drag(window, pictures, file):
+    """An undo in the middle would take a step back under the moving value."""
+    window.workspace.edit("elsewhere", {LOW: Value(-280.0, "mm")})
+    canvas = pictures.chosen_card.canvas
+    press(canvas, RIGHT)
+    QTest.mouseMove(canvas, at(canvas, -120.0, -200.0))
+    QTest.keyClick(canvas, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert (file.get(LOW), window.workspace.undo_stack.index()) == (Value(-280.0, "mm"), 1)
+    QTest.keyClick(canvas, Qt.Key.Key_Escape)
+
+
+def test_a_picture_that_goes_during_a_drag_gives_the_old_value_back(window, pictures, file, whole):
+    before, canvas = whole(), pictures.chosen_card.canvas
+    press(canvas, RIGHT)
+    QTest.mouseMove(canvas, at(canvas, -120.0, -200.0))
+    window.go_to(RIGHT)
+    assert whole() == before
+    assert not canvas.is_dragging
+
+
+def test_a_file_out_of_range_on_purpose_keeps_its_mark_when_a_drag_is_given_up(window, pictures, file):
+    window.workspace.edit("forced", {RIGHT: Value(-400.0, "mm")}, force="by a test")
+    canvas = pictures.chosen_card.canvas
+    press(canvas, RIGHT)
+    QTest.mouseMove(canvas, at(canvas, -120.0, -200.0))
+    assert RIGHT not in file.forced
+    QTest.keyClick(canvas, Qt.Key.Key_Escape)
+    assert (file.get(RIGHT), file.forced) == (Value(-400.0, "mm"), {RIGHT: "by a test"})
+
+
 def test_beyond_the_allowed_range_the_value_stays_and_the_tag_says_why(pictures, file):
     """Page 6-8: the larger end stays above the smaller one."""
     canvas = pictures.chosen_card.canvas
