@@ -153,15 +153,16 @@ class ResultBar(QFrame):
         self.mark, self.summary, self.found = QLabel(), QLabel(), QToolButton()
         self.found.setCheckable(True)
         self.found.toggled.connect(findings.setVisible)
+        self.report = QPushButton(icon("printer"), self.tr("&Report…"))
         self.save, self.merge = QPushButton(self.tr("Save Result A&s…")), QPushButton()
         self.merge.setProperty("primary", True)
-        for button in (self.save, self.merge):
+        for button in (self.report, self.save, self.merge):
             button.setAutoDefault(False)
         for widget in (self.mark, self.summary, self.found):
             row.addWidget(widget)
         row.addStretch()
-        row.addWidget(self.save)
-        row.addWidget(self.merge)
+        for button in (self.report, self.save, self.merge):
+            row.addWidget(button)
 
     def show_counts(self, left: int, changes: int) -> None:
         """Show how many conflicts are left and how many values change."""

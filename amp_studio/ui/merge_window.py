@@ -20,6 +20,7 @@ from .merge_bars import FindingList, ReadingBar, ResultBar, ViewBar
 from .merge_detail import MergeDetail
 from .merge_header import MergeHeader
 from .merge_model import BASE, A, B, Filter, MergeModel
+from .merge_report import save_merge_report
 from .merge_sources import MergeSource, MergeSources, Offer, ReadSource, is_same_content
 from .merge_tree import MergeTree
 from .message_bar import MessageBar
@@ -52,7 +53,7 @@ class MergeWindow(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowFlag(Qt.WindowType.WindowMaximizeButtonHint)
         self.setWindowTitle(self.tr("Compare and Merge: {file}").format(file=workspace.path.name))
-        self.workspace, self.sources, self._save_result = workspace, sources, save_result
+        self.workspace, self.sources = workspace, sources
         sources.setParent(self)
         first = sources.now()
         self.chosen: dict[int, MergeSource] = {A: first, B: first}
@@ -70,7 +71,7 @@ class MergeWindow(QDialog):
         self._follow = self._timer(_LIVE_MS, self._read_again)
         self._update = self._timer(0, self._after_choice)
         self._patience = self._timer(PATIENCE_MS, self.reading.show)
-        self._connect()
+        self._connect(save_result)
         self.resize(1180, 740)
         self._show_sources()
 
@@ -93,7 +94,7 @@ class MergeWindow(QDialog):
         self.tree.setStyleSheet("QTreeView { border: 0 }")
         self.tree.setFocus()
 
-    def _connect(self) -> None:
+    def _connect(self, save_result: SaveResult) -> None:
         view, tree, sources = self.view, self.tree, self.sources
         view.two.clicked.connect(lambda: self.use_base(None))
         view.three.clicked.connect(
@@ -115,7 +116,8 @@ class MergeWindow(QDialog):
         self.model.chosen.connect(self._count)
         self.model.chosen.connect(self._update.start)
         self.findings.itemActivated.connect(self._show_finding)
-        self.outcome.save.clicked.connect(self.save_result)
+        self.outcome.save.clicked.connect(lambda: save_result(self.merge.result()))
+        self.outcome.report.clicked.connect(self.report)
         self.outcome.merge.clicked.connect(self.merge_into)
         self.workspace.changed.connect(self._edited)
         self.workspace.closed.connect(self.close)
@@ -352,7 +354,7 @@ class MergeWindow(QDialog):
         if errors and not self._warned:
             self._warned = True
             self.outcome.found.setChecked(True)
-            self._after_choice()
+            self._count()
             return
         column = self._target_column()
         merge, other = self.merge, self.chosen[A if column == B else B].title
@@ -364,9 +366,9 @@ class MergeWindow(QDialog):
         self.merged.emit(other, len(dict.fromkeys(changed)))
         self.close()
 
-    def save_result(self) -> None:
-        """Save the result as a new file."""
-        self._save_result(self.merge.result())
+    def report(self) -> None:
+        """Write the comparison as a paper."""
+        save_merge_report(self, self.merge, self.chosen, self.workspace.path, self.message)
 
     # -- what is shown -------------------------------------------------------------------------
 

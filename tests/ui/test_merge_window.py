@@ -301,6 +301,15 @@ def test_the_result_is_saved_as_a_new_file_and_the_open_one_stays(
     assert mine.file.get(EXCESS) == Value(12.0, "mm")
 
 
+def test_the_comparison_is_written_as_a_report(three: MergeWindow, person: Person, tmp_path: Path) -> None:
+    person.chooses(tmp_path / "comparison.csv")
+    three.outcome.report.click()
+    written = (tmp_path / "comparison.csv").read_text("utf-8-sig")
+    assert "not settled" in written
+    assert "Rapid Feedrate for Positioning" in written
+    assert three.message.text.text() == "comparison.csv written."
+
+
 def test_two_sources_of_which_none_is_the_open_file_are_not_merged_into_it(shown: MergeWindow) -> None:
     other = shown.merge.a.copy()
     other.set(EXCESS, Value(3.0, "mm"))

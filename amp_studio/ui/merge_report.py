@@ -1,0 +1,51 @@
+"""Asks where the paper of a comparison goes, and writes it in a thread."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from amp_studio.files import Merge, check_output
+from amp_studio.files.merging import Side
+
+from .merge_model import SIDES
+from .merge_sources import MergeSource
+from .message_bar import MessageBar
+from .task import in_background
+
+_KINDS = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv)"
+
+
+def save_merge_report(
+    window: QWidget, merge: Merge, chosen: Mapping[int, MergeSource], beside: Path, bar: MessageBar
+) -> None:
+    """Write a comparison as a paper; shows where it is, or the error. ``beside`` is the file that is compared."""
+    title = QCoreApplication.translate("MergeReport", "Report of the comparison")
+    near = beside.with_name(f"{beside.stem}-comparison.pdf")
+    text, kind = QFileDialog.getSaveFileName(window, title, str(near), _KINDS)
+    if not text:
+        return
+    path = Path(text)
+    path = path if path.suffix else path.with_suffix(kind[kind.index("*") + 1 : -1])
+    names: dict[Side, str] = {
+        SIDES[column]: f"{source.title}, {source.note}" if source.note else source.title
+        for column, source in sorted(chosen.items())
+    }
+    try:
+        check_output(path, beside)
+        in_background(window, title, lambda: _write(merge, names, path))
+    except (OSError, ValueError) as error:
+        bar.say(str(error), "error")
+        return
+    written = QCoreApplication.translate("MergeReport", "{file} written.")
+    bar.say(written.format(file=path.name))
+
+
+def _write(merge: Merge, names: Mapping[Side, str], path: Path) -> None:
+    from amp_studio.report.merge_paper import merge_paper
+    from amp_studio.report.paper import write_paper
+
+    write_paper(merge_paper(merge, names), path)
