@@ -129,9 +129,9 @@ class TuningWindow(QWidget):
     def _arrange(self) -> None:
         bar = QHBoxLayout()
         bar.setContentsMargins(GAP2, GAP2, GAP2, 0)
-        for widget in (self.switch, self.state):
-            bar.addWidget(widget)
-        bar.addStretch()
+        self.state.setWordWrap(True)
+        bar.addWidget(self.switch)
+        bar.addWidget(self.state, 1)
         for button in (self.send, self.look, self.put_back, self.take):
             bar.addWidget(button)
         self.pages.setFixedWidth(_LIST_WIDTH)
@@ -169,7 +169,8 @@ class TuningWindow(QWidget):
         known, changed = control.may_edit, control.differences()
         self.send.setVisible(not control.live.is_live)
         self.send.setEnabled(known and control.waiting > 0)
-        self.send.setText(self.tr("Do&wnload %n Values", "", control.waiting))
+        one, several = self.tr("Do&wnload 1 Value"), self.tr("Do&wnload {count} Values")
+        self.send.setText(one if control.waiting == 1 else several.format(count=control.waiting))
         self.look.setVisible(not known)
         self.put_back.setEnabled(known and (changed > 0 or control.waiting > 0))
         self.take.setEnabled(known and changed > 0 and self.file_target.may_edit)
@@ -177,11 +178,11 @@ class TuningWindow(QWidget):
             text = self.tr("It is not known what the control contains.")
         elif control.live.is_live:
             text = self.tr(
-                "Each change goes into the control at once; %n values changed. The file stays.", "", changed
+                "Each change goes into the control at once. Changed: %n. The file stays.", "", changed
             )
         else:
             text = self.tr(
-                "This control takes all values together, in E-stop; %n changed. The file stays.", "", changed
+                "This control takes all values together, in E-stop. Changed: %n. The file stays.", "", changed
             )
         self.state.setText(text)
 
@@ -275,7 +276,7 @@ class TuningWindow(QWidget):
         known = self.file_target.file.schema.parameters
         values = {d.address: d.b for d in changes if d.address[0] in known}
         self._workspace.edit(self.tr("Take from control"), values)
-        self.message.say(self.tr("%n values taken into the file, which is not saved yet.", "", len(values)))
+        self.message.say(self.tr("Values taken into the file, which is not saved yet: %n.", "", len(values)))
 
     def _escape(self) -> None:
         if self.message.isVisible():
@@ -308,9 +309,9 @@ class TuningWindow(QWidget):
         changed, waiting = control.differences(), control.waiting
         if not changed and not waiting:
             return True
-        kept = self.tr("%n values of the control differ from when it was connected. The file does not contain them unless you "
-                       "took them.", "", changed)  # fmt: skip
-        lost = self.tr("%n values were not downloaded and will be forgotten.", "", waiting)
+        kept = self.tr("Values of the control that differ from when it was connected: %n. The file has them only if you took them.",
+                       "", changed)  # fmt: skip
+        lost = self.tr("Values that were not downloaded and will be forgotten: %n.", "", waiting)
         text = "\n".join(part for part, count in ((kept, changed), (lost, waiting)) if count)
         back, keep = self.tr("Put the Old Values &Back"), self.tr("&Keep Them in the Control")
         if not changed:

@@ -235,7 +235,7 @@ def test_a_live_value_goes_into_the_control_at_once_and_not_into_the_file(live, 
     values.table.item(values.table.currentRow(), 2).setText("25")
     assert sent(bench) == ["$120=25.000"]
     assert "read back equal" in tuning.message.text.text()
-    assert "1 value" in tuning.state.text()
+    assert "Changed: 1." in tuning.state.text()
     assert not router.is_dirty
     tuning.undo_action.trigger()
     assert sent(bench) == ["$120=25.000", "$120=10.000"]
@@ -283,6 +283,7 @@ def test_a_control_that_takes_everything_at_once_gets_the_values_together(
     tuning._connect = start_house
     tuning.switch.buttons["control"].click()
     tuning.guarded(lambda: tuning.target.set("Tune", {REVERSAL: Value(0.004, "mm")}))
+    assert tuning.send.text() == "Do&wnload 1 Value"
     tuning.guarded(lambda: tuning.target.set("Tune", {TABLE: Value("deviation - mm 0:0 100:0.004")}))
     assert tuning.send.text() == "Do&wnload 2 Values"
     tuning.send.click()
@@ -341,3 +342,11 @@ def test_a_family_whose_manual_tunes_nothing_names_that(open_window, person: Per
     window = open_window(path)
     action(window, "Tuning").trigger()
     assert "tuned on line" in person.reads()
+
+
+def test_the_window_fits_a_small_screen_with_a_control_too(live) -> None:
+    tuning, _ = live
+    for n in range(tuning.pages.count()):
+        tuning.pages.setCurrentRow(n)
+        hint = tuning.minimumSizeHint()
+        assert (hint.width() <= 1000, hint.height() <= 660) == (True, True), tuning.pages.item(n).text()
