@@ -6,9 +6,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from PySide6.QtCore import QRect, Qt
-from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QFontMetrics, QKeyEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QWidget
 
+from .mask_list import MaskList
 from .theme import GAP2, SMALL_ICON, colour, font, severity_icon
 
 _WIDEST = 540
@@ -44,6 +45,8 @@ class CellEditor(QLineEdit):
         self.keys: tuple[tuple[str, str], ...] = ()
         """Keys that help with a refused text, and what each does."""
         self._frame: RefusalFrame | None = None
+        self.bits: MaskList | None = None
+        """The bits of a word, below its field."""
         self.textEdited.connect(self._look)
 
     def _look(self, text: str) -> None:
@@ -59,6 +62,8 @@ class CellEditor(QLineEdit):
         if refusal is None:
             if self._frame is not None:
                 self._frame.hide()
+            if self.bits is not None:
+                self.bits.show()
         else:
             view = self.parentWidget().parentWidget()
             assert isinstance(view, QWidget)
@@ -67,9 +72,42 @@ class CellEditor(QLineEdit):
                 self.destroyed.connect(self._frame.deleteLater)
             keys = [k for k in self.keys if refusal.can_force or not k[0].startswith("Ctrl+Shift")]
             self._frame.fill(refusal, keys)
-            self._frame.place_below(QRect(self.mapTo(view, self.rect().topLeft()), self.size()))
+            below = QRect(self.mapTo(view, self.rect().topLeft()), self.size())
+            self._frame.place_below(below)
+            if self.bits is not None:
+                self.bits.hide()
             self.setAccessibleDescription(f"{refusal.problem}. {refusal.allowed}")
         self.update()
+
+    def attach(
+        self, mask: MaskList, word_of: Callable[[str], int | None], text_of: Callable[[int], str]
+    ) -> None:
+        """Show the bits of the word below; they and the text follow each other."""
+        self.bits = mask
+        self.destroyed.connect(mask.deleteLater)
+
+        def follow(text: str) -> None:
+            word = word_of(text)
+            if word is not None:
+                mask.show_word(word)
+
+        def take(word: int) -> None:
+            self.setText(text_of(word))
+            self._look(self.text())
+
+        follow(self.text())
+        self.textEdited.connect(follow)
+        mask.changed.connect(take)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Up and Down go through the bits of a word, Space checks one."""
+        steps = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
+        if self.bits is not None and event.key() in steps:
+            self.bits.go(steps[Qt.Key(event.key())])
+        elif self.bits is not None and event.key() == Qt.Key.Key_Space and self.bits.has_current:
+            self.bits.toggle_current()
+        else:
+            super().keyPressEvent(event)
 
     @property
     def refusal_text(self) -> str:
@@ -82,7 +120,9 @@ class CellEditor(QLineEdit):
         return self._result
 
     def close_frame(self) -> None:
-        """Take the frame away with the editor."""
+        """Take the frame and the list away with the editor."""
+        if self.bits is not None:
+            self.bits.hide()
         if self._frame is not None:
             self._frame.deleteLater()
             self._frame = None

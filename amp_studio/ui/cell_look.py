@@ -9,8 +9,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
+from PySide6.QtCore import QCoreApplication
+
 from amp_studio.files import unlike_axes
+from amp_studio.files.local_time import with_days_and_times
 from amp_studio.files.notes import value_note
+from amp_studio.report.wording import state_name
 from amp_studio.schema import Address, UnitError, Value, convert, show_value, shown, write_value
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET
@@ -46,6 +50,10 @@ class CellLook:
     severity: str = ""
     """Of the worst finding that it causes."""
     has_note: bool = False
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("ParameterTable", text)
 
 
 @lru_cache(maxsize=2_000)
@@ -127,6 +135,32 @@ class ShownValues:
             return ""
         parameter = self.workspace.file.schema.parameters[address[0]]
         return write_value(parameter, self.in_units(address, self.workspace.file.get(address)))
+
+    def tip(self, address: Address) -> str:
+        """Return what a cell means beyond its value: findings, why it is inactive, what the control uses instead."""
+        file = self.workspace.file
+        if not self.exists(address):
+            return _tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
+        state = file.evaluation.state(address)
+        lines = [self.text(address, file.get(address))]
+        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
+        if not state.is_active:
+            page = f" (page {state.page})" if state.page else ""
+            lines.append(f"{state_name(state.state).capitalize()}: {state.why}{page}")
+        if address in self.effective:
+            used = self.text(address, self.effective[address])
+            lines.append(_tr("Effective value in the control: {value}").format(value=used))
+        if address in file.forced:
+            lines.append(_tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
+        if note := value_note(file, address):
+            lines.append(_tr("Note: {text}").format(text=note))
+        value, saved = file.get(address), self.workspace.document.saved.get(address)
+        if value != saved:
+            lines.append(_tr("Saved: {value}").format(value=self.text(address, saved)))
+        if value is not None and self.in_units(address, value) != value:
+            entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
+            lines.append(_tr("Entered as {value}").format(value=entered))
+        return "\n".join(lines)
 
     # -- looks -----------------------------------------------------------------
 

@@ -180,7 +180,7 @@ class FilePage(QWidget):
         address, file = self.table_view.address(), self.workspace.file
         if address is None:
             return ""
-        if len(chosen := self.table_view.selected_addresses()) > 1:
+        if len(chosen := self.table_view.cells.addresses()) > 1:
             return self._range_text(chosen)
         place = file.machine_schema.instance_label(address)
         return "   ".join(text for text in (describe(file, address), place) if text)

@@ -13,12 +13,8 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
 
 from amp_studio.files import axis_head, shown_axes
-from amp_studio.files.local_time import with_days_and_times
-from amp_studio.files.notes import value_note
-from amp_studio.report.wording import state_name
-from amp_studio.schema import Address, Parameter, show_value
+from amp_studio.schema import Address, Parameter
 from amp_studio.schema.address import whole_of
-from amp_studio.validate import NOT_SET
 
 from .cell_look import CellLook, ShownValues
 from .workspace import Workspace
@@ -338,34 +334,8 @@ class ParameterTable(QAbstractTableModel):
             parameter = self.workspace.file.schema.parameters[address[0]]
             return _RIGHT if parameter.type in ("real", "integer", "format") else _LEFT
         if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleDescriptionRole):
-            return self._tip(address)
+            return self.values.tip(address)
         return None
-
-    def _tip(self, address: Address) -> str:
-        """Return what a cell means beyond its value: findings, why it is inactive, what the control uses instead."""
-        file, values = self.workspace.file, self.values
-        if not values.exists(address):
-            return self.tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
-        state = file.evaluation.state(address)
-        lines = [self.shown_value(address)]
-        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
-        if not state.is_active:
-            page = f" (page {state.page})" if state.page else ""
-            lines.append(f"{state_name(state.state).capitalize()}: {state.why}{page}")
-        if address in values.effective:
-            used = values.text(address, values.effective[address])
-            lines.append(self.tr("Effective value in the control: {value}").format(value=used))
-        if address in file.forced:
-            lines.append(self.tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
-        if note := value_note(file, address):
-            lines.append(self.tr("Note: {text}").format(text=note))
-        value, saved = file.get(address), self.workspace.document.saved.get(address)
-        if value != saved:
-            lines.append(self.tr("Saved: {value}").format(value=values.text(address, saved)))
-        if value is not None and values.in_units(address, value) != value:
-            entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
-            lines.append(self.tr("Entered as {value}").format(value=entered))
-        return "\n".join(lines)
 
     def flags(self, index: Index) -> Qt.ItemFlag:
         address = self.address_at(index.row(), index.column()) if index.isValid() else None

@@ -58,7 +58,7 @@ class RangeActions:
         return page
 
     def _selected(self) -> list[Address]:
-        found = self._page().table_view.selected_addresses()
+        found = self._page().table_view.cells.addresses()
         if not found:
             raise ValueError(tr("Select a value in the table first."))
         return found
@@ -67,13 +67,13 @@ class RangeActions:
 
     def copy(self) -> None:
         """Copy the selected values, exact and with their units."""
-        self._put(self._page().table_view.selected_block(), [])
+        self._put(self._page().table_view.cells.block(), [])
 
     def copy_with_names(self) -> None:
         """Copy the selected values with the numbers and names of parameters and the heads of the axes."""
         page = self._page()
         table, view = page.table, page.table_view
-        block = view.selected_block()
+        block = view.cells.block()
         places = [table.index_of(next(a for a in row if a)) for row in block if any(row)]
         if not places:
             raise ValueError(tr("Select a value in the table first."))
@@ -151,12 +151,12 @@ class RangeActions:
         view = self._page().table_view
         if [cell.strip() for cell in rows[0][:2]] == [tr("No."), tr("Parameter")] and len(rows[0]) > 2:
             return self._by_name(rows)
-        chosen = view.selected_block()
+        chosen = view.cells.block()
         height, width = len(rows), len(rows[0])
         if len(chosen) % height == 0 and len(chosen[0]) % width == 0 and chosen:
             block: AddressBlock = chosen  # the range is filled with the block, as often as it fits
         else:
-            block = view.block_from(height, width)
+            block = view.cells.block_from(height, width)
         found: dict[Address, str] = {}
         for r, row in enumerate(block):
             for c, address in enumerate(row):
@@ -195,11 +195,11 @@ class RangeActions:
 
     def fill_down(self) -> None:
         """Give every selected cell the value of the top one; a single row gets that of the row above."""
-        self._fill_lines(self._page().table_view.block_to_fill(down=True))
+        self._fill_lines(self._page().table_view.cells.block_to_fill(down=True))
 
     def fill_across(self) -> None:
         """Give every selected cell the value of the leftmost one; a single column gets that of the axis before it."""
-        block = self._page().table_view.block_to_fill(down=False)
+        block = self._page().table_view.cells.block_to_fill(down=False)
         self._fill_lines([list(column) for column in zip(*block, strict=True)])
 
     def _fill_lines(self, lines: AddressBlock) -> None:

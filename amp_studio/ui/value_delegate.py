@@ -10,6 +10,7 @@ from PySide6.QtCore import (
     QModelIndex,
     QObject,
     QPersistentModelIndex,
+    QRect,
     Qt,
     QTimer,
     Signal,
@@ -24,11 +25,22 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import Address, InvalidValueError, Limits, fault, limits, show_value, shown
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    Limits,
+    Value,
+    fault,
+    limits,
+    show_value,
+    shown,
+    write_value,
+)
 
 from .cell_editor import CellEditor, Preview, Refusal
 from .cell_painter import CellPainter
 from .choice_box import ChoiceBox
+from .mask_list import MaskList
 from .parameter_table import AddressRole, ParameterTable
 from .workspace import Workspace
 
@@ -111,7 +123,7 @@ class ValueDelegate(QStyledItemDelegate):
 
     def _keys(self, address: Address) -> tuple[tuple[str, str], ...]:
         view = self.parent()
-        count = len(view.selected_addresses()) if hasattr(view, "selected_addresses") else 1
+        count = len(view.cells.addresses()) if hasattr(view, "cells") else 1
         kept = "" if self._workspace.is_masked(address) else self._table.shown_value(address)
         keys = [
             ("Esc", self.tr("keep {value}").format(value=kept)),
@@ -172,7 +184,25 @@ class ValueDelegate(QStyledItemDelegate):
             QTimer.singleShot(0, editor, lambda: editor.show_refusal(refused[2]))
         else:
             editor.setText(str(index.data(Qt.ItemDataRole.EditRole) or ""))
+        self._show_bits(editor, index.data(AddressRole))
         editor.selectAll()
+
+    def _show_bits(self, editor: CellEditor, address: Address) -> None:
+        """Show the bits of a word below its editor."""
+        parameter, view = self._workspace.file.schema.parameters[address[0]], self.parent()
+        if not parameter.bits or not isinstance(view, QWidget):
+            return
+
+        def word_of(text: str) -> int | None:
+            try:
+                value = self._workspace.entered(address, text or "0").value
+            except InvalidValueError:
+                return None
+            return value.value if value is not None and isinstance(value.value, int) else None
+
+        mask = MaskList(parameter, view)
+        editor.attach(mask, word_of, lambda word: write_value(parameter, Value(word)))
+        QTimer.singleShot(0, editor, lambda: mask.place_below(_place_in(editor, view)))
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
         """Make a list as wide as its longest choice, and a field as wide as its text."""
@@ -219,3 +249,7 @@ class ValueDelegate(QStyledItemDelegate):
 
     def _last_refusal(self) -> Refusal | None:
         return self.refusal
+
+
+def _place_in(editor: QWidget, view: QWidget) -> QRect:
+    return QRect(editor.mapTo(view, editor.rect().topLeft()), editor.size())

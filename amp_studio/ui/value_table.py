@@ -23,6 +23,7 @@ from amp_studio.schema import Address, InvalidValueError, Parameter, shown
 
 from .cell_editor import CellEditor, Refusal
 from .parameter_table import CONTROL, AddressRole, ParameterTable
+from .selected_cells import SelectedCells
 from .table_heads import NUMBER, AxisHeads, Corner, RowHeads
 from .theme import font, scheme
 from .value_delegate import ValueDelegate, allowed_text
@@ -66,6 +67,7 @@ class ValueTable(QTableView):
         self.setHorizontalHeader(AxisHeads(model, self))
         self._corner = Corner(self)
         self.setModel(model)
+        self.cells = SelectedCells(self, model)
         self._delegate = ValueDelegate(model, self._commit, self)
         self._delegate.ended.connect(self._end_editing)
         self.setItemDelegate(self._delegate)
@@ -95,62 +97,6 @@ class ValueTable(QTableView):
         """Return the address of the current cell."""
         found: Address | None = self.currentIndex().data(AddressRole)
         return found
-
-    def selected_addresses(self) -> list[Address]:
-        """Return the addresses of the selected cells, row by row; those that do not exist are left out."""
-        return [address for row in self.selected_block() for address in row if address is not None]
-
-    def selected_block(self) -> list[list[Address | None]]:
-        """Return the selected cells as rows; None where a cell does not exist, without the heads of sections."""
-        ends = self._ends()
-        if ends is None:
-            return []
-        first, last = ends
-        rows = range(first.row(), last.row() + 1)
-        columns = range(first.column(), min(last.column(), len(self._table.columns) - 1) + 1)
-        return [[self._existing(r, c) for c in columns] for r in rows if not self._table.rows[r].section]
-
-    def block_from(self, rows: int, columns: int) -> list[list[Address | None]]:
-        """Return a block of cells that begins at the first selected one, as far as the table goes."""
-        ends = self._ends()
-        if ends is None:
-            return []
-        first = ends[0]
-        below = (r for r in range(first.row(), len(self._table.rows)) if not self._table.rows[r].section)
-        across = range(first.column(), min(first.column() + columns, len(self._table.columns)))
-        return [[self._existing(r, c) for c in across] for r, _ in zip(below, range(rows), strict=False)]
-
-    def block_to_fill(self, *, down: bool) -> list[list[Address | None]]:
-        """Return the selected cells with the line they are filled from: a single row gets the one above, a single column
-        the one before.
-        """
-        ends = self._ends()
-        if ends is None:
-            return []
-        first, last = ends
-        rows = [r for r in range(first.row(), last.row() + 1) if not self._table.rows[r].section]
-        columns = list(range(first.column(), min(last.column(), len(self._table.columns) - 1) + 1))
-        if down and len(rows) == 1:
-            above = (r for r in range(first.row() - 1, -1, -1) if not self._table.rows[r].section)
-            rows = [*([r] if (r := next(above, None)) is not None else []), *rows]
-        if not down and len(columns) == 1 and columns[0] > 0:
-            columns.insert(0, columns[0] - 1)
-        return [[self._existing(r, c) for c in columns] for r in rows]
-
-    def _existing(self, row: int, column: int) -> Address | None:
-        address = self._table.address_at(row, column)
-        return address if address is not None and self._table.values.exists(address) else None
-
-    def _ends(self) -> tuple[QModelIndex, QModelIndex] | None:
-        """Return the first and the last cell of the selected range, the current cell where there is none."""
-        selection = self.selectionModel().selection()
-        if selection.isEmpty():
-            here = self.currentIndex()
-            return (here, here) if here.isValid() else None
-        ranges = [selection.at(n) for n in range(selection.count())]
-        rows = [n for s in ranges for n in (s.top(), s.bottom())]
-        columns = [n for s in ranges for n in (s.left(), s.right())]
-        return self._table.index(min(rows), min(columns)), self._table.index(max(rows), max(columns))
 
     def _emit_selected(self, index: QModelIndex) -> None:
         address = index.data(AddressRole)
@@ -219,7 +165,7 @@ class ValueTable(QTableView):
 
     def _fill_typed(self, text: str) -> Refusal | None:
         """Set every selected cell from one typed text, all or none."""
-        refused = self._table.workspace.enter_all(dict.fromkeys(self.selected_addresses(), text))
+        refused = self._table.workspace.enter_all(dict.fromkeys(self.cells.addresses(), text))
         return Refusal("; ".join(refused[:3]) + (" …" if len(refused) > 3 else "")) if refused else None
 
     def closeEditor(self, editor: QWidget, hint: ValueDelegate.EndEditHint) -> None:
@@ -292,7 +238,7 @@ class ValueTable(QTableView):
             index = self._table.index_of(address)
             if index.isValid():
                 painter.outline(over, self.visualRect(index), self._table.outline_severity)
-        ends = self._ends()
+        ends = self.cells.ends()
         if ends is not None and ends[0] != ends[1]:
             handle = self._handle() if self._table.workspace.may_edit else QRect()
             painter.range_edge(over, self._place_of(*ends), handle)
@@ -309,7 +255,7 @@ class ValueTable(QTableView):
 
     def _handle(self) -> QRect:
         """Return the place of the fill handle."""
-        ends = self._ends()
+        ends = self.cells.ends()
         if ends is None:
             return QRect()
         corner = self._place_of(*ends).bottomRight()
@@ -328,7 +274,7 @@ class ValueTable(QTableView):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         is_handle = self._handle().adjusted(-5, -5, 5, 5).contains(event.position().toPoint())
         if event.button() == Qt.MouseButton.LeftButton and is_handle and self._table.workspace.may_edit:
-            self._filling = self._ends()
+            self._filling = self.cells.ends()
             return
         super().mousePressEvent(event)
 
@@ -353,17 +299,7 @@ class ValueTable(QTableView):
             super().mouseReleaseEvent(event)
             return
         (first, last), self._filling = self._filling, None
-        rows, columns = last.row() - first.row() + 1, last.column() - first.column() + 1
-        end = (self._ends() or (first, last))[1]
-        found: dict[Address, Address] = {}
-        for r in range(first.row(), end.row() + 1):
-            for c in range(first.column(), end.column() + 1):
-                target = self._existing(r, c)
-                source = self._existing(
-                    first.row() + (r - first.row()) % rows, first.column() + (c - first.column()) % columns
-                )
-                if target is not None and source is not None and target != source:
-                    found[target] = source
+        found = self.cells.repeated(first, last, (self.cells.ends() or (first, last))[1])
         if found:
             self.fill_wanted.emit(found)
 
@@ -377,7 +313,7 @@ class ValueTable(QTableView):
     def _before_reset(self) -> None:
         self._shown = self._table.asked
         self._top = self.verticalScrollBar().value()
-        self._chosen = self.selected_addresses()
+        self._chosen = self.cells.addresses()
 
     def _after_reset(self) -> None:
         """Show the new list; one that is the old one with other rows stays where it was, with what was selected."""

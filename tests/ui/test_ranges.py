@@ -52,7 +52,7 @@ def test_shift_and_arrows_select_a_range_and_the_status_bar_sums_it_up(window: M
     window.go_to((EXCESS, "1"))
     for _ in range(2):
         QTest.keyClick(window.table_view, KEY.Key_Right, SHIFT)
-    assert window.table_view.selected_addresses() == [(EXCESS, axis) for axis in "123"]
+    assert window.table_view.cells.addresses() == [(EXCESS, axis) for axis in "123"]
     assert window.page.address_text() == "3 cells   min 11 mm   max 11 mm"
 
 
@@ -72,13 +72,16 @@ def test_keys_pass_over_what_does_not_exist(window: MainWindow, file: ParameterF
 def test_ctrl_a_selects_all_values(window: MainWindow) -> None:
     window.go_to((EXCESS, "1"))
     QTest.keyClick(window.table_view, KEY.Key_A, Qt.KeyboardModifier.ControlModifier)
-    assert len(window.table_view.selected_block()) == window.table.count
+    assert len(window.table_view.cells.block()) == window.table.count
 
 
 def test_tab_leaves_the_table_behind_its_last_cell(window: MainWindow) -> None:
     view, table = window.table_view, window.table
     last = max(
-        (r, c) for r in range(table.rowCount()) for c in range(len(table.columns)) if view._existing(r, c)
+        (r, c)
+        for r in range(table.rowCount())
+        for c in range(len(table.columns))
+        if view.cells.existing(r, c)
     )
     view.setFocus()
     view.setCurrentIndex(table.index(*last))
@@ -322,3 +325,34 @@ def test_notes_are_in_the_parameter_panel(window: MainWindow, file: ParameterFil
     window.go_to((EXCESS, "1"))
     window.workspace.do("note", lambda: set_value_note(file, (EXCESS, "1"), "long <spindle>"))
     assert "long <spindle>" in window.detail.page.toPlainText()
+
+
+# -- masks -----------------------------------------------------------------------------
+
+
+def test_the_bits_of_a_word_are_checked_below_its_cell(open_window, checkout, tmp_path) -> None:
+    path = tmp_path / "num.amp"
+    path.write_bytes((checkout / "examples" / "num-1060-mill" / "MILL_1060.amp").read_bytes())
+    window = open_window(path)
+    file = window.workspace.file
+    address = file.find("P2N0")
+    window.go_to(address)
+    index = window.table.index_of(address)
+    assert window.table.look(index.row(), index.column()).text == "Axis 0, Axis 1, Axis 2, Axis 3"
+    assert window.table.look(index.row(), index.column()).unit == "0xF"
+
+    QTest.keyClick(window.table_view, KEY.Key_F2)
+    field = editor(window)
+    for key in (KEY.Key_Down, KEY.Key_Down, KEY.Key_Space):
+        QTest.keyClick(field, key)
+    assert field.text() == "0x0000000D"
+    field.selectAll()
+    QTest.keyClicks(field, "0x3")
+    checked = [
+        n
+        for n in range(field.bits.list.count())
+        if field.bits.list.item(n).checkState() == Qt.CheckState.Checked
+    ]
+    assert checked == [0, 1], "what is typed is shown in the list"
+    QTest.keyClick(field, KEY.Key_Escape)
+    assert file.get(address) == Value(0xF)
