@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from PySide6.QtGui import QAction, QKeySequence
 
 from amp_studio.find import Entry, Finder, Hit, index_of
 from amp_studio.find.index import Index
-from amp_studio.schema import Schema
+from amp_studio.schema import Schema, family_ids, load_schema
 
 from .file_page import FilePage
 from .find_box import COMMANDS, FindBox
@@ -36,6 +37,8 @@ class FindActions:
         self._indexed: set[tuple[int, str]] = set()
         self._commands: dict[str, QAction] = {}
         self._menu = Index(())
+        self._families: tuple[Finder, ...] | None = None
+        """The families without a file, once somebody has asked for a message without one."""
         self._is_read = False
         """Whether the commands are those of the present menus; they are read at the first key, as Qt gives the focus at odd moments."""
         self.box.entered.connect(self._forget_menus)
@@ -55,7 +58,7 @@ class FindActions:
         finder = self._finders[page] = Finder(file.schema, file.machine, file)
         page.workspace.changed.connect(lambda *_: self._changed(page, finder))
         page.destroyed.connect(lambda: self._finders.pop(page, None))
-        page.detail.message_wanted.connect(lambda message: MessageWindow(page, message).show())
+        page.detail.message_wanted.connect(lambda message: self._show_message(page, message))
         self._index(file.schema, file.machine)
 
     def _changed(self, page: FilePage, finder: Finder) -> None:
@@ -91,6 +94,9 @@ class FindActions:
             every = [self._hit(entry, 1.0) for entry in self._menu.entries]
             hits = self._among(own) if own else every
             return rows_of(hits, self._commands) or self._nothing("")
+        if self.window.page is None:
+            found = self._messages(own) + self._among(own)
+            return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing("")
         finder = self._finder()
         found = finder.find(own, _MOST) if finder is not None else []
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
@@ -103,6 +109,27 @@ class FindActions:
         finder = self._finders.get(self.window.page) if self.window.page is not None else None
         is_ready = finder is not None and (id(finder.schema), finder.machine) in self._indexed
         return finder if is_ready else None
+
+    def _messages(self, query: str) -> list[Hit]:
+        """Return messages of the controls of every family, for who has no file open; loaded in a thread at the first question."""
+        if self._families is None:
+            self._families = ()
+            task = Task(lambda *_: _every_family())
+            task.done.connect(self._take_families)
+            task.begin()
+        found = []
+        for finder in self._families:
+            family = finder.schema.family
+            for hit in finder.find(query, _MOST):
+                if hit.kind == "message":
+                    detail = f"{family.name}, {hit.detail}"
+                    found.append(replace(hit, key=f"{family.family}:{hit.key}", detail=detail))
+        return found
+
+    def _take_families(self, finders: tuple[Finder, ...]) -> None:
+        self._families = finders
+        if self.box.is_open:
+            self.box.search()
 
     def _forget_menus(self) -> None:
         self._is_read = False
@@ -149,6 +176,9 @@ class FindActions:
             self.box.clear()
             self._leave()
             row.action.trigger()
+        elif row.hit is not None and self.window.page is None:
+            family, _, message = row.hit.key.partition(":")
+            MessageWindow(self.window, load_schema(family), message).show()
         elif row.every and self.window.page is not None:
             self.window.guarded(
                 partial(self.window.page.show_found, self.box.text().strip(), row.every), "Find"
@@ -158,7 +188,7 @@ class FindActions:
 
     def _follow(self, hit: Hit, page: FilePage) -> None:
         if hit.kind == "message":
-            MessageWindow(page, hit.key).show()
+            self._show_message(page, hit.key)
             return
         if hit.kind == "group":
             group = next(g for g in page.workspace.file.schema.groups if g.key == hit.key)
@@ -169,8 +199,21 @@ class FindActions:
             page.follow(hit.key)
         page.table_view.setFocus()
 
+    def _show_message(self, page: FilePage, message: str) -> None:
+        MessageWindow(self.window, page.workspace.file.schema, message, page).show()
+
     def _leave(self) -> None:
         if self.window.table_view is not None:
             self.window.table_view.setFocus()
         else:
             self.box.clearFocus()
+
+
+def _every_family() -> tuple[Finder, ...]:
+    """Return a finder of each family, with its words indexed."""
+    finders = []
+    for name in family_ids():
+        schema = load_schema(name)
+        index_of(schema, schema.family.default_machine)
+        finders.append(Finder(schema, schema.family.default_machine))
+    return tuple(finders)

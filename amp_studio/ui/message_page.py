@@ -6,10 +6,10 @@ from html import escape
 from urllib.parse import quote, unquote
 
 from PySide6.QtCore import Qt, QUrl
-from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
-from amp_studio.schema import Address
+from amp_studio.schema import Address, Schema
 
 from .file_page import FilePage
 from .theme import GAP3, colour, scheme
@@ -18,11 +18,11 @@ from .theme import GAP3, colour, scheme
 class MessageWindow(QDialog):
     """Stays beside the table while one goes through its parameters; follows every edit."""
 
-    def __init__(self, page: FilePage, message: str) -> None:
-        """Show a message of the family by its id; its links lead into the file of the page."""
-        super().__init__(page.window())
+    def __init__(self, parent: QWidget, schema: Schema, message: str, page: FilePage | None = None) -> None:
+        """Show a message of a family by its id; with a page its links lead into that file, and its values are shown."""
+        super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._page, self._message = page, page.workspace.file.schema.messages[message]
+        self._page, self._schema, self._message = page, schema, schema.messages[message]
         self.setWindowTitle(self._message.name)
         self.resize(420, 520)
         self.text = QTextBrowser()
@@ -33,15 +33,19 @@ class MessageWindow(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.text)
-        page.workspace.changed.connect(self._show)
-        page.workspace.closed.connect(self.close)
+        if page is not None:
+            page.workspace.changed.connect(self._show)
+            page.workspace.closed.connect(self.close)
         scheme().changed.connect(self._show)
         self._show()
 
     def _show(self, *_: object) -> None:
-        workspace = self._page.workspace
-        file = workspace.file
-        found = message_page(file.schema, file.machine, self._message, file, workspace.findings)
+        if self._page is None:
+            found = message_page(self._schema, self._schema.family.default_machine, self._message)
+        else:
+            workspace = self._page.workspace
+            file = workspace.file
+            found = message_page(file.schema, file.machine, self._message, file, workspace.findings)
         at = self.text.verticalScrollBar().value()
         self.text.setHtml(self._html(found))
         self.text.verticalScrollBar().setValue(at)
@@ -49,6 +53,8 @@ class MessageWindow(QDialog):
     def _html(self, page: MessagePage) -> str:
         message = page.message
         parts = [f"<p style='font-size:large; font-weight:600'>{escape(message.name)}</p>"]
+        if self._page is None:
+            parts.append(f"<p>{escape(self._schema.family.name)}</p>")
         if message.title:
             parts.append(f"<p>{escape(self.tr('The manual does not print the text of this message.'))}</p>")
         parts.append(f"<p>{escape(message.means)}</p>")
@@ -58,8 +64,9 @@ class MessageWindow(QDialog):
         parts += self._listed(
             self.tr("Parameters to look at"), [self._parameter(each) for each in page.parameters]
         )
-        rest = [linked for linked in page.rules if not linked.findings]
-        parts += self._listed(self.tr("Rules that are met here"), [escape(each.rule.title) for each in rest])
+        rest = [escape(linked.rule.title) for linked in page.rules if not linked.findings]
+        title = self.tr("Rules that find it") if self._page is None else self.tr("Rules that are met here")
+        parts += self._listed(title, rest)
         if message.note:
             parts.append(f"<p>{escape(message.note)}</p>")
         pages = ", ".join(message.every_page)
@@ -77,6 +84,8 @@ class MessageWindow(QDialog):
 
     def _parameter(self, linked: LinkedParameter) -> str:
         name = f"{linked.number} {linked.name}".strip()
+        if self._page is None:
+            return escape(name)
         if not linked.values:
             return f"<a href='id:{quote(linked.id)}'>{escape(name)}</a>"
         values = ", ".join(
@@ -98,6 +107,8 @@ class MessageWindow(QDialog):
         ]
 
     def _follow(self, link: QUrl) -> None:
+        if self._page is None:
+            return
         kind, _, target = unquote(link.toString()).partition(":")
         if kind == "id":
             self._page.follow(target)

@@ -127,6 +127,17 @@ def test_without_a_file_commands_are_found(open_window) -> None:
     assert any(row.text == "File › New" for row in window.finder.box.model.rows)
 
 
+def test_without_a_file_the_messages_of_every_family_are_found_and_shown(open_window, qtbot) -> None:
+    window = open_window()
+    box = window.finder.box
+    box.begin("mot-022")
+    qtbot.waitUntil(lambda: heads(box) == ["Messages of the control"], timeout=WAIT_MS)
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    page = window.findChild(MessageWindow)
+    assert "Syntec" in page.text.toPlainText()
+    assert "Rules that find it" in page.text.toPlainText()
+
+
 def test_a_closed_file_is_forgotten(window: MainWindow, box: FindBox, qtbot) -> None:
     window.close_page(window.page)
     qtbot.waitUntil(lambda: not window.finder._finders, timeout=WAIT_MS)
