@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
-from amp_studio.find import Mark, Marks, noted, rows_of_file
+from amp_studio.find import Mark, ValueMarks, noted, rows_of_file
 from amp_studio.schema import Meant
 from amp_studio.validate import Validator, rules_beside
 
@@ -28,7 +28,7 @@ def marks_asked(options: argparse.Namespace) -> list[Mark]:
 
 def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: list[Mark]) -> list[Meant]:
     """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
-    marks = Marks(file)
+    marks = ValueMarks(file)
     if "findings" in wanted:
         marks.take_findings(Validator(file, rules_beside(path, file.schema)).run())
     if "since-download" in wanted:

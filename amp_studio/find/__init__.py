@@ -5,7 +5,7 @@ Typing errors are forgiven, each hit has its reason, and the words of a family a
 
 from .entries import Entry, HitKind
 from .finder import Finder, Hit, index_of
-from .marks import MARKS, Mark, Marks, noted, rows_of_file
+from .marks import MARKS, Mark, ValueMarks, noted, rows_of_file
 from .message_page import LinkedParameter, LinkedRule, LinkedValue, MessagePage, message_page
 
 __all__ = [
@@ -18,8 +18,8 @@ __all__ = [
     "LinkedRule",
     "LinkedValue",
     "Mark",
-    "Marks",
     "MessagePage",
+    "ValueMarks",
     "index_of",
     "message_page",
     "noted",

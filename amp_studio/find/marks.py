@@ -1,4 +1,4 @@
-"""Marks of values, by which a list is filtered: not set, changed, with findings, unlike on the axes, changed since a download.
+"""ValueMarks of values, by which a list is filtered: not set, changed, with findings, unlike on the axes, changed since a download.
 
 A list is made of rows, each the addresses of one parameter on its axes. What is asked of one value is asked of it alone;
 whether the axes differ is asked of the row.
@@ -23,7 +23,7 @@ _RESTART = ("restart", "reset")
 
 
 @dataclass
-class Marks:
+class ValueMarks:
     """Which values of a file have a mark. What is remembered of a value is forgotten by ``forget``."""
 
     file: ParameterFile

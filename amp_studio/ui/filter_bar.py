@@ -11,7 +11,7 @@ from PySide6.QtCore import QCoreApplication, QSize, QTimer, Signal
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
-from amp_studio.find import MARKS, Mark, Marks, noted
+from amp_studio.find import MARKS, Mark, ValueMarks, noted
 from amp_studio.schema import Address, Value
 
 from .parameter_table import ParameterTable, TableRow
@@ -59,7 +59,7 @@ class FilterBar(QWidget):
         self.setAccessibleName(self.tr("Filters of the table"))
         self._table, self._workspace = table, table.workspace
         workspace: Workspace = table.workspace
-        self.marks = Marks(workspace.file)
+        self.marks = ValueMarks(workspace.file)
         self.active: set[Mark] = set()
         self._recent: dict[Address, None] = {}
         self.marks.recent = self._recent
