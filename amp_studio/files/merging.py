@@ -24,6 +24,10 @@ HEADER_TEXTS = ("application", "revision", "notes")
 MACHINE, EXTRA = "machine", "extra"
 
 
+FACTS, NOTES, ENTRIES = "Machine facts", "Notes and ticks", "Entries that this family does not know"
+"""Titles of the groups that are none of the manual's."""
+
+
 class RowId(NamedTuple):
     """What a row is about."""
 
@@ -153,10 +157,10 @@ class Merge:
     def group_title(self, row: Row) -> str:
         """Return the group of a row: ``Servo Parameters: Position Loop``."""
         if row.id.part == "header":
-            return "Notes and ticks" if row.address[1] and row.address[0] != EXTRA else "Machine facts"
+            return NOTES if row.address[1] and row.address[0] != EXTRA else FACTS
         group = self.a.schema.group_of.get(row.address[0]) if row.id.part == "value" else None
         if group is None:
-            return "Entries that this family does not know"
+            return ENTRIES
         return f"{group.name}: {group.section}" if group.section else group.name
 
     # -- the result ------------------------------------------------------------

@@ -168,8 +168,8 @@ class MergeDetail(QFrame):
             self._say(self.notes[side], self._judge(row, side) if side != "base" or has_base else None)
         self.buttons["typed"].setChecked(isinstance(choice, Typed))
         self._group.setExclusive(True)
-        self.other.setEnabled(row.id.part != "entry")
-        self.buttons["typed"].setEnabled(row.id.part != "entry")
+        self.other.setEnabled(model.may_type(row))
+        self.buttons["typed"].setEnabled(model.may_type(row))
         self.other.setText(model.cell(row, RESULT).whole if isinstance(choice, Typed) else "")
         self.notes["typed"].say("")
 

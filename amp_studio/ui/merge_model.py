@@ -12,7 +12,7 @@ from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelInde
 from amp_studio.files import Merge, Row, RowGroup, Typed
 from amp_studio.files.axis_match import axis_letters
 from amp_studio.files.diff import in_one_unit
-from amp_studio.files.merging import Choice, RowId, Side
+from amp_studio.files.merging import ENTRIES, FACTS, HEADER_TEXTS, NOTES, Choice, RowId, Side
 from amp_studio.schema import MASKED, Value, fault, read_address, read_real, read_value, show_value, shown
 from amp_studio.schema.address import whole_of
 from amp_studio.schema.visible import visible
@@ -22,6 +22,10 @@ NAME, AXIS, BASE, A, B, RESULT = range(6)
 """Columns."""
 SIDES: dict[int, Side] = {BASE: "base", A: "a", B: "b"}
 """Column -> the source it shows."""
+
+
+_TYPABLE = (*HEADER_TEXTS, "value_notes", "group_notes")
+"""Entries of the header that are free texts."""
 
 
 class Cell(NamedTuple):
@@ -208,6 +212,8 @@ class MergeModel(QAbstractItemModel):
     def read(self, row: Row, text: str) -> Typed:
         """Read what was typed for the result; raises ValueError with what is allowed."""
         if row.id.part != "value":
+            if not text.isprintable():
+                raise ValueError(self.tr("The text contains a character that no file can contain."))
             return Typed(Value(text.strip()) if text.strip() else None)
         if not text.strip():
             return Typed(None)
@@ -218,6 +224,12 @@ class MergeModel(QAbstractItemModel):
         if message:
             raise ValueError(message)
         return Typed(value)
+
+    def may_type(self, row: Row) -> bool:
+        """Return whether a value can be typed for a row: a parameter of this machine type, or a note."""
+        if row.id.part == "value":
+            return row.kind != "same" and row.address in self._places
+        return row.kind != "same" and row.id.part == "header" and row.address[0] in _TYPABLE
 
     def _unit_of(self, row: Row) -> str:
         """Return the unit in which a row is shown, which is meant by a number without one."""
@@ -288,7 +300,7 @@ class MergeModel(QAbstractItemModel):
     def flags(self, index: Index) -> Qt.ItemFlag:
         flags = super().flags(index)
         row = self.row_at(index)
-        if row is not None and index.column() == RESULT and row.kind != "same" and row.id.part != "entry":
+        if row is not None and index.column() == RESULT and self.may_type(row):
             flags |= Qt.ItemFlag.ItemIsEditable
         return flags
 
@@ -330,10 +342,16 @@ class MergeModel(QAbstractItemModel):
     def group_text(self, group: RowGroup) -> str:
         """Return the head of a group with how many of its rows differ."""
         differ = sum(row.kind != "same" for row in group.rows)
+        own = {
+            FACTS: self.tr("Machine facts"),
+            NOTES: self.tr("Notes and ticks"),
+            ENTRIES: self.tr("Entries that this family does not know"),
+        }
+        title = own.get(group.title, group.title)
         text = self.tr("%n differ", "", differ)
         if group.conflicts:
             text += ", " + self.tr("conflicts: %n", "", group.conflicts)
-        return f"{group.title}  {text}"
+        return f"{title}  {text}"
 
     def _spoken(self, row: Row, column: int) -> str:
         """Return a cell for a screen reader: whose value it is, and whether the result takes it."""

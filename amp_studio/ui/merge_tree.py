@@ -46,6 +46,10 @@ class MergeTree(QTreeView):
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setIndentation(16)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        self._unfolded: dict[str, bool] = {}
+        """Title of a group -> whether a person opened or folded it."""
+        self.expanded.connect(partial(self._fold, True))
+        self.collapsed.connect(partial(self._fold, False))
         self.clicked.connect(self._click)
         self.doubleClicked.connect(self._double_click)
         self.selectionModel().currentChanged.connect(lambda *_: self.current_row.emit(self.row()))
@@ -71,11 +75,18 @@ class MergeTree(QTreeView):
     # -- what is shown -----------------------------------------------------------------
 
     def unfold(self) -> None:
-        """Show the rows of each group; long ones without a conflict stay folded, and many groups of all rows."""
+        """Show the rows of each group; long ones without a conflict stay folded. What a person folded or opened stays so."""
         total = sum(len(group.rows) for group in self.rows.groups)
+        self.blockSignals(True)
         for n, group in enumerate(self.rows.groups):
             is_short = len(group.rows) <= _MANY or total <= 2 * _MANY
-            self.setExpanded(self.rows.index(n, NAME), is_short or bool(group.conflicts))
+            is_open = self._unfolded.get(group.title, is_short or bool(group.conflicts))
+            self.setExpanded(self.rows.index(n, NAME), is_open)
+        self.blockSignals(False)
+
+    def _fold(self, is_open: bool, index: QModelIndex) -> None:
+        if (group := self.rows.group_at(index)) is not None:
+            self._unfolded[group.title] = is_open
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

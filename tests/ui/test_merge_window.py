@@ -310,6 +310,42 @@ def test_the_comparison_is_written_as_a_report(three: MergeWindow, person: Perso
     assert three.message.text.text() == "comparison.csv written."
 
 
+def test_a_lathe_is_compared_with_a_mill_and_what_exists_there_only_is_named(
+    shown: MergeWindow, window: MainWindow, checkout: Path
+) -> None:
+    lathe = open_file(checkout / "examples" / "lathe-ls176" / "LATHE_LS176.amp").file
+    source = shown.sources.other(window.workspace.file, lathe, "LATHE_LS176.amp", "")
+    shown.use(B, source)
+    assert "another machine type (lathe)" in shown.message.text.text()
+    shown.view.only_differences.click()
+    only_there = [r for r in shown.merge.differing if r.id.part == "value" and not shown.model.may_type(r)]
+    assert only_there
+    for row in shown.merge.rows:
+        assert all(shown.model.text(row, column) is not None for column in range(RESULT + 1))
+    shown.view.only_active.click()
+    shown.tree.show_row(only_there[0])
+    shown.view.only_active.click()
+    shown.tree.show_row(only_there[0])
+    assert "not on this machine type" in shown.detail.facts.text()
+
+
+def test_a_group_that_was_folded_stays_folded(three: MergeWindow, window: MainWindow, qtbot) -> None:
+    head = three.model.index(0, NAME)
+    three.tree.setExpanded(head, False)
+    window.edits.commit(("home.calibration", "2"), "1 mm")
+    qtbot.waitUntil(lambda: len(three.merge.differing) == 4, timeout=WAIT_MS)
+    folds = [three.tree.isExpanded(three.model.index(n, NAME)) for n in range(len(three.model.groups))]
+    assert folds == [False, *[True] * (len(folds) - 1)]
+
+
+def test_the_machine_type_and_entries_of_others_are_taken_and_not_typed(shown: MergeWindow) -> None:
+    other = shown.merge.a.copy()
+    other.header.notes, other.header.extra, other.unknown["future.thing"] = "n", {"bay": 7}, "1"
+    shown.use(B, MergeSource("other.amp", "", other))
+    can = {row.id.key: shown.model.may_type(row) for row in shown.merge.differing}
+    assert can == {"notes": True, "extra.bay": False, "future.thing": False}
+
+
 def test_two_sources_of_which_none_is_the_open_file_are_not_merged_into_it(shown: MergeWindow) -> None:
     other = shown.merge.a.copy()
     other.set(EXCESS, Value(3.0, "mm"))
