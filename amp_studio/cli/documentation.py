@@ -29,6 +29,7 @@ def report_verb(options: argparse.Namespace) -> int:
             options.changed_only,
             options.inactive,
             options.units,
+            options.language,
             frozenset(options.without or ()),
         ),
         source=options.path,

@@ -294,6 +294,12 @@ def _documents(verbs: Verbs) -> None:
         choices=("pictures", "motion", "exchanges", "signatures"),
         help="leave out a chapter; again for more",
     )
+    sub.add_argument(
+        "--language",
+        choices=("en", "de"),
+        default="en",
+        help="language of the report's own words (default: en)",
+    )
     sub.add_argument("--inactive", action="store_true", help="also what the control ignores on this machine")
     sub.add_argument(
         "--units",

@@ -61,6 +61,8 @@ class Contents:
     inactive: bool = False
     """Also what the control ignores or cannot use on this machine."""
     units: UnitChoice = "file"
+    language: str = "en"
+    """Code of the language of the report's own words (``language_codes``)."""
     without: frozenset[Chapter] = frozenset()
     """Chapters that are left out."""
 

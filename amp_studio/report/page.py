@@ -5,30 +5,22 @@ from __future__ import annotations
 from base64 import b64encode
 from pathlib import Path
 
-from .model import MARKS, Listing, Report, printable
-from .wording import counted
+from .language import ENGLISH, Language, language_of
+from .model import MARKS, Report, printable
+from .templating import filled
 
 
-def render_html(report: Report) -> bytes:
-    """Return the page in UTF-8; every text is escaped by the template engine."""
-    return filled_page("report.html.j2", report=report, marks=MARKS, counted=counted)
-
-
-def filled_page(name: str, **values: object) -> bytes:
-    """Return a template of a page with its values in UTF-8, escaped."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        finalize=_cleaned,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+def render_html(report: Report, own: Path | None = None) -> bytes:
+    """Return the page in UTF-8; every text is escaped. ``own`` is a template of the project. Raises TemplateMistakeError."""
+    return filled_page(
+        "report.html.j2", own, language_of(report.contents.language), report=report, marks=MARKS
     )
-    environment.filters["drawing"] = _drawing
-    environment.tests["listing"] = lambda part: isinstance(part, Listing)
-    return environment.get_template(name).render(values).encode("utf-8")
+
+
+def filled_page(name: str, own: Path | None = None, language: Language = ENGLISH, **values: object) -> bytes:
+    """Return a template of a page with its values in UTF-8, escaped. Raises TemplateMistakeError."""
+    settings = {"autoescape": True, "finalize": _cleaned}
+    return filled(name, values, settings, {"drawing": _drawing}, own, language).encode("utf-8")
 
 
 def _drawing(svg: str) -> str:

@@ -10,10 +10,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from .model import MARKS, Listing, Report, printable
-from .wording import counted
+from .language import ENGLISH, Language, language_of
+from .model import MARKS, Report, printable
+from .templating import TEMPLATES, TemplateMistakeError, filled
 
-_TEMPLATES = Path(__file__).parent / "templates"
 _BREAK = "\u200b"
 """Zero-width space: a possible line break."""
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
@@ -24,6 +24,7 @@ _FOREIGN = re.compile(
 """Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin, Greek and Cyrillic."""
 FONT = "Libertinus Serif"
 """The font of a PDF, also in its drawings."""
+_PACKAGE = re.compile(r'(?:import|include)\s*"@')
 _FAMILY = re.compile(r'font-family="[^"]*"')
 _BRIEF = 40
 """Most characters of a text in the page header."""
@@ -58,30 +59,33 @@ def _breakable(text: str) -> str:
     return _LONG_RUN.sub(lambda run: _JOINT.sub(rf"\g<0>{_BREAK}", run.group()), text)
 
 
-def typst_source(report: Report) -> str:
-    """Return the report as Typst."""
-    return filled_template("report.typ.j2", report=report, marks=MARKS, counted=counted)
-
-
-def filled_template(name: str, **values: object) -> str:
-    """Return a template of Typst source with its values, each as a literal."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    environment = Environment(
-        loader=FileSystemLoader(_TEMPLATES),
-        finalize=typst_literal,
-        autoescape=False,  # noqa: S701  # every expression becomes a Typst literal
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
+def typst_source(report: Report, own: Path | None = None) -> str:
+    """Return the report as Typst; ``own`` is a template of the project. Raises TemplateMistakeError."""
+    source = filled_template(
+        "report.typ.j2", own, language_of(report.contents.language), report=report, marks=MARKS
     )
-    environment.filters["exact"] = Exact
-    environment.filters["source"] = _Source
-    environment.filters["drawing"] = _drawing
-    environment.filters["brief"] = lambda text: text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
-    environment.filters["tied"] = lambda text: text.replace(" ", "\u00a0").replace(",\u00a0", ", ")
-    environment.tests["listing"] = lambda part: isinstance(part, Listing)
-    return environment.get_template(name).render(values)
+    if own is not None and _PACKAGE.search(source):
+        raise TemplateMistakeError(
+            f"{own}: imports a package of Typst, which would be loaded from the network"
+        )
+    return source
+
+
+def filled_template(
+    name: str, own: Path | None = None, language: Language = ENGLISH, **values: object
+) -> str:
+    """Return a template of Typst source with its values, each as a literal. Raises TemplateMistakeError."""
+    settings = {"finalize": typst_literal, "autoescape": False}  # every expression becomes a Typst literal
+    filters = {"exact": Exact, "source": _Source, "drawing": _drawing, "brief": _brief, "tied": _tied}
+    return filled(name, values, settings, filters, own, language)
+
+
+def _brief(text: str) -> str:
+    return text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
+
+
+def _tied(text: str) -> str:
+    return text.replace(" ", "\u00a0").replace(",\u00a0", ", ")
 
 
 def _drawing(svg: str) -> Exact:
@@ -91,20 +95,28 @@ def _drawing(svg: str) -> Exact:
     )
 
 
-def render_pdf(report: Report) -> bytes:
-    """Return the PDF; equal reports have equal bytes."""
-    return typeset(typst_source(report))
+def render_pdf(report: Report, own: Path | None = None) -> bytes:
+    """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project. Raises TemplateMistakeError."""
+    source = typst_source(report, own)
+    if own is None:
+        return typeset(source)
+    from typst import TypstError
+
+    try:
+        return typeset(source, own.parent)
+    except TypstError as error:
+        raise TemplateMistakeError(f"{own}: Typst: {error}") from None
 
 
-def typeset(source: str) -> bytes:
-    """Return the PDF of Typst source."""
+def typeset(source: str, root: Path = TEMPLATES) -> bytes:
+    """Return the PDF of Typst source, which may read the files under ``root``."""
     import typst
 
     own_fonts = _FOREIGN.search(source) is None
     # The root is given because Typst takes the working folder otherwise, which may be gone;
     # the library's stubs require the type of the source, the library itself does not.
     pages = typst.compile(  # type: ignore[call-overload]
-        source.encode("utf-8"), root=_TEMPLATES, format="pdf", ignore_system_fonts=own_fonts
+        source.encode("utf-8"), root=root, format="pdf", ignore_system_fonts=own_fonts
     )
     assert isinstance(pages, bytes)
     return pages

@@ -15,6 +15,7 @@ from .model import Contents, ExchangeLine, PrintedFigure, Report
 from .page import render_html
 from .pdf import render_pdf
 from .table_csv import render_csv
+from .templating import TemplateMistakeError, own_template
 from .text import render_text
 
 FORMATS: dict[str, Callable[[Report], bytes]] = {
@@ -24,6 +25,12 @@ FORMATS: dict[str, Callable[[Report], bytes]] = {
     ".csv": render_csv,
     ".json": render_json,
     ".txt": render_text,
+}
+
+
+_WITH_TEMPLATES: dict[str, tuple[Callable[[Report, Path | None], bytes], str]] = {
+    ".pdf": (render_pdf, "report.typ.j2"),
+    ".html": (render_html, "report.html.j2"),
 }
 
 
@@ -46,14 +53,28 @@ def write_report(
     could not be kept. ``motion`` and ``exchanges`` are those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that cannot be
     read, SaveError when it cannot be written.
     """
-    render = FORMATS.get(path.suffix.lower())
-    if render is None:
+    if path.suffix.lower() not in FORMATS:
         raise ValueError(f"{path.name}: unknown report format. Use the file extension {', '.join(FORMATS)}")
+    folder = real_path(source).parent if source else None
     project = project_beside(source)
     report = build_report(
         file, contents, source=source, project=project, date=date, own=own, motion=motion, exchanges=exchanges
     )
-    write_atomic(path, render(report), keep_backup=False, notify=notify)
+    write_atomic(
+        path, _rendered(report, path.suffix.lower(), folder, notify), keep_backup=False, notify=notify
+    )
+
+
+def _rendered(report: Report, ending: str, folder: Path | None, notify: Notify) -> bytes:
+    """Return the report in a format, by the project's template where it has one; its mistake is noted, and the standard one used."""
+    drawn = _WITH_TEMPLATES.get(ending)
+    own = own_template(folder, drawn[1]) if drawn else None
+    if drawn and own:
+        try:
+            return drawn[0](report, own)
+        except TemplateMistakeError as error:
+            notify(f"{error}. The standard report was written")
+    return FORMATS[ending](report)
 
 
 def project_beside(source: Path | None) -> ProjectInfo | None:

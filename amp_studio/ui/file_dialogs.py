@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import Header, ProjectInfo
 from amp_studio.report import UNIT_CHOICES, Contents, Sort, UnitChoice
+from amp_studio.report.language import language_codes, language_of
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import show_message
@@ -115,7 +116,11 @@ class ReportDialog(_Form):
         label = QLabel("&File (.pdf .html .csv .txt)")
         label.setBuddy(self.path)
         self.form.addRow("&Order", self.sort)
+        self.language = QComboBox()
+        for code in language_codes():
+            self.language.addItem(language_of(code).name, code)
         self.form.addRow("&Units", self.units)
+        self.form.addRow("&Language", self.language)
         self.form.addRow("", self.changed)
         self.form.addRow("", self.inactive)
         self.form.addRow(label, row)
@@ -139,7 +144,8 @@ class ReportDialog(_Form):
     def contents(self) -> Contents:
         """Return what the report contains, and how."""
         sort, units = cast(Sort, self.sort.currentData()), cast(UnitChoice, self.units.currentData())
-        return Contents(sort, self.changed.isChecked(), self.inactive.isChecked(), units)
+        language = str(self.language.currentData())
+        return Contents(sort, self.changed.isChecked(), self.inactive.isChecked(), units, language)
 
 
 class ProjectDialog(_Form):

@@ -1,0 +1,68 @@
+"""The languages of documents: the words of the program's own frame. Names, choices, help and findings stay as they are."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from .wording import counted
+
+_FOLDER = Path(__file__).parent / "languages"
+
+
+@dataclass(frozen=True)
+class Language:
+    """One language: English phrase -> its own, and patterns for phrases with a part that changes."""
+
+    code: str
+    name: str
+    phrases: dict[str, str] = field(default_factory=dict)
+    patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
+    nouns: dict[str, tuple[str, str]] = field(default_factory=dict)
+    """Noun of a count -> one, several."""
+
+    def text(self, english: str) -> str:
+        """Return a phrase in this language; as it is where the language has no other words for it."""
+        known = self.phrases.get(english)
+        if known is not None:
+            return known
+        for pattern, own in self.patterns:
+            if found := pattern.fullmatch(english):
+                return own.format(*(self.text(group) for group in found.groups()))
+        return english
+
+    def counted(self, number: int, noun: str) -> str:
+        """Return ``1 error``, ``2 errors`` in this language."""
+        if noun in self.nouns:
+            return f"{number} {self.nouns[noun][number != 1]}"
+        return counted(number, noun)
+
+
+ENGLISH = Language("en", "English")
+
+
+def language_codes() -> tuple[str, ...]:
+    """Return the codes of the languages, English first."""
+    return ("en", *sorted(path.stem for path in _FOLDER.glob("*.yaml")))
+
+
+@cache
+def language_of(code: str) -> Language:
+    """Return a language by its code; raises ValueError for another one."""
+    if code == "en":
+        return ENGLISH
+    path = _FOLDER / f"{code}.yaml"
+    if code not in language_codes():
+        raise ValueError(f"Unknown language '{code}'. Known: {', '.join(language_codes())}")
+    from amp_studio.schema.yaml_reader import read_yaml
+
+    data = read_yaml(path.read_text("utf-8")).data
+    return Language(
+        code,
+        data["name"],
+        data["phrases"],
+        tuple((re.compile(pattern), own) for pattern, own in data["patterns"].items()),
+        {noun: (one, several) for noun, (one, several) in data["nouns"].items()},
+    )

@@ -1,0 +1,100 @@
+"""Templates of documents: those of the program, and those of a project that extend or replace them.
+
+A project's template is the text of somebody else: it is run in jinja2's sandbox, sees the report and nothing else, and has
+a bound for its size and its time. Its mistakes have their line.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .language import ENGLISH, Language
+
+if TYPE_CHECKING:
+    from jinja2 import BaseLoader, Environment
+
+TEMPLATES = Path(__file__).parent / "templates"
+OWN = "templates"
+"""The folder of a project with its templates."""
+_MOST_TEMPLATE = 256 * 1024
+_MOST_OUTPUT = 64 * 2**20
+_PATIENCE_S = 20.0
+
+
+class TemplateMistakeError(ValueError):
+    """A template of a project cannot be used; the text has its file and its line."""
+
+
+def own_template(folder: Path | None, name: str) -> Path | None:
+    """Return the template of a project that takes the place of one of the program; None where there is none."""
+    path = folder / OWN / name if folder is not None else None
+    return path if path is not None and path.is_file() else None
+
+
+def filled(
+    name: str,
+    values: Mapping[str, object],
+    settings: Mapping[str, Any],
+    filters: Mapping[str, Any],
+    own: Path | None = None,
+    language: Language = ENGLISH,
+) -> str:
+    """Return a template with its values; raises TemplateMistakeError for one of a project.
+
+    ``own`` is used in the place of ``name``, which it can extend as ``standard/NAME``.
+    """
+    from jinja2 import StrictUndefined, TemplateError
+    from jinja2.sandbox import SandboxedEnvironment
+
+    from .model import Listing
+
+    environment: Environment = SandboxedEnvironment(
+        loader=_loader(own), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, **settings
+    )
+    environment.globals.update(_=language.text, counted=language.counted, language=language.code)
+    environment.filters.update(filters)
+    environment.tests["listing"] = lambda part: isinstance(part, Listing)
+    if own is None:
+        return environment.get_template(name).render(values)
+    if own.stat().st_size > _MOST_TEMPLATE:
+        raise TemplateMistakeError(f"{own}: is larger than {_MOST_TEMPLATE // 1024} KB")
+    try:
+        return _bounded(environment, own, values)
+    except TemplateError as error:
+        raise TemplateMistakeError(f"{own}: {_line(own, error)}{error.message or error}") from None
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+        raise TemplateMistakeError(f"{own}: {_line(own, error)}{error}") from None
+
+
+def _loader(own: Path | None) -> BaseLoader:
+    from jinja2 import ChoiceLoader, FileSystemLoader, PrefixLoader
+
+    standard = FileSystemLoader(TEMPLATES)
+    if own is None:
+        return standard
+    return ChoiceLoader([PrefixLoader({"standard": standard}), FileSystemLoader(own.parent)])
+
+
+def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) -> str:
+    """Return what a template writes, up to a time and a size."""
+    end, parts, size = time.monotonic() + _PATIENCE_S, [], 0
+    for part in environment.get_template(own.name).generate(values):
+        parts.append(part)
+        size += len(part)
+        if size > _MOST_OUTPUT or time.monotonic() > end:
+            raise TemplateMistakeError(f"{own}: writes without end")
+    return "".join(parts)
+
+
+def _line(own: Path, error: BaseException) -> str:
+    """Return ``line 7: ``; empty where the line of the mistake is not known."""
+    line = getattr(error, "lineno", None)
+    trace = error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == str(own):
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    return f"line {line}: " if line else ""

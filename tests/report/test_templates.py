@@ -1,0 +1,113 @@
+"""Templates of a project: what they may change, what they may not do, and what becomes of their mistakes."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, save_file
+from amp_studio.report import write_report
+
+EXTENDS_PAGE = '{% extends "standard/report.html.j2" %}\n'
+EXTENDS_PDF = '{% extends "standard/report.typ.j2" %}\n'
+
+
+@pytest.fixture
+def machine(tmp_path: Path, mill: ParameterFile) -> Path:
+    save_file(mill, tmp_path / "mill.amp")
+    (tmp_path / "templates").mkdir()
+    return tmp_path / "mill.amp"
+
+
+def printed(machine: Path, mill: ParameterFile, ending: str, template: str) -> tuple[bytes, list[str]]:
+    """Return the report by a template of the project, and what was noted."""
+    name = {"html": "report.html.j2", "pdf": "report.typ.j2"}[ending]
+    (machine.parent / "templates" / name).write_text(template, "utf-8")
+    notes: list[str] = []
+    out = machine.parent / f"out.{ending}"
+    write_report(mill, out, source=machine, notify=notes.append)
+    return out.read_bytes(), notes
+
+
+def text_of(pdf: bytes, folder: Path) -> str:
+    (folder / "t.pdf").write_bytes(pdf)
+    return subprocess.run(
+        ["pdftotext", folder / "t.pdf", "-"], capture_output=True, text=True, check=True
+    ).stdout
+
+
+def test_a_block_of_the_page_is_replaced_and_the_rest_stays(machine: Path, mill: ParameterFile) -> None:
+    page, notes = printed(
+        machine,
+        mill,
+        "html",
+        EXTENDS_PAGE + "{% block chapters %}<h2>Service: {{ report.title }}</h2>{% endblock %}",
+    )
+    assert notes == []
+    assert b"<h2>Service: Mill 7</h2>" in page
+    assert b"Home Calibration" in page
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs poppler's tools")
+def test_logo_colours_header_and_a_chapter_of_a_pdf(machine: Path, mill: ParameterFile) -> None:
+    (machine.parent / "templates" / "logo.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><circle cx="5" cy="5" r="5"/></svg>'
+    )
+    template = (
+        EXTENDS_PDF
+        + '{% block logo %}#image("logo.svg", width: 20mm){% endblock %}\n'
+        + '{% block colours %}#let accent = rgb("#006633"){% endblock %}\n'
+        + "{% block header %}Works department #h(1fr) #{{ report.title }}{% endblock %}\n"
+        + "{% block chapters %}\n= Service\nCall #{{ report.title }}.\n{% endblock %}\n"
+    )
+    pdf, notes = printed(machine, mill, "pdf", template)
+    text = text_of(pdf, machine.parent)
+    assert notes == []
+    assert "Works department" in text
+    assert "Call Mill 7." in text
+    assert "Home Calibration" in text
+
+
+@pytest.mark.parametrize(
+    ("ending", "template", "said"),
+    [
+        ("html", EXTENDS_PAGE + "{% block chapters %}\n{{ report.titel }}{% endblock %}", "line 3: "),
+        ("html", EXTENDS_PAGE + "\n\n{% block chapters %}", "line 4: "),
+        ("html", "{% extends 'standard/nothing.j2' %}", "nothing.j2"),
+        ("html", EXTENDS_PAGE + "{% block chapters %}{{ 1 / 0 }}{% endblock %}", "line 2: division by zero"),
+        ("html", EXTENDS_PAGE + "{% block chapters %}{{ ''.__class__.__mro__ }}{% endblock %}", "unsafe"),
+        ("html", EXTENDS_PAGE + "{% block chapters %}{{ cycler.__init__.__globals__ }}{% endblock %}", "unsafe"),
+        ("html", "{% include '../../../../etc/passwd' %}", "passwd"),
+        ("html", "{% for a in range(1000000000) %}x{% endfor %}", "too big"),
+        ("html", "x" * 300_000, "larger than 256 KB"),
+        ("pdf", EXTENDS_PDF + "{% block chapters %}#let{% endblock %}", "Typst: "),
+        ("pdf", EXTENDS_PDF + '{% block logo %}#image("../mill.amp"){% endblock %}', "Typst: "),
+        ("pdf", EXTENDS_PDF + '{% block logo %}#read("/etc/passwd"){% endblock %}', "Typst: "),
+        ("pdf", EXTENDS_PDF + '{% block logo %}#import "@preview/tablex:0.0.8": *{% endblock %}', "network"),
+        ("pdf", EXTENDS_PDF + "{% block logo %}#while true {}{% endblock %}", "Typst: "),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_noted_with_its_line_and_the_standard_report_is_written(
+    machine: Path, mill: ParameterFile, ending: str, template: str, said: str
+) -> None:
+    content, (note,) = printed(machine, mill, ending, template)
+    assert said in note
+    assert note.startswith(str(machine.parent / "templates"))
+    assert note.endswith("The standard report was written")
+    assert len(content) > 10_000
+
+
+def test_a_text_of_the_file_stays_a_text_in_a_template_too(machine: Path, mill: ParameterFile) -> None:
+    mill.header.name = "<script>alert(1)</script> #panic()"
+    page, _ = printed(
+        machine, mill, "html", EXTENDS_PAGE + "{% block chapters %}<p>{{ report.title }}</p>{% endblock %}"
+    )
+    assert b"<p>&lt;script&gt;" in page
+    pdf, notes = printed(
+        machine, mill, "pdf", EXTENDS_PDF + "{% block chapters %}#{{ report.title }}{% endblock %}"
+    )
+    assert notes == []
+    assert pdf.startswith(b"%PDF")
