@@ -7,10 +7,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ENDING, ParameterFile, open_file
 from amp_studio.find import Finder, Hit, MessagePage, message_page
 from amp_studio.report.wording import counted
 from amp_studio.schema import Schema, family_ids, written
+from amp_studio.schema.quoting import quoted
 from amp_studio.validate import Finding, Validator, rules_beside
 
 from .console import family, print_json
@@ -66,7 +67,7 @@ def find_verb(options: argparse.Namespace) -> int:
     elif found:
         _print(found, named=len(sources) > 1)
     else:
-        print(f"Nothing found for '{query}'" + (f". Nearest: {nearest}" if nearest else ""))
+        print(f"Nothing found for {quoted(query)}" + (f". Nearest: {nearest}" if nearest else ""))
     return 0
 
 
@@ -78,7 +79,7 @@ def _sources(options: argparse.Namespace) -> tuple[list[_Source], list[str]]:
     if first in family_ids():
         return [_Source(family(first))], words
     path = Path(first)
-    if path.suffix == ".amp" or (words and path.is_file()):
+    if path.suffix.casefold() == ENDING or (words and path.is_file()):
         file = open_file(path).file
         return [_Source(file.schema, file, path)], words
     return [_Source(family(name)) for name in family_ids()], options.words

@@ -57,6 +57,12 @@ def test_where_nothing_is_found_the_nearest_is_offered(amp) -> None:
     assert amp("find", "num", "qxqxqxq", "--json").json == {"query": "qxqxqxq", "hits": [], "nearest": ""}
 
 
+def test_what_steers_a_terminal_is_shown_and_not_obeyed(amp) -> None:
+    said = amp("find", "num", "qq\x1b[31mqqqq")
+    assert (said.code, "\x1b" in said.out) == (0, False)
+    assert amp("find", "num", "q" * 9000).code == 0
+
+
 def test_the_number_of_hits_is_bounded(amp) -> None:
     assert len(amp("find", "9pc", "servo", "--limit", "3").out.splitlines()) == 3
     assert len(amp("find", "9pc", "servo", "--json").json["hits"]) == 20
