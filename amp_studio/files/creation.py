@@ -88,7 +88,7 @@ def made_like(source: ParameterFile, name: str, axes: Iterable[str] = ()) -> Mad
     """
     file, axes = source.copy(), list(axes)
     file.header.notes = file.header.revision = ""
-    file.header.done = {}
+    file.header.done = file.header.value_notes = file.header.group_notes = {}
     file.header.name = name
     file.forced.clear()
     own = {p.id for p in of_one_machine(file.schema)}

@@ -19,7 +19,7 @@ from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
 from .parameter_file import Change, Header, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
-from .reading import NOTE_SECTIONS, Opened, open_file, read_content, read_stored
+from .reading import HEADER_SECTIONS, Opened, open_file, read_content, read_stored
 from .storage import save_file
 
 _TYPED = ("name", "application", "revision", "notes")
@@ -260,7 +260,9 @@ class Document:
     def _unsaved_header(self) -> dict[str, str | dict[str, str]]:
         """Return the header entries that differ from the file on disk."""
         saved = self._saved_rest[0]
-        changed = (k for k in (*_TYPED, *NOTE_SECTIONS) if getattr(self.file.header, k) != getattr(saved, k))
+        changed = (
+            k for k in (*_TYPED, *HEADER_SECTIONS) if getattr(self.file.header, k) != getattr(saved, k)
+        )
         texts = {key: getattr(self.file.header, key) for key in changed}
         return {key: text if isinstance(text, str) else dict(text) for key, text in texts.items()}
 
@@ -281,7 +283,7 @@ class Document:
         try:
             left = json.loads(read_file(self.journal_path, follow=False))
             changes = [self._left_change(entry, text) for entry, text in left["changes"]]
-            known = (*_TYPED, *NOTE_SECTIONS)
+            known = (*_TYPED, *HEADER_SECTIONS)
             header = {key: text for key, text in left.get("header", {}).items() if key in known}
             when, who, digest = left["when"], left["who"], left["digest"]
         except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):

@@ -47,6 +47,8 @@ FORMAT = 1
 
 HEADER_KEYS = ("name", "application", "revision", "machine", "units", "notes", "signature")
 NOTE_SECTIONS = ("value_notes", "group_notes")
+HEADER_SECTIONS = ("done", *NOTE_SECTIONS)
+"""Entries of the header that have a text for each of several things."""
 SECTIONS = ("done", "values", "forced", *NOTE_SECTIONS)
 DESCRIPTION = "description"
 """The description that the control gave of itself, in lines, where its schema is made of that: so the file opens without it."""

@@ -3,11 +3,12 @@
 A value is *open* where the file needs it and has none: the parameter is active, can be set, and is not one that a file is
 complete without. A value is *untouched* where it is open or the printed default.
 
-Where what is wrong has been set by somebody, he learns it at once. A finding about untouched values alone belongs to the
-last step of which it reads one: not before then has anybody put that value next to the others.
+A finding belongs to the last step of which it reads an untouched value: not before then has anybody put that value next
+to the others. Where it reads none it belongs to the step of what is wrong.
 
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an error belongs
-to it. A finding that belongs to a later step is deferred: left out of a list, never of a check.
+to it. A finding that belongs to a later step is deferred (left out of a list, never of a check), unless somebody has set
+what is wrong: he learns it at once.
 ``validate``, a download and its preview know nothing of steps.
 """
 
@@ -121,14 +122,17 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
             has_default = parameters[address[0]].default is not None
             total[number] += not has_default
             own[number] += not has_default or not file.is_default(address)
-    waits = [(f, _waits_for(file, f)) for f in findings if f.rule != NOT_SET]
-    errors = [last or _step_of_cause(file, f) for f, last in waits if f.severity == "error"]
-    reached = min([*open_of, *filter(None, errors)], default=len(steps) + 1)
+    belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
+    errors = [number for f, number, _ in belongs if f.severity == "error" and number]
+    reached = min([*open_of, *errors], default=len(steps) + 1)
     about: dict[int, list[Finding]] = {}
-    for finding, last in waits:
-        if last <= reached:
-            for number in {places[name].number for name, _ in finding.causes if name in places}:
-                about.setdefault(number, []).append(finding)
+    deferred = []
+    for finding, number, is_own in belongs:
+        if number > reached and not is_own:
+            deferred.append(finding)
+            continue
+        for place in {places[name].number for name, _ in finding.causes if name in places}:
+            about.setdefault(place, []).append(finding)
     each = tuple(
         StepProgress(
             step, total[step.number], _in_order(step, open_of.get(step.number, ())), active[step.number],
@@ -136,27 +140,19 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
         )
         for step in steps
     )  # fmt: skip
-    deferred = tuple(f for f, last in waits if last > reached)
-    return GuideProgress(each, each[reached - 1] if reached <= len(steps) else None, deferred)
+    return GuideProgress(each, each[reached - 1] if reached <= len(steps) else None, tuple(deferred))
 
 
-def _waits_for(file: ParameterFile, finding: Finding) -> int:
-    """Return the number of the last step of which a finding reads an untouched value; 0 where somebody has set a cause."""
+def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
+    """Return the number of the step to which a finding belongs, 0 for none, and whether somebody has set what is wrong."""
+    places = step_of(file.schema)
 
     def is_untouched(address: Address) -> bool:
         return address not in file.values or file.is_default(address)
 
-    if not all(map(is_untouched, finding.causes)):
-        return 0
-    places = step_of(file.schema)
-    untouched = (a[0] for a in finding.addresses if a[0] in places and is_untouched(a))
-    return max((places[name].number for name in untouched), default=0)
-
-
-def _step_of_cause(file: ParameterFile, finding: Finding) -> int:
-    """Return the number of the step of what is wrong; 0 where a finding is about no parameter."""
-    places = step_of(file.schema)
-    return next((places[name].number for name, _ in finding.causes if name in places), 0)
+    untouched = [places[a[0]].number for a in finding.addresses if a[0] in places and is_untouched(a)]
+    causes = [places[a[0]].number for a in finding.causes if a[0] in places]
+    return max(untouched or causes[:1], default=0), not all(map(is_untouched, finding.causes))
 
 
 def _in_order(step: SetupStep, addresses: Sequence[Address]) -> tuple[Address, ...]:

@@ -51,6 +51,7 @@ class GuideActions:
         page.left.show_side("steps")
         page.left.steps.choose_step(step_of(workspace.file.schema)[found[0]])
         page.go_to(found)
+        self.window.show_panel("Parameter")  # with its help and what calculates it
         page.table_view.setFocus()
         self._show_passed(page, here, found)
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFileError, open_file
+from amp_studio.files import Document, ParameterFileError, merge, open_file
 from amp_studio.files.creation import new_file
 from amp_studio.files.storage import content_of, save_file
 from amp_studio.guide import find_step, tick
@@ -75,6 +75,28 @@ def test_a_step_that_fails_takes_its_tick_back() -> None:
     with pytest.raises(RuntimeError):
         fail()
     assert file.header.done == {}
+
+
+def test_a_tick_survives_a_kill(tmp_path: Path) -> None:
+    save_file(new_file("syntec"), tmp_path / "new.amp")
+    with Document.open(tmp_path / "new.amp") as document:
+        tick(document.file, find_step(document.file.schema, "home"), "ann")
+        document.keep_unsaved()
+        kept = document.journal_path.read_bytes()
+    (tmp_path / document.journal_path.name).write_bytes(kept)
+    left = Document.open(tmp_path / "new.amp").find_unsaved()
+    assert left is not None
+    assert left.header == {"done": {"home": "ann"}}
+
+
+def test_a_merge_has_the_ticks_of_both_sides(tmp_path: Path) -> None:
+    base = new_file("syntec")
+    ours, theirs = base.copy(), base.copy()
+    tick(ours, find_step(base.schema, "home"), "ann")
+    tick(theirs, find_step(base.schema, "mpg"), "ben")
+    merged, conflicts = merge(base, ours, theirs)
+    assert conflicts == []
+    assert merged.header.done == {"home": "ann", "mpg": "ben"}
 
 
 def test_a_copy_has_the_ticks_and_keeps_its_own() -> None:

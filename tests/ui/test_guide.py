@@ -86,7 +86,7 @@ def test_a_key_goes_from_one_open_value_to_the_next_and_names_what_it_passes(fre
         ("home.g28_direction", "1"),
     ]
     assert fresh.table_view.hasFocus()
-    assert "G28 Direction to Home" in fresh.detail.pages["Help"].toPlainText()
+    assert "not yet homed starts to look for its home switch" in fresh.detail.page.toPlainText()
     last_zone = fresh.workspace.progress.steps[3].open[-1]
     fresh.go_to(last_zone)
     action(fresh, "Next Not Set").trigger()
