@@ -132,8 +132,6 @@ def _gear(figures: ValueReader, roles: GearRoles, instance: str) -> _Gear | None
         return None
     share = lowest / high.number if high.number else 0.0
     bottom = output_low.number if output_low and output_low.number is not None else top * share
-    if limit and limit.number:
-        figures.note(f"{limit.label}: {limit.shown}", limit.address)
     name = f"gear {instance.partition('.')[2]}" if "." in instance else "spindle"
     rest = bottom if roles.output_low else 0.0
     return _Gear(name, lowest, high.number, top, bottom, (low, high, output, output_low, limit), rest)
@@ -163,7 +161,7 @@ def _scaled(figures: ValueReader, roles: GearRoles) -> _Gear | None:
 
 
 def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float, top: float) -> list[Handle]:
-    low, high, output, output_low, _ = gear.figures
+    low, high, output, output_low, limit = gear.figures
     found: list[Handle] = []
     if roles.scaling and high is not None:
         full = roles.full or 10.0
@@ -173,6 +171,9 @@ def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float,
         return [figures.handle(high, (gear.high, gear.output), drag)]
     if high is not None:
         found.append(figures.handle(high, (gear.high, gear.output), figures.drag(high, "x", across)))
+    if limit is not None and limit.number:  # 0 is the highest speed
+        at = (limit.number, gear.output * limit.number / gear.high if gear.high else 0.0)
+        found.append(figures.handle(limit, at, figures.drag(limit, "x", across), second=True))
     if low is not None:
         found.append(figures.handle(low, (gear.low, gear.output_low), figures.drag(low, "x", across)))
     if output is not None and output_low is None and gear.high:

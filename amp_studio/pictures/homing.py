@@ -66,6 +66,12 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     if roles.reach and pull_off and pull_off.number is not None and towards:
         place = -towards * pull_off.number
     speed = figures.figure(role.speed, axis) if role.speed else None
+    way = off or (towards and -towards)
+    if way and speed is not None and speed.number is not None:
+        sign = "plus" if way > 0.0 else "minus"
+        figures.note(
+            f"{figures.axis(axis)} leaves its switch in {sign} direction at {speed.shown}", speed.address
+        )
     return Home(position, marker, calibration, switch, place, -off or towards, off, speed, pull_off)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from amp_studio.files import ParameterFile
+from amp_studio.schema import shown
 from amp_studio.schema.model import JogRoles, ParameterId
 
 from .figures import DrawnValue, ValueReader
@@ -98,7 +99,7 @@ def _drawable(figures: ValueReader, each: DrawnValue) -> bool:
 
 def _plain(each: DrawnValue) -> str:
     """Return the number without its unit."""
-    return each.shown.removesuffix(each.unit).strip() if each.unit else each.shown
+    return each.shown.removesuffix(shown(each.unit)).strip() if each.unit else each.shown
 
 
 def _decades(numbers: list[float]) -> Scale:

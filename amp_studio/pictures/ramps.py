@@ -155,6 +155,9 @@ def _drawn(figures: ValueReader, role: RampKind, axis: str, speed: float, base: 
     if up.number <= 0.0:
         figures.note(f"{up.label}: {up.shown} is no ramp", up.address, wrong=up.wrong)
         return None
+    if jerk is not None and jerk.number is not None and jerk.number < 0.0:
+        figures.note(f"{jerk.label}: {jerk.shown} is no ramp", jerk.address, wrong=True)
+        return None
     used = jerk.number if jerk and jerk.number else 0.0
     if role.jerk_scans and jerk and used:
         used = _within_scans(figures, role, axis, up.number, jerk, used)
@@ -213,6 +216,11 @@ def _within_scans(
     if first is None or not first.number:
         return given
     scan = first.number * factor
+    if scan <= 0.0:
+        figures.note(
+            f"{first.label}: without a scan above 0 the bounds of the jerk are not known", first.address
+        )
+        return given
     used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
     if used != given:
         figures.note(

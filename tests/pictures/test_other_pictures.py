@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import json
 import math
+from functools import cache
 from itertools import pairwise
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from amp_studio.files import open_file
 from amp_studio.pictures import draw, pictures_of, scene_json, scene_svg
 from amp_studio.pictures.ramps import ramp_of
 from amp_studio.schema import Value
 from amp_studio.sim.law import law_of
 from amp_studio.sim.simulate import bind_axis
+
+from .conftest import EXAMPLES
 
 
 def handle(scene, *parameters):
@@ -281,10 +288,17 @@ def test_a_text_that_is_no_table_is_said_and_not_drawn(table):
 # -- all -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["9pc", "lathe", "num", "syntec", "57c422b", "acromill", "grblhal"])
-def test_each_handle_dropped_where_it_lies_changes_nothing_that_matters(example, name):
+@pytest.mark.parametrize(
+    ("name", "units"),
+    [
+        ("9pc", "metric"), ("9pc", "inch"), ("lathe", "metric"), ("num", "metric"), ("syntec", "metric"),
+        ("57c422b", "metric"), ("acromill", "metric"), ("acromill", "inch"), ("grblhal", "metric"),
+    ],
+)  # fmt: skip
+def test_each_handle_dropped_where_it_lies_changes_nothing_that_matters(example, name, units):
     """What a person reads at a handle is what its place means: at most one step apart."""
     file = example(name)
+    file.header.units = units
     for picture in pictures_of(file):
         for part, _ in picture.parts:
             scene = picture.scene(part)
@@ -362,3 +376,44 @@ def test_a_table_begins_with_a_point_that_is_put_in(example):
     scene = draw(file, "calibration", "X")
     assert notes(scene) == ["Axis Calibration, X: not set"]
     assert scene.with_point((-100.0, 0.3)) == (("calibration.table", "1"), Value("deviation - mm -100:0"))
+
+
+def test_the_limit_speed_of_a_num_range_lies_on_its_line(example):
+    """Page 8-16: 0 is the highest speed of the range."""
+    file = example("num")
+    limit = next(i for i in file.machine_schema.instances(file.schema.parameters["spindle.limit_speed"]))
+    assert not [h for h in draw(file, "gears", "1").handles if h.drags[0].address[0] == "spindle.limit_speed"]
+    file.set(("spindle.limit_speed", limit), Value(80, "rpm"))
+    assert handle(draw(file, "gears", "1"), ("spindle.limit_speed", limit)).at == (80.0, 8.0)
+
+
+EXTREMES = (0.0, -1.0, 1e-9, 1e300, -1.7e308, 5e-324)
+
+
+@given(data=st.data())
+@settings(max_examples=40)
+def test_no_value_however_odd_keeps_a_picture_from_being_drawn(checkout, data):
+    file = _opened(checkout, data.draw(st.sampled_from(sorted(EXAMPLES)))).copy()
+    for parameter in data.draw(
+        st.lists(st.sampled_from(file.schema.pictures.params), min_size=1, max_size=5)
+    ):
+        definition = file.schema.parameters[parameter]
+        for instance in file.machine_schema.instances(definition)[:2]:
+            address = (parameter, instance)
+            if definition.type in ("real", "integer"):
+                number = data.draw(st.sampled_from(EXTREMES))
+                whole = definition.type == "integer"
+                unit = file.evaluation.unit(address, file.header.units)
+                file.set(address, Value(int(max(min(number, 1e15), -1e15)) if whole else number, unit))
+            else:
+                file.set(address, None)
+    for picture in pictures_of(file):
+        scene = picture.scene()
+        assert "nan" not in scene_svg(scene)
+        assert json.dumps(scene_json(scene), allow_nan=False)
+        assert scene.handles or scene.notes
+
+
+@cache
+def _opened(checkout, name):
+    return open_file(checkout / "examples" / EXAMPLES[name]).file
