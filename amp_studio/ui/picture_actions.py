@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import sys
+import threading
+from importlib import import_module
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import check_output, write_atomic
@@ -15,6 +18,15 @@ from .pictures_page import PicturesPage
 from .studio_window import StudioWindow
 
 KEY = "F12"
+RAMPS = "amp_studio.pictures.ramps"
+LOAD_MS = 1500
+"""Milliseconds after a file came to the front until what ramps need is loaded, beside the window."""
+
+
+def _load_early() -> None:
+    """Load the simulator's pieces, which take a fifth of a second, before somebody asks for pictures."""
+    if RAMPS not in sys.modules:
+        threading.Thread(target=import_module, args=(RAMPS,), daemon=True).start()
 
 
 class PictureActions(QObject):
@@ -26,6 +38,11 @@ class PictureActions(QObject):
         name = self.tr("&Pictures")
         self.action = window.action(name, self._toggle, KEY, "file", "frame-corners", self.tr("Pictures"))
         self.action.setCheckable(True)
+        self._early = QTimer(self)
+        self._early.setSingleShot(True)
+        self._early.setInterval(LOAD_MS)
+        self._early.timeout.connect(_load_early)
+        window.tabs.current_changed.connect(lambda _: self._early.start())
         self.save = window.action(self.tr("Save P&icture As SVG…"), self._save)
 
     def pages(self, page: FilePage) -> PicturesPage:

@@ -94,7 +94,8 @@ class PictureCard(QFrame):
         self.canvas.parameter_wanted.connect(self.parameter_wanted)
         scheme().changed.connect(self.show_notes)
         self.setFrameShape(QFrame.Shape.StyledPanel)
-        self.follow(picture)
+        self._offer_parts()
+        self._describe()
 
     def _draw(self, like: Scene | None) -> Scene:
         return self.picture.scene(self.part, like)
@@ -112,7 +113,13 @@ class PictureCard(QFrame):
             picture.key(self.part.replace("+", " "))
         except KeyError:
             self.part = picture.parts[0][0]
-        options = [(key, name or key, "") for key, name in picture.parts]
+        self._offer_parts()
+        self.canvas.draw_again()
+        if not self.canvas.is_dragging:  # a note more or less would move the picture under the pointer
+            self._describe()
+
+    def _offer_parts(self) -> None:
+        options = [(key, name or key, "") for key, name in self.picture.parts]
         few = len(options) <= MOST_PARTS
         self.parts.setVisible(len(options) > 1 and few)
         self.more_parts.setVisible(not few)
@@ -124,9 +131,6 @@ class PictureCard(QFrame):
             self.more_parts.clear()
             for key, name, _ in options:
                 self.more_parts.addItem(name, key)
-        self.canvas.draw_again()
-        if not self.canvas.is_dragging:  # a note more or less would move the picture under the pointer
-            self._describe()
 
     def _describe(self) -> None:
         scene = self.canvas.scene
@@ -173,7 +177,9 @@ class PicturesPage(QWidget):
         self.workspace = workspace
         self.setAccessibleName(self.tr("Pictures"))
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self._pictures = {picture.name: picture for picture in pictures_of(workspace.file)}
         self.cards: dict[str, PictureCard] = {}
+        """Those that were seen already."""
         self._active: PictureCard | None = None
         self._stale = False
         self._seen: list[PictureCard] = []
@@ -213,18 +219,20 @@ class PicturesPage(QWidget):
     # -- which pictures --------------------------------------------------------------
 
     def _build(self) -> None:
-        for picture in pictures_of(self.workspace.file):
-            card = PictureCard(self.workspace, picture)
-            card.hide()
+        options = [(name, picture.title, "") for name, picture in self._pictures.items()]
+        self.names.offer([(ALL, self.tr("All"), ""), *options])
+        self.show_picture(ALL)
+
+    def card(self, name: str) -> PictureCard:
+        """Return the card of a picture, made when it is first seen."""
+        if name not in self.cards:
+            card = self.cards[name] = PictureCard(self.workspace, self._pictures[name])
             card.parameter_wanted.connect(self.parameter_wanted)
             card.canvas.handle_chosen.connect(partial(self._choose, card))
             card.canvas.typed.connect(self.footer.type)
             card.canvas.left.connect(self.left)
             card.canvas.told.connect(self.told)
-            self.cards[picture.name] = card
-        options = [(name, card.picture.title, "") for name, card in self.cards.items()]
-        self.names.offer([(ALL, self.tr("All"), ""), *options])
-        self.show_picture(ALL)
+        return self.cards[name]
 
     @property
     def chosen_card(self) -> PictureCard:
@@ -243,17 +251,16 @@ class PicturesPage(QWidget):
 
     def _arrange(self) -> None:
         """Put the cards into the grid: the first one large and others beside it, or one alone."""
-        name, cards = self.shown, list(self.cards.values())
-        for card in cards:
+        name, names = self.shown, list(self._pictures)
+        two = name == ALL and self.width() >= TWO_COLUMNS and len(names) > 1
+        wanted = names[: 1 + SIDE] if two else [name] if name in self._pictures else names[:1]
+        hidden = [card for card in self.cards.values() if card not in self._seen]
+        seen = [self.card(each) for each in wanted]
+        for card in seen:
+            if card in hidden:  # it did not follow the file meanwhile
+                card.follow(self._pictures[card.picture.name])
+        for card in self.cards.values():
             self.grid.removeWidget(card)
-        two = name == ALL and self.width() >= TWO_COLUMNS and len(cards) > 1
-        seen = (
-            cards[: 1 + SIDE]
-            if two
-            else [self.cards[name] if name in self.cards else cards[0]]
-            if cards
-            else []
-        )
         for n, card in enumerate(seen):
             card.small = two
             if n == 0:
@@ -263,14 +270,14 @@ class PicturesPage(QWidget):
             card.show_notes()
         self.grid.setColumnStretch(0, 6)
         self.grid.setColumnStretch(1, 5 if two else 0)
-        for card in cards:
+        for card in self.cards.values():
             card.setVisible(card in seen)
         self._seen = seen
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         two = self.width() >= TWO_COLUMNS
-        if self.shown == ALL and two != (len(self._seen) > 1) and len(self.cards) > 1:
+        if self.shown == ALL and two != (len(self._seen) > 1) and len(self._pictures) > 1:
             QTimer.singleShot(0, self, self._arrange)  # not while the layout is at work
 
     # -- following the file ------------------------------------------------------------
@@ -286,17 +293,16 @@ class PicturesPage(QWidget):
                 elif set(addresses) & set(card.canvas.scene.drawn_from):
                     card.canvas.draw_again()
             return
-        found = {picture.name: picture for picture in pictures_of(self.workspace.file)}
+        self._pictures = {picture.name: picture for picture in pictures_of(self.workspace.file)}
         for card in self._seen:
-            card.follow(found.get(card.picture.name, card.picture))
+            card.follow(self._pictures.get(card.picture.name, card.picture))
         self.footer.show_handle(self._active.canvas.handle if self._active else None)
 
     def showEvent(self, event: object) -> None:
         super().showEvent(event)  # type: ignore[arg-type]
         if self._stale:
+            self._follow([])
             self._stale = False
-            for card in self.cards.values():
-                card.follow(card.picture)
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         """Give the focus to the first handle."""
