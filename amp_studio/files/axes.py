@@ -23,7 +23,9 @@ def axis_instances(file: ParameterFile) -> tuple[str, ...]:
     family = file.schema.family
     if family.axes:
         return file.machine_schema.instances(file.schema.parameters[family.axes.type])
-    return family.scopes["axis"].instances if "axis" in family.scopes else ()
+    instances = family.scopes["axis"].instances if "axis" in family.scopes else ()
+    most = family.declared_axes.most.get(file.machine) if family.declared_axes else None
+    return instances[:most]
 
 
 def fitted_axes(file: ParameterFile) -> tuple[str, ...]:

@@ -63,7 +63,7 @@ class DiskWatch(QObject):
     def offer(self) -> None:
         """Say that the file on disk is another one now, with a button for each way on."""
         name, dirty = self._page.workspace.path.name, self._page.workspace.is_dirty
-        compare, reload = ("&Compare…", lambda: self._compare(self._page)), ("&Reload", self._ask_reload)
+        compare, reload = ("Co&mpare…", lambda: self._compare(self._page)), ("&Reload", self._ask_reload)
         if dirty:
             text = f"{name} was changed by another program while you have unsaved changes. Compare both, then save."
             self._page.bar.say(text, "warning", compare, reload)

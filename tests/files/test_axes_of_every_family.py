@@ -109,6 +109,13 @@ def test_axes_that_a_family_cannot_have_are_refused(family: str, axes: list[str]
         new_file(family, None, axes)
 
 
+def test_a_machine_type_may_have_fewer_axes_than_its_family() -> None:
+    """Grbl 1.1 has X, Y and Z (G-100)."""
+    with pytest.raises(AxisError, match="4 axes are too many: grblHAL and Grbl has 3"):
+        new_file("grblhal", "grbl-1.1", list("XYZA"))
+    assert fitted_axes(new_file("grblhal", "grbl-1.1", list("XYZ"))) == ("X", "Y", "Z")
+
+
 # -- which are there -------------------------------------------------------------------------------------------------
 
 

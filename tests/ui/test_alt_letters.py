@@ -53,6 +53,13 @@ def test_nothing_in_the_window_has_the_letter_of_a_menu(
     assert doubled([*top, *texts_of(window)]) == {}
 
 
+def test_a_message_about_the_disk_has_letters_that_no_menu_has(window: MainWindow) -> None:
+    window.page.conflict.emit()
+    assert len(window.page.bar.buttons) == 2
+    top = [a.text() for a in window.menuBar().actions() if a.isVisible()]
+    assert doubled([*top, *texts_of(window)]) == {}
+
+
 # -- dialogs ---------------------------------------------------------------------------------------------------------
 
 

@@ -97,6 +97,8 @@ class AxisDeclaration(Model):
     """A text with the letters of the axes that are compiled into a control: the first ones, in order."""
     least: int = 1
     """The fewest axes there can be."""
+    most: dict[Key, int] = {}
+    """Machine type -> the most axes there can be, for one that has fewer than the family."""
     place: str = ""
     """What an instance is at the machine, for families where none can be inserted (``address of the encoder card``)."""
 
