@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, real_path, shown_axes
@@ -42,6 +43,7 @@ class DetailPanel(QWidget):
         super().__init__()
         self._workspace = workspace
         self._address: Address | None = None
+        self._is_stale = False
         self._writer = DetailPage(workspace)
         self.head = self._make_head()
         self.axes = Segment(self.tr("Axis"))
@@ -109,7 +111,15 @@ class DetailPanel(QWidget):
         self.word.show_address(address)
         self._show()
 
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self._is_stale:
+            self._show()
+
     def _show(self, *_: object) -> None:
+        self._is_stale = not self.isVisible()
+        if self._is_stale:  # written when somebody can see it
+            return
         address, file = self._address, self._workspace.file
         self._rest.stop()
         if address is None:
@@ -178,14 +188,14 @@ class DetailPanel(QWidget):
             return
         search = self._workspace.validator.allowed(address, found.unit)
         near = [x for x in (found.value, found.default) if x is not None]
-        task = Task(lambda *_: search.around(found.low, found.high, near), self)
-
-        def show(allowed: tuple[float, float] | None) -> None:
-            if self._address == address and self._in_range(address) == found:
-                self.bar.show_allowed(allowed)
-
-        task.done.connect(show)
+        task = Task(lambda *_: (address, found, search.around(found.low, found.high, near)))
+        task.done.connect(self._take_allowed)
         task.begin()
+
+    def _take_allowed(self, answer: tuple[Address, ValueInRange, tuple[float, float] | None]) -> None:
+        address, found, allowed = answer
+        if self._address == address and self._in_range(address) == found:
+            self.bar.show_allowed(allowed)
 
     # -- links -------------------------------------------------------------------
 
@@ -217,21 +227,23 @@ class DetailPanel(QWidget):
 
         file, path = self._workspace.file.copy(), self._workspace.path
 
-        def show(last: object) -> None:
-            if self._address == address:
-                self._writer.last_download = last if isinstance(last, tuple) else ("", None)
-                self._show()
+        not_known = self.tr("not known")
 
-        def work(*_: object) -> tuple[str, Value | None]:
+        def work(*_: object) -> tuple[Address, str, Value | None]:
             try:
                 last = last_download(file, path)
             except (NoDownloadError, OSError):
-                return self.tr("not known"), None
-            return day_and_time(last.when), last.file.get(address)
+                return address, not_known, None
+            return address, day_and_time(last.when), last.file.get(address)
 
-        task = Task(work, self)
-        task.done.connect(show)
+        task = Task(work)
+        task.done.connect(self._take_download)
         task.begin()
+
+    def _take_download(self, answer: tuple[Address, str, Value | None]) -> None:
+        if self._address == answer[0]:
+            self._writer.last_download = answer[1:]
+            self._show()
 
 
 def _number(value: Value | None, unit: str) -> float | None:
