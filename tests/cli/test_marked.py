@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import shutil
 from pathlib import Path
 
@@ -9,6 +10,8 @@ import pytest
 
 from amp_studio.files import digest_of, open_file, save_file
 from amp_studio.files.notes import set_value_note
+from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
+from amp_studio.transfer.image import encode_image
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 
@@ -48,6 +51,25 @@ def test_marks_together_are_all_demanded(amp, mill: Path) -> None:
     found = numbers(amp("get", mill, "--with-findings", "--json"))
     assert "1740" in found or "1750" in found
     assert numbers(amp("get", mill, "--with-findings", "--changed", "--json")) <= found
+
+
+def record_download(path: Path) -> None:
+    """Record that a file as it is was downloaded into an empty control."""
+    image = encode_image(open_file(path).file)
+    add_exchange(
+        path,
+        exchange_now("download", path, "9pc", "tcp://cnc:9600", before="", after=hashlib.sha256(image).hexdigest(),
+                     state="new", kept="", changes=changes_of(b"", image)),
+    )  # fmt: skip
+
+
+def test_what_is_newer_than_the_last_download_is_listed(amp, mill: Path) -> None:
+    record_download(mill)
+    assert numbers(amp("get", mill, "--since-download", "--json")) == set()
+    assert amp("set", mill, "2750=13", "1735=0.03").code == 0
+    assert numbers(amp("get", mill, "--since-download", "--json")) == {"2750", "1735"}
+    assert amp("set", mill, "2750=11").code == 0
+    assert numbers(amp("get", mill, "--since-download", "--json")) == {"1735"}
 
 
 def test_values_with_a_note_are_listed(amp, mill: Path) -> None:

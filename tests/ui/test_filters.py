@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 
 import pytest
 
 from amp_studio.schema import Address, Value
+from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
+from amp_studio.transfer.image import encode_image
 from amp_studio.ui.filter_bar import FilterBar
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.workspace import Workspace
@@ -125,7 +128,13 @@ def test_without_a_download_the_page_says_so_and_shows_everything(
 def test_what_was_changed_since_the_download_is_listed(
     window: MainWindow, workspace: Workspace, filters: FilterBar
 ) -> None:
-    filters.take_download(dict(workspace.file.values))
+    image = encode_image(workspace.file)
+    add_exchange(
+        workspace.path,
+        exchange_now("download", workspace.path, "9pc", "tcp://cnc:9600", before="", state="new", kept="",
+                     after=hashlib.sha256(image).hexdigest(), changes=changes_of(b"", image)),
+    )  # fmt: skip
+    action(window, "Changed since download").trigger()
     assert ids(window) == set()
     workspace.edit("edit", {BREAK: Value(4.0, "mm")})
     assert ids(window) == {"servo.gain_break_point"}
