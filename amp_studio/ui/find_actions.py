@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QAction, QKeySequence
 
 from amp_studio.find import Entry, Finder, Hit, index_of
 from amp_studio.find.index import Index
-from amp_studio.schema import Schema, family_ids, load_schema
+from amp_studio.schema import family_ids, load_schema
 
 from .file_page import FilePage
 from .find_box import COMMANDS, FindBox
@@ -19,6 +20,8 @@ from .message_page import MessageWindow
 from .studio_window import StudioWindow
 from .task import Task
 
+_SOON_MS = 1_000
+"""Milliseconds after a file was opened until its family is indexed, so that it is painted first."""
 _MOST = 30
 """Hits in the file that are worth showing."""
 _COMMAND = 0.8
@@ -35,6 +38,13 @@ class FindActions:
         self.box.left.connect(self._leave)
         self._finders: dict[FilePage, Finder] = {}
         self._indexed: set[tuple[int, str]] = set()
+        self._indexing: set[tuple[int, str]] = set()
+        self._soon = QTimer(window)
+        """Indexes a family while nothing else is to do; who comes to the box before has it at once."""
+        self._soon.setSingleShot(True)
+        self._soon.setInterval(_SOON_MS)
+        self._soon.timeout.connect(self._index)
+        self.box.entered.connect(self._index)
         self._commands: dict[str, QAction] = {}
         self._menu = Index(())
         self._families: tuple[Finder, ...] | None = None
@@ -59,30 +69,30 @@ class FindActions:
         page.workspace.changed.connect(lambda *_: self._changed(page, finder))
         page.destroyed.connect(lambda: self._finders.pop(page, None))
         page.detail.message_wanted.connect(lambda message: self._show_message(page, message))
-        self._index(file.schema, file.machine)
+        self._soon.start()
 
     def _changed(self, page: FilePage, finder: Finder) -> None:
         file = page.workspace.file
         if finder.machine != file.machine:
             self._finders[page] = Finder(file.schema, file.machine, file)
-            self._index(file.schema, file.machine)
+            self._soon.start()
         else:
             finder.forget_values()
 
-    def _index(self, schema: Schema, machine: str) -> None:
-        """Index the words of a family on a machine type in a thread; a question that waits for it is asked again."""
-        key = (id(schema), machine)
-        if key in self._indexed:
-            return
+    def _index(self) -> None:
+        """Index the words of the families of the open files in threads; a question that waits for one is asked again."""
+        for finder in self._finders.values():
+            key = (id(finder.schema), finder.machine)
+            if key not in self._indexed | self._indexing:
+                self._indexing.add(key)
+                task = Task(lambda *_, own=finder: index_of(own.schema, own.machine))
+                task.done.connect(partial(self._take_index, key))
+                task.begin()
 
-        def done(_: object) -> None:
-            self._indexed.add(key)
-            if self.box.is_open:
-                self.box.search()
-
-        task = Task(lambda *_: index_of(schema, machine))
-        task.done.connect(done)
-        task.begin()
+    def _take_index(self, key: tuple[int, str], _: object) -> None:
+        self._indexed.add(key)
+        if self.box.is_open:
+            self.box.search()
 
     # -- asking --------------------------------------------------------------------------
 

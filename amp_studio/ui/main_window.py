@@ -218,6 +218,7 @@ class MainWindow(StudioWindow):
         if not all(self.may_leave(page) for page in self.tabs.pages()):
             event.ignore()
             return
+        self.finder.box.setEnabled(False)  # else Qt gives it the focus while the window is taken apart
         self.settings.keep_place(self)
         self.docks.keep()
         self.files.keep_session()
@@ -226,7 +227,6 @@ class MainWindow(StudioWindow):
             self.close_page(page)
         self.summaries.stop()
         Task.end_all()
-        self.finder.box.setEnabled(False)  # else Qt gives it the focus while the window is taken apart
         event.accept()
 
     def open_first(self, path: Path) -> None:

@@ -54,6 +54,7 @@ QToolButton[segment]:hover { background: $hover; }
 QToolButton[segment]:checked { background: $selbg; }
 QToolButton[segment]:focus { border-color: $sel; }
 QToolButton[chip="true"] { background: transparent; border: 1px solid $line2; border-radius: 10px; padding: 1px 6px; }
+QToolButton[chip="true"]::menu-indicator { image: none; width: 0; }
 QToolButton[chip="true"]:hover { background: $hover; }
 QToolButton[chip="true"]:checked { background: $selidle; border-color: $selidle; }
 QToolButton[chip="true"]:focus { border-color: $sel; }

@@ -9,7 +9,6 @@ from PySide6.QtTest import QTest
 from amp_studio.ui.find_box import FindBox
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.message_page import MessageWindow
-from amp_studio.ui.task import Task
 from amp_studio.ui.workspace import Workspace
 
 from .conftest import WAIT_MS, action
@@ -18,7 +17,8 @@ from .conftest import WAIT_MS, action
 @pytest.fixture
 def box(window: MainWindow, qtbot) -> FindBox:
     """Return the box of a window whose family is indexed."""
-    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    window.finder.box.begin("")
+    qtbot.waitUntil(lambda: window.finder._finder() is not None, timeout=WAIT_MS)
     return window.finder.box
 
 

@@ -9,7 +9,6 @@ from PySide6.QtTest import QTest
 from amp_studio.schema import Value
 from amp_studio.ui.group_list import GroupList
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.task import Task
 from amp_studio.ui.workspace import Workspace
 
 from .conftest import WAIT_MS
@@ -22,7 +21,8 @@ def groups(workspace: Workspace) -> GroupList:
 
 
 def test_all_that_is_found_can_be_shown_in_the_table_and_a_group_again(window: MainWindow, qtbot) -> None:
-    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    window.finder.box.begin("")
+    qtbot.waitUntil(lambda: window.finder._finder() is not None, timeout=WAIT_MS)
     window.page.left.show_side("groups")
     window.groups.tree.setCurrentItem(window.groups._items[0])
     box = window.finder.box
