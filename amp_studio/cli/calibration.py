@@ -26,13 +26,23 @@ from amp_studio.calibration import (
     shown_unit,
 )
 from amp_studio.calibration.edit import deleted, inserted, left_over, rechosen, replaced
-from amp_studio.files import Change, Document, ParameterFile, RangeError, describe
+from amp_studio.files import Change, Document, ParameterFile, RangeError, describe, write_atomic
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, show_value, shown, write_value
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    Value,
+    axis_meant,
+    axis_name,
+    show_value,
+    shown,
+    write_value,
+)
 from amp_studio.schema.values import read_exact
 
 from .console import note, print_json
 from .errors import UsageError
+from .output import check_replaced
 
 _STARTS = {"positive": "+", "negative": "-"}
 _OPTIONS = {"unit": "--unit", "error_unit": "--error-unit", "sign": "--sign", "decimal": "--decimal"}
@@ -47,6 +57,8 @@ def calibrate_verb(options: argparse.Namespace) -> int:
         raise UsageError(
             "points are measured (--from) or changed by hand (--insert, --replace, --delete, --clear)"
         )
+    if options.output:
+        _check_picture(options)
     writes = (by_hand or bool(options.measured)) and not options.dry_run
     with Document.open(options.path) if writes else nullcontext(Document.view(options.path)) as document:
         file = document.file
@@ -65,11 +77,33 @@ def calibrate_verb(options: argparse.Namespace) -> int:
             _demand_answers(found.measurement)
             if changes:
                 document.save("calibrate")
+    if options.output and found.proposal is not None:
+        _draw(options, file, found.proposal)
     if options.json:
         print_json(_json(options, file, offered, axis, found, changes))
     else:
         print("\n".join(_lines(options, file, offered, axis, found, changes)))
     return 0
+
+
+def _check_picture(options: argparse.Namespace) -> None:
+    if not options.measured:
+        raise UsageError("a picture is drawn of measured points: --from FILE")
+    if options.output.suffix.lower() != ".svg":
+        raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
+    check_replaced(options.output, options.path)
+    check_replaced(options.output, options.measured)
+
+
+def _draw(options: argparse.Namespace, file: ParameterFile, proposal: Proposal) -> None:
+    from amp_studio.pictures import scene_svg
+
+    from .calibration_picture import proposal_scene
+
+    letter = axis_name(file.evaluation, proposal.axis) or proposal.axis
+    scene = proposal_scene(proposal, f"Axis {letter}: mean errors")
+    write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=note)
+    note(f"Written: {options.output}")
 
 
 def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:

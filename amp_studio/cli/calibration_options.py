@@ -13,7 +13,7 @@ def calibrate_options(verbs: Verbs) -> None:
         "calibrate",
         "calibration",
         "the calibration table and the reversal error of an axis, from measured points or by hand; without either, show them",
-        writes="path",
+        writes="path output",
     )
     sub.add_argument("path", type=path_of)
     sub.add_argument("--axis", required=True, help="axis by its letter or number")
@@ -43,6 +43,7 @@ def calibrate_options(verbs: Verbs) -> None:
     )
     sub.add_argument("--delete", action="append", metavar="POSITION", help="a point that goes")
     sub.add_argument("--clear", action="store_true", help="delete all points of the axis")
+    sub.add_argument("-o", "--output", type=path_of, help="the errors before and after as a picture (.svg)")
     sub.add_argument("--dry-run", action="store_true", help="change nothing, show what would change")
     json_option(sub)
     sub._negative_number_matcher = re.compile(

@@ -112,7 +112,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "calibrate": (
         f"amp-studio calibrate {MILL} --axis X",
-        f"amp-studio calibrate {MILL} --axis X --from laser.csv --dry-run",
+        f"amp-studio calibrate {MILL} --axis X --from laser.csv --dry-run -o errors.svg",
         f"amp-studio calibrate {MILL} --axis X --from laser.csv --sign measured-target",
         f"amp-studio calibrate {MILL} --axis X --compensation on --from laser.csv --sign measured-target --json --dry-run",
     ),

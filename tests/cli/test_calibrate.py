@@ -194,3 +194,16 @@ def test_a_point_measured_with_the_calibration_on_is_added_to_what_the_table_tak
     assert amp("calibrate", mill, "--axis", "X", "--compensation", "on", "--insert", "50=0.001").code == 0
     assert amp("calibrate", mill, "--axis", "X", "--compensation", "on", "--replace", "100=0.001").code == 0
     assert [p["figure"] for p in table(amp, mill)["points"]] == [0, 0.003, 0.005]
+
+
+def test_the_errors_before_and_after_are_drawn(amp, mill: Path, laser: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "errors.svg"
+    base = ("calibrate", mill, "--axis", "X", "--from", laser, "--dry-run")
+    assert amp(*base, "-o", picture).code == 0
+    text = picture.read_text(encoding="utf-8")
+    for words in ("Axis X", "measured, rising", "measured, falling", "expected, rising", "13 µm measured"):
+        assert words in text, words
+    assert "name the file errors.svg" in amp(*base, "-o", tmp_path / "errors.png").err
+    assert amp(*base, "-o", laser).code == 2
+    assert laser.read_text() == POINTS
+    assert "--from" in amp("calibrate", mill, "--axis", "X", "-o", picture).err
