@@ -29,6 +29,8 @@ from .workspace import Workspace
 
 _LIVE_MS = 150
 """Milliseconds after an edit of the file until the comparison follows."""
+_PAINTED_MS = 50
+"""Milliseconds until new rows are painted; a check that runs beside that would hold it up."""
 Offers = Callable[[], list[tuple[str, list[Offer]]]]
 SaveResult = Callable[[ParameterFile], object]
 
@@ -71,6 +73,7 @@ class MergeWindow(QDialog):
         self._follow = self._timer(_LIVE_MS, self._read_again)
         self._update = self._timer(0, self._after_choice)
         self._patience = self._timer(PATIENCE_MS, self.reading.show)
+        self._painted = self._timer(_PAINTED_MS, self._begin_check)
         self._connect(save_result)
         self.resize(1180, 740)
         self._show_sources()
@@ -232,9 +235,8 @@ class MergeWindow(QDialog):
         for column, button in self.head.buttons.items():
             button.show_source(self.chosen.get(column))
         self.head.target = self.tr("goes to {file}").format(file=self.workspace.path.name)
-        differ = len(self.merge.differing)
-        texts = (self.tr("%n differ", "", differ), self.tr("%n the same", "", self.merge.same))
-        self.head.counts = ", ".join(texts)
+        text = self.tr("{differ} differ, {same} the same")
+        self.head.counts = text.format(differ=len(self.merge.differing), same=self.merge.same)
         self.view.only_conflicts.setText(self.tr("Conflicts") + f" {len(self.merge.conflicts)}")
         self.view.only_conflicts.setEnabled(has_base)
         self.view.only_conflicts.setChecked(has_base and self.view.only_conflicts.isChecked())
@@ -243,7 +245,7 @@ class MergeWindow(QDialog):
         self.head.place()
         self.tree.unfold()
         self._check = None
-        self._begin_check()
+        self._painted.start()
         self._after_choice()
 
     def _read_again(self) -> None:
@@ -276,7 +278,7 @@ class MergeWindow(QDialog):
             self._check = check
             self._after_choice()
         else:
-            self._begin_check()
+            self._painted.start()
 
     def _judge(self, row: Row, choice: Choice) -> list[Finding] | None:
         return self._check.with_choice(row, choice) if self._check else None
