@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from amp_studio.schema import Address, Schema, Value, same_value
+from amp_studio.schema import Address, Schema, Value, same_value, written
 from amp_studio.schema.address import whole_of
 from amp_studio.schema.model import Parameter
 
@@ -144,9 +144,14 @@ def swap_axes(file: ParameterFile, first: str, second: str) -> list[Change]:
 def moved(file: ParameterFile, order: Mapping[str, str]) -> None:
     """Move axes, each to the place of another (``order``: from -> to), with all their values, bits and references."""
     wanted: dict[Address, Value | None] = {}
+    notes, left = dict(file.header.value_notes), file.header.value_notes
     for source, target in order.items():
         for parameter_id, instance in axis_addresses(file, source):
-            wanted[parameter_id, target + instance[len(source) :]] = file.get((parameter_id, instance))
+            place = parameter_id, target + instance[len(source) :]
+            wanted[place] = file.get((parameter_id, instance))
+            notes.pop(written(place), None)
+            if note := left.get(written((parameter_id, instance))):
+                notes[written(place)] = note
     for parameter_id, bits in words_of_axes(file.schema).items():
         value = file.get((parameter_id, ""))
         if value is None:
@@ -160,6 +165,7 @@ def moved(file: ParameterFile, order: Mapping[str, str]) -> None:
         wanted[address] = Value(key)
     for address, found in wanted.items():
         file.set(address, found)
+    file.header.value_notes = notes
 
 
 def _references(

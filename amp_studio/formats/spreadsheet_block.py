@@ -22,6 +22,7 @@ MOST_CELLS = 50_000
 
 _QUOTED = re.compile(r'"((?:[^"]|"")*)"(?=\t|\r\n|\n|\r|\Z)')
 _PLAIN = re.compile(r"[^\t\r\n]*")
+_BLANKS = re.compile("[\u00a0\u2007\u2009\u202f]")
 _ROW_END = re.compile(r"\r\n|\n|\r")
 _SHOWN_NUMBER = re.compile(r"[-+−]?[0-9][0-9.,' \u00a0\u202f]*(?:[eE][-+]?[0-9]+)?")
 _LIKE_GROUPS = re.compile(r"[-+]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+(?![0-9])")
@@ -52,7 +53,13 @@ def read_block(text: str, markup: str = "") -> list[list[str]]:
     width = max(map(len, rows), default=0)
     if width * len(rows) > MOST_CELLS:
         raise BlockError(f"The clipboard has more than {MOST_CELLS:,} cells. Copy fewer.")
-    return [[cell_text(cell) for cell in row] + [""] * (width - len(row)) for row in rows]
+    return [[_plain(cell_text(cell)) for cell in row] + [""] * (width - len(row)) for row in rows]
+
+
+def _plain(text: str) -> str:
+    """Return a cell with the blanks and the minus of a keyboard: spreadsheets group digits by narrow blanks that no line breaks at."""
+    text = _BLANKS.sub(" ", text)
+    return "-" + text[1:] if re.match(r"\u2212\s*[0-9.,]", text) else text
 
 
 def two_ways(rows: Sequence[Sequence[str]]) -> set[str]:

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, QRect, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from .cell_look import CellLook
-from .theme import SMALL_ICON, Token, colour, font, paint_icon, scheme
+from .theme import SMALL_ICON, Token, colour, font, is_dark, paint_icon
 
 _SEVERITIES: dict[str, tuple[Token, Token, str]] = {
     "error": ("error", "errorbg", "x-circle-fill"),
@@ -42,11 +42,14 @@ class CellPainter:
         self._metrics = {id(f): QFontMetricsF(f) for f in (self._own, self._plain, self._small, self._italic)}
         self._widths: dict[tuple[int, str], float] = {}
         self._inks: dict[Token, QColor] = {}
+        self._is_dark: bool | None = None
         self.take_colours()
-        scheme().changed.connect(self.take_colours)
 
     def take_colours(self) -> None:
-        """Take the colours of the present theme."""
+        """Take the colours of the present theme, where it is another one; asked before each frame."""
+        if self._is_dark == is_dark():
+            return
+        self._is_dark = is_dark()
         self._inks = {token: colour(token) for token in _INKS}
         self._hatch = QBrush(self._inks["line2"], Qt.BrushStyle.BDiagPattern)
         self._dots = QPen(self._inks["dim"], 1, Qt.PenStyle.DotLine)

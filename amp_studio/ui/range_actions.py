@@ -166,12 +166,21 @@ class RangeActions:
         beyond = max(0, height - len(block)) * width + max(0, width - max(map(len, block), default=0)) * len(
             block
         )
-        return found, [tr("%n cells are beyond the table.", "", beyond)] if beyond else []
+        some = (
+            tr("1 cell is beyond the table.")
+            if beyond == 1
+            else tr("%n cells are beyond the table.", "", beyond)
+        )
+        return found, [some] if beyond else []
 
     def _by_name(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
         """Return the text for each address of a block that has numbers and heads, wherever its rows are now."""
         table = self._page().table
-        columns = {" ".join(filter(None, table.column_head(c))): c for c in range(len(table.columns))}
+        heads = [table.column_head(c) for c in range(len(table.columns))]
+        columns = {
+            letter: c for c, (letter, _) in enumerate(heads) if letter
+        }  # another file may have X as axis 2
+        columns |= {" ".join(filter(None, head)): c for c, head in enumerate(heads)}
         numbers: dict[tuple[str, str], int] = {}
         for n, row in enumerate(table.rows):
             if not row.section:
@@ -184,11 +193,11 @@ class RangeActions:
                 left_out.append(tr("{name} is not in this list.").format(name=f"{number} {name}".strip()))
                 continue
             for head, text in zip(rows[0][2:], row_texts[2:], strict=False):
-                column = columns.get(head.strip())
+                column = _column(columns, head)
                 address = table.address_at(place, column) if column is not None else None
                 if text.strip() and address is not None:
                     found[address] = text.strip()
-        unknown = [head.strip() for head in rows[0][2:] if head.strip() and head.strip() not in columns]
+        unknown = [h.strip() for h in rows[0][2:] if h.strip() and _column(columns, h) is None]
         return found, left_out + [tr("There is no column {head}.").format(head=head) for head in unknown]
 
     # -- fill --------------------------------------------------------------------
@@ -264,3 +273,8 @@ class RangeActions:
             raise ValueError(tr("Select a value of a fitted axis first."))
         same = [a for a in alike_axes(file, address[1]) if a != address[1]]
         self.fill_from({(address[0], axis): address for axis in same})
+
+
+def _column(columns: Mapping[str, int], head: str) -> int | None:
+    """Return the column of a head as it was copied: the same, or that of the same letter."""
+    return columns.get(head.strip(), columns.get(head.strip().partition(" ")[0]))

@@ -20,8 +20,9 @@ class RowHeads(QHeaderView):
     def __init__(self, table: ParameterTable, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Vertical, parent)
         self._table = table
-        self.setDefaultSectionSize(ROW)
-        self.setMinimumSectionSize(ROW)
+        self.row_height = max(ROW, QFontMetrics(font("text")).height() + 6)
+        self.setMinimumSectionSize(self.row_height)
+        self.setDefaultSectionSize(self.row_height)
         self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         self.setSectionsClickable(True)
         self.setHighlightSections(False)
@@ -32,7 +33,7 @@ class RowHeads(QHeaderView):
         return QSize(self.width(), 0)
 
     def sectionSizeFromContents(self, section: int) -> QSize:
-        return QSize(self.width(), ROW)
+        return QSize(self.width(), self.row_height)
 
     def paintSection(self, painter: QPainter, rect: QRect, section: int) -> None:
         table, view = self._table, self.parent()
@@ -81,14 +82,15 @@ class AxisHeads(QHeaderView):
         self._table = table
         self.setSectionsClickable(True)
         self.setHighlightSections(True)
+        self._height = max(COLUMN_HEAD, QFontMetrics(font("text")).height() + 10)
         self.setMinimumSectionSize(56)
         self.setAccessibleName(self.tr("Axes"))
 
     def sectionSizeFromContents(self, section: int) -> QSize:
-        return QSize(self.minimumSectionSize(), COLUMN_HEAD)
+        return QSize(self.minimumSectionSize(), self._height)
 
     def sizeHint(self) -> QSize:
-        return QSize(super().sizeHint().width(), COLUMN_HEAD)
+        return QSize(super().sizeHint().width(), self._height)
 
     def paintSection(self, painter: QPainter, rect: QRect, section: int) -> None:
         view = self.parent()

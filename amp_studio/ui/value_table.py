@@ -25,7 +25,7 @@ from .cell_editor import CellEditor, Refusal
 from .parameter_table import CONTROL, AddressRole, ParameterTable
 from .selected_cells import SelectedCells
 from .table_heads import NUMBER, AxisHeads, Corner, RowHeads
-from .theme import font, scheme
+from .theme import font
 from .value_delegate import ValueDelegate, allowed_text
 
 _NAMES = (240, 302, 420)
@@ -89,7 +89,6 @@ class ValueTable(QTableView):
         self.addActions(list(actions))
         self.selectionModel().currentChanged.connect(self._emit_selected)
         self.selectionModel().selectionChanged.connect(self._emit_range)
-        scheme().changed.connect(self.viewport().update)
         model.modelAboutToBeReset.connect(self._before_reset)
         model.modelReset.connect(self._after_reset)
 
@@ -219,6 +218,9 @@ class ValueTable(QTableView):
         self.focusNextChild() if forward else self.focusPreviousChild()
         self.setTabKeyNavigation(True)
 
+    def keyboardSearch(self, search: str) -> None:
+        """Look for nothing: letters are for values, and the find box looks through all of the file."""
+
     def _is_end(self, move: QAbstractItemView.CursorAction) -> bool:
         """Return whether Tab would begin again at the other end."""
         here, there = self.currentIndex(), self.moveCursor(move, Qt.KeyboardModifier.NoModifier)
@@ -232,6 +234,7 @@ class ValueTable(QTableView):
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = self._delegate.painter
         painter.is_active = self.hasFocus()
+        painter.take_colours()
         super().paintEvent(event)
         over = QPainter(self.viewport())
         for address in self._table.outlined:

@@ -165,9 +165,10 @@ class Workspace(QObject):
         ((address, value),) = wanted.items()
         if value is None:
             return self.tr("Clear {name}").format(name=self.name_of(address))
-        shown = show_value(self.file.schema.parameters[address[0]], value, secrets=False)
+        parameter = self.file.schema.parameters[address[0]]
+        shown = show_value(parameter, value, secrets=False)
         text = self.tr("Set {name} to {value}").format(name=self.name_of(address), value=shown)
-        return f"{text} ({expression})" if expression else text
+        return f"{text} ({expression})" if expression and not parameter.secret else text
 
     def do(self, text: str, operation: Callable[[], object]) -> bool:
         """Run an operation on the file as one undoable step; returns whether it changed anything.

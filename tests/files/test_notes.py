@@ -6,7 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Document, ParameterFile, ParameterFileError, content_of, open_file, read_content
+from amp_studio.files import (
+    Document,
+    ParameterFile,
+    ParameterFileError,
+    content_of,
+    open_file,
+    read_content,
+    swap_axes,
+)
 from amp_studio.files.merging import Merge
 from amp_studio.files.notes import (
     MachineNote,
@@ -133,3 +141,12 @@ def test_notes_go_through_a_table_for_a_spreadsheet(file: ParameterFile, tmp_pat
     again = import_file(tmp_path / "mill.csv", "9pc")
     assert value_note(again, EXCESS) == "two\nlines, =1+1"
     assert again.get(EXCESS) == file.get(EXCESS)
+
+
+def test_a_note_goes_with_its_value_when_axes_change_places(file: ParameterFile) -> None:
+    set_value_note(file, EXCESS, "of X")
+    set_value_note(file, ("home.calibration", "3"), "of Z")
+    swap_axes(file, "1", "2")
+    assert value_note(file, ("servo.excess_error", "2")) == "of X"
+    assert value_note(file, EXCESS) == ""
+    assert value_note(file, ("home.calibration", "3")) == "of Z"

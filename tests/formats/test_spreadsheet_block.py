@@ -71,6 +71,7 @@ def test_excel_gives_numbers_too() -> None:
         ('"two\nlines"\t"a ""b"""', [["two\nlines", 'a "b"']]),
         ('5" pipe\t"open', [['5" pipe', '"open']]),
         ("a\t\t\n\tb", [["a", "", ""], ["", "b", ""]]),
+        ("2\u202f097\u00a0152\t\u22121,5 mm", [["2 097 152", "-1,5 mm"]]),
         ("", []),
         ("\n", []),
     ],

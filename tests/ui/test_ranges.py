@@ -117,14 +117,18 @@ def test_names_go_along_when_asked_for_and_lead_back_to_their_rows(
     clip(
         "\n".join(
             "\t".join(line)
-            for line in [lines[0], ["1750", "Excess Error", "9 mm", ""], ["1", "Gone", "1", "1"]]
+            for line in [
+                ["No.", "Parameter", "X 7 linear"],
+                ["1750", "Excess Error", "9 mm"],
+                ["1", "Gone", "1"],
+            ]
         )
     )
     window.go_to(("servo.position_loop_type", "1"))
     shown: list[str] = []
     accept(BlockPreview, lambda dialog: shown.extend([dialog.summary.text()]))
     window.edits.range.paste()
-    assert shown == ["1 cells: 1 change, 0 the same, 0 refused"]
+    assert shown == ["1 cell: 1 change, 0 the same, 0 refused"]
     assert of(file, EXCESS) == [Value(9.0, "mm"), Value(11.0, "mm"), Value(11.0, "mm")]
 
 
