@@ -51,7 +51,7 @@ def test_the_columns_are_the_axes_of_the_control_and_absent_groups_are_hidden(bo
 
 def test_a_value_goes_to_all_axes_that_move_alike(board: MainWindow) -> None:
     board.go_to(("axis.max_rate", "Z"))
-    board.edits.to_all_axes()
+    board.edits.range.to_all_axes()
     file = board.workspace.file
     assert [file.get(("axis.max_rate", axis)).value for axis in "XYZ"] == [300.0, 300.0, 300.0]
 

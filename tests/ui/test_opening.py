@@ -96,7 +96,7 @@ def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, person: Pe
     assert "[read-only]" in window.windowTitle()
     assert not action(window, "Save").isEnabled()
     assert not action(window, "Delete Axis").isEnabled()
-    assert not action(window, "Clear Value (Not Set)").isEnabled()
+    assert not action(window, "Clear (Not Set)").isEnabled()
     assert action(window, "Save As").isEnabled()
     index = window.table.index_of(("control.type", ""))
     from PySide6.QtCore import Qt

@@ -86,11 +86,11 @@ def test_a_file_without_secrets_offers_nothing_to_show(window: MainWindow, tmp_p
 
 def test_a_masked_secret_is_not_copied(window: MainWindow, person: Person) -> None:
     QGuiApplication.clipboard().setText("before")
-    action(window, "Copy Value").trigger()
+    action(window, "Copy").trigger()
     assert "is secret" in person.reads()
     assert QGuiApplication.clipboard().text() == "before"
     action(window, "Show Secrets").trigger()
-    action(window, "Copy Value").trigger()
+    action(window, "Copy").trigger()
     assert QGuiApplication.clipboard().text() == SECRET
 
 
