@@ -176,6 +176,9 @@ def _shown(value: OpenValue) -> str:
 
 def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
     yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
+    order = file.schema.commissioning
+    if order is not None and order.order == "ours":
+        yield order.why
     width = max(len(each.step.title) for each in come.steps)
     for each in come.steps:
         yield _step_line(each, width)

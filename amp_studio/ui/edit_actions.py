@@ -225,9 +225,9 @@ class EditActions:
         from .finding_dialogs import FixSeveralDialog
 
         workspace = self._workspace()
-        if not any(finding.fix for finding in workspace.findings):
+        if not any(finding.fix for finding in workspace.listed):
             raise ValueError("No finding has a suggested fix.")
-        dialog = FixSeveralDialog(workspace, workspace.findings, self.window)
+        dialog = FixSeveralDialog(workspace, workspace.listed, self.window)
         if dialog.exec() and (chosen := dialog.chosen()):
             self.fix_all(chosen)
         dialog.deleteLater()

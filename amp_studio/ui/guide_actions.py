@@ -32,6 +32,10 @@ class GuideActions:
     def connect_page(self, page: FilePage) -> None:
         """Follow the buttons of a page."""
         page.left.steps.next_wanted.connect(lambda: self.window.guarded(self.go_on))
+        page.left.steps.mark_wanted.connect(lambda step: self.window.guarded(lambda: self.mark(step)))
+        page.left.steps.defaults_wanted.connect(
+            lambda step: self.window.guarded(lambda: self.keep_defaults(step))
+        )
         page.left.steps.print_wanted.connect(lambda: self.window.guarded(self.save_check_list))
 
     def _page(self) -> FilePage:
@@ -77,9 +81,9 @@ class GuideActions:
         now_at = page.workspace.progress
         return (now_at.current or now_at.steps[0]).step
 
-    def mark(self) -> None:
-        """Tick the step of the selected value as done, or take the tick away; it is saved with the file."""
-        workspace, step = self._page().workspace, self._step()
+    def mark(self, step: SetupStep | None = None) -> None:
+        """Tick a step as done, that of the selected value by default, or take the tick away; it is saved with the file."""
+        workspace, step = self._page().workspace, step or self._step()
         is_ticked = bool(workspace.progress.of(step).ticked)
         by = None if is_ticked else f"{now()} by {user()}"
         text = _tr("Step {number} not done") if is_ticked else _tr("Step {number} done")
@@ -91,9 +95,9 @@ class GuideActions:
                 left.format(title=step.title, open=len(each.open), errors=each.count("error"))
             )
 
-    def keep_defaults(self) -> None:
-        """Set what is not set in the step of the selected value to the printed defaults, as one step to undo."""
-        workspace, step = self._page().workspace, self._step()
+    def keep_defaults(self, step: SetupStep | None = None) -> None:
+        """Set what is not set in a step, that of the selected value by default, to the printed defaults, as one step to undo."""
+        workspace, step = self._page().workspace, step or self._step()
         wanted = {a: workspace.file.default(a) for a in workspace.progress.of(step).open}
         known = {a: value for a, value in wanted.items() if value is not None}
         if not known:

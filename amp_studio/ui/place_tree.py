@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QPainter, QPalette
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeWidget
 
@@ -18,6 +18,9 @@ _BAR = 2
 
 class PlaceTree(QTreeWidget):
     """A tree of one visible column, whose rows go from edge to edge."""
+
+    toggled = Signal(object)
+    """Space was pressed on this item."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -46,6 +49,8 @@ class PlaceTree(QTreeWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.currentItem() is not None:
             self.itemActivated.emit(self.currentItem(), 0)
+        elif event.key() == Qt.Key.Key_Space and self.currentItem() is not None:
+            self.toggled.emit(self.currentItem())
         else:
             super().keyPressEvent(event)
 

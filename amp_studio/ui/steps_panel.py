@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from PySide6.QtCore import QRect, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QCursor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
     QLabel,
+    QMenu,
     QPushButton,
     QToolButton,
     QTreeWidgetItem,
@@ -18,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import axis_letter
+from amp_studio.files.local_time import with_local_times
 from amp_studio.guide import GuideProgress, SetupStep, StepProgress, StepState
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Parameter
@@ -63,6 +65,10 @@ class StepsPanel(QWidget):
     wanted = Signal(object)
     """An address to go to."""
     next_wanted = Signal()
+    mark_wanted = Signal(object)
+    """A step is to be ticked as done, or its tick taken away."""
+    defaults_wanted = Signal(object)
+    """What is not set in a step is to be set to the defaults."""
     print_wanted = Signal()
 
     def __init__(self, workspace: Workspace) -> None:
@@ -84,6 +90,9 @@ class StepsPanel(QWidget):
         self.tree.currentItemChanged.connect(self._choose)
         self.tree.itemClicked.connect(self._choose)
         self.tree.itemActivated.connect(self._activate)
+        self.tree.toggled.connect(self._toggle)
+        self.tree.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.tree.customContextMenuRequested.connect(lambda place: self._menu(self.tree.itemAt(place)))
         self._later = QTimer(self)
         self._later.setSingleShot(True)
         self._later.timeout.connect(self.show_progress)
@@ -99,6 +108,11 @@ class StepsPanel(QWidget):
             label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
             label.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.steps_done.setAccessibleName(self.tr("Steps that are done"))
+        order = self._workspace.file.schema.commissioning
+        if order is not None:
+            page = self.tr(" (page {page})").format(page=order.page) if order.order == "manual" else ""
+            self.steps_done.setToolTip(order.why + page)
+        self.bar.setAccessibleName(self.tr("Part of the values that is set"))
         self.values_set.setAccessibleName(self.tr("Values that are set"))
         head = QGridLayout()
         head.setContentsMargins(GAP3, GAP2, GAP2, GAP)
@@ -143,7 +157,6 @@ class StepsPanel(QWidget):
             step = each.step
             item = QTreeWidgetItem([f"{str(step.number).rjust(2, FIGURE_SPACE)}  {step.title}"])
             item.setData(0, KEY, step)
-            item.setToolTip(0, _tip(step))
             self.tree.addTopLevelItem(item)
             self._items[step.id] = item
         for guide in self._workspace.file.schema.guides:
@@ -206,10 +219,23 @@ class StepsPanel(QWidget):
         parts += [counted(n, severity) for severity, n in counts]
         parts += [self.tr("%n values not set", "", len(each.open))] if each.open else []
         item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
+        item.setToolTip(0, "\n".join([_tip(each.step), ", ".join(self._figures(each))]))
         if each.step in (self._here, now.current.step if now.current else None):
             self._show_open(item, each.open)
         elif item.childCount():
             item.takeChildren()
+
+    def _figures(self, each: StepProgress) -> list[str]:
+        """Return how far a step is, in words."""
+        defaults = each.active - each.own - len(each.open)
+        found = [self._state_name(each.state)]
+        found += (
+            [self.tr("{set} of {total} set").format(set=each.set, total=each.total)] if each.total else []
+        )
+        found += [self.tr("%n at the default", "", defaults)] if defaults else []
+        if each.ticked:
+            found.append(self.tr("ticked {when}").format(when=with_local_times(each.ticked)))
+        return found
 
     def _state_name(self, state: StepState) -> str:
         names = {"not begun": self.tr("not begun"), "begun": self.tr("begun"), "done": self.tr("done"),
@@ -279,6 +305,28 @@ class StepsPanel(QWidget):
             self._show(place)
         elif place is not None:
             self._show_guide(place)
+
+    def _toggle(self, item: QTreeWidgetItem) -> None:
+        """Tick the step of a place, or take its tick away."""
+        step = item.data(0, KEY)
+        if isinstance(step, SetupStep) and self._workspace.may_edit:
+            self.mark_wanted.emit(step)
+
+    def _menu(self, item: QTreeWidgetItem | None) -> None:
+        """Show what can be done with a step."""
+        step = item.data(0, KEY) if item is not None else None
+        if not isinstance(step, SetupStep):
+            return
+        each, menu = self._workspace.progress.of(step), QMenu(self)
+        done = self.tr("Mark as Not &Done") if each.ticked else self.tr("Mark as &Done")
+        for text, signal in (
+            (done, self.mark_wanted),
+            (self.tr("Keep De&faults of This Step"), self.defaults_wanted),
+        ):
+            action = menu.addAction(text)
+            action.setEnabled(self._workspace.may_edit)
+            action.triggered.connect(lambda *_, signal=signal: signal.emit(step))
+        menu.popup(QCursor.pos())
 
     def _activate(self, *_: object) -> None:
         self._choose(self.tree.currentItem())

@@ -192,6 +192,7 @@ def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(
 ) -> None:
     path.write_bytes(bare)
     wrong = open_window(path)
+    wrong.workspace.show_later(True)
     before, steps = dict(wrong.workspace.file.values), wrong.workspace.undo_stack.count()
 
     def choose(dialog: FixSeveralDialog) -> None:

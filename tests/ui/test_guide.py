@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QTreeWidgetItem
+from PySide6.QtWidgets import QLabel, QMenu, QTreeWidgetItem
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, new_file
@@ -155,6 +155,30 @@ def test_a_step_is_ticked_and_the_tick_is_undone_and_saved(fresh: MainWindow) ->
     assert "done:\n  dual: " in fresh.workspace.path.read_text("utf-8")
     action(fresh, "Mark Step as Done").trigger()
     assert fresh.workspace.file.header.done == {}
+
+
+def test_space_ticks_the_step_in_the_list_and_its_tip_has_who_did_it(fresh: MainWindow, qtbot: QtBot) -> None:
+    steps = fresh.page.left.steps
+    steps.tree.setCurrentItem(item(steps, "dual"))
+    QTest.keyClick(steps.tree, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: item(steps, "dual").data(0, PICTURE)[0] == "check-circle-fill")
+    assert "7 at the default, ticked 20" in item(steps, "dual").toolTip(0)
+    QTest.keyClick(steps.tree, Qt.Key.Key_Space)
+    assert fresh.workspace.file.header.done == {}
+
+
+def test_a_step_has_a_menu_that_acts_on_it_and_not_on_the_selected_value(fresh: MainWindow) -> None:
+    steps = fresh.page.left.steps
+    fresh.go_to(("axis.integrand_name", "1"))
+    steps._menu(item(steps, "oci"))
+    menu = steps.findChildren(QMenu)[-1]
+    assert [a.text().replace("&", "") for a in menu.actions()] == [
+        "Mark as Done",
+        "Keep Defaults of This Step",
+    ]
+    menu.actions()[0].trigger()
+    menu.close()
+    assert set(fresh.workspace.file.header.done) == {"oci"}
 
 
 def test_a_tick_on_an_unfinished_step_shows_what_is_left(fresh: MainWindow) -> None:
