@@ -50,26 +50,17 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
     """Return the picture of a move of one axis from rest to rest, for each kind of ramp that is set."""
     figures = ValueReader(file)
     feed = figures.figure(roles.feedrate, axis)
-    if feed is None or feed.number is None or feed.number <= 0.0:
-        if feed is not None and feed.number is not None:
-            figures.note(f"{feed.label}: {feed.shown} is no speed to ramp to", feed.address, wrong=True)
+    speed = _speed(figures, feed)
+    if feed is None or feed.number is None or speed is None:
         return _scene(figures, axis, Scale("", "s", 0.0, 1.0), Scale("", feed.unit if feed else "", 0.0, 1.0))
-    base = feed.unit.split("/")[0]
-    try:
-        speed = convert(feed.number, feed.unit, f"{base}/s")
-    except (KeyError, UnitError):
-        speed = feed.number
+    base, scale = feed.unit.split("/")[0], feed.number / speed
     kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
-    ways = [_way(each.ramp, speed) for each in kinds]
-    distance = (
-        like.fixed
-        if like and like.fixed
-        else nice(HOLD * max((way for way in ways if way > 0.0), default=speed))
-    )
+    ways = [way for each in kinds if (way := _way(each.ramp, speed)) > 0.0]
+    distance = like.fixed if like and like.fixed else nice(HOLD * max(ways, default=speed))
+    used = _mode(figures, roles, axis)
     lines: list[Polyline] = []
     handles: list[Handle] = []
     texts: list[Text] = []
-    scale = feed.number / speed
     longest = 0.0
     for n, each in enumerate(kinds):
         try:
@@ -79,40 +70,63 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
             continue
         curve = [(t, v * scale) for t, v in sampled(pieces)]
         longest = max(longest, curve[-1][0])
-        lines.append(Polyline(tuple(curve), "now" if not lines else "second"))
+        is_used = used in each.role.modes if roles.mode else not lines
+        lines.append(Polyline(tuple(curve), "now" if is_used else "second"))
         handles += _handles(figures, each, speed, scale, distance, pieces)
-        place = 0.25 + 0.12 * n
+        of = next((f.address for f in (each.rise, each.acceleration, each.time) if f is not None), None)
+        at = (0.45 * curve[-1][0], (0.25 + 0.12 * n) * feed.number)
         texts.append(
-            Text(
-                (0.45 * curve[-1][0], place * feed.number),
-                each.role.name,
-                _told(each, pieces),
-                "left",
-                each.acceleration.address if each.acceleration else each.time.address if each.time else None,
-                "now" if len(lines) == 1 else "second",
-            )
+            Text(at, each.role.name, _told(each, pieces), "left", of, "now" if is_used else "second")
         )
         if each.role.note:
             figures.note(each.role.note)
-    longest = longest or distance / speed
-    x = like.x if like else Scale("", "s", 0.0, 1.08 * longest)
-    limits = [
-        other
-        for p in roles.limits
-        if (other := figures.figure(p, axis, feed.unit)) and other.number is not None
-    ]
-    top = max([feed.number, *(each.number or 0.0 for each in limits)])
-    y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * top)
-    for bound in (feed, *limits):
+    x = like.x if like else Scale("", "s", 0.0, 1.08 * (longest or distance / speed))
+    bounds = [feed, *_bounds(figures, roles, feed, axis)]
+    y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * max(each.number or 0.0 for each in bounds))
+    for bound in bounds:
         level = bound.number or 0.0
-        lines.append(
-            Polyline(((x.low, level), (x.high, level)), "error" if bound.wrong else "limit", dashed=True)
-        )
-        texts.append(Text((x.high, level), bound.label, bound.shown, "right", bound.address, "dim"))
+        ends = ((x.low, level), (x.high, level))
+        lines.append(Polyline(ends, "error" if bound.wrong else "limit", dashed=True))
+        texts.append(Text(ends[1], bound.label, bound.shown, "right", bound.address, "dim"))
     handles.append(
         figures.handle(feed, (0.97 * x.high, feed.number), figures.drag(feed, "y", y.high), second=True)
     )
     return _scene(figures, axis, x, y, lines, texts, handles, distance, base)
+
+
+def _speed(figures: ValueReader, feed: DrawnValue | None) -> float | None:
+    """Return the feedrate in units a second; None, with a note, where it is no speed to ramp to."""
+    if feed is None or feed.number is None:
+        return None
+    try:
+        speed = convert(feed.number, feed.unit, f"{feed.unit.split('/')[0]}/s")
+    except (KeyError, UnitError):
+        speed = 0.0
+    if speed > 0.0:
+        return speed
+    figures.note(f"{feed.label}: {feed.shown} is no speed to ramp to", feed.address, wrong=True)
+    return None
+
+
+def _mode(figures: ValueReader, roles: RampRoles, axis: str) -> str | None:
+    """Return what the file chooses between the kinds: the key of a choice, 0 or 1 of a bit; None where it is not set."""
+    address = figures.address(roles.mode, axis) if roles.mode else None
+    value = figures.file.get(address) if address else None
+    if address is None:
+        return None
+    figures.read[address] = None
+    if value is None:
+        figures.note(f"{figures.label(address)}: not set, so the ramp of moves is not marked", address)
+        return None
+    if roles.mode_bit is None or isinstance(value.value, str):
+        return str(value.value)
+    return str(int(value.value) >> roles.mode_bit & 1)
+
+
+def _bounds(figures: ValueReader, roles: RampRoles, feed: DrawnValue, axis: str) -> list[DrawnValue]:
+    """Return the other speeds to compare with."""
+    found = (figures.figure(parameter, axis, feed.unit) for parameter in roles.limits)
+    return [each for each in found if each is not None and each.number is not None]
 
 
 def _scene(

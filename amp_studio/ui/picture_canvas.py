@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QPointF, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QHideEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QHideEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from amp_studio.files import RangeError
@@ -14,54 +14,16 @@ from amp_studio.pictures.frame import Placement
 from amp_studio.schema import Address, Value
 from amp_studio.validate import Finding
 
+from .handle_spot import REACH, HandleSpot
 from .picture_paint import ScenePainter, Tag, empty_text, paint_handles, paint_tag
 from .theme import colour
 from .value_drag import ValueDrag
 from .workspace import Workspace
 
-REACH = 12.0
-"""How far from a handle the mouse takes hold of it, in logical pixels."""
-ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
-
+TOGETHER = 2
+"""Handles so much farther away than the nearest one lie on it, in logical pixels; a click goes on to the next."""
 DrawScene = Callable[[Scene | None], Scene]
 """Draws the scene again, in the scales of another one while a handle is dragged."""
-
-
-class HandleSpot(QWidget):
-    """A handle for the keyboard and for screen readers; the mouse goes to the picture, which takes the nearest one."""
-
-    stepped = Signal(int, int, int)
-    """Steps to the right, steps up, and how many at once."""
-    typed = Signal(str)
-    removed = Signal()
-    left = Signal()
-    focused = Signal()
-
-    def __init__(self, canvas: QWidget) -> None:
-        super().__init__(canvas)
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.resize(int(2 * REACH), int(2 * REACH))
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        key, text = Qt.Key(event.key()), event.text()
-        shift = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
-        if key in ARROWS and not event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            self.stepped.emit(*ARROWS[key], 10 if shift else 1)
-        elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
-            self.removed.emit()
-        elif key == Qt.Key.Key_Escape:
-            self.left.emit()
-        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2):
-            self.typed.emit("")
-        elif text and (text in "+-.=" or text.isdigit()):
-            self.typed.emit(text)
-        else:
-            super().keyPressEvent(event)
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        super().focusInEvent(event)
-        self.focused.emit()
 
 
 class PictureCanvas(QWidget):
@@ -89,6 +51,8 @@ class PictureCanvas(QWidget):
         self._drag: ValueDrag | None = None
         self._start: Scene | None = None
         self._offset = QPointF(0, 0)
+        self._again = self._moved = False
+        """Whether the pressed handle was chosen already, and whether it has been dragged since."""
         self._refused = ""
         self._causes: dict[Address, Finding] = {}
         """The worst finding that each value of the picture causes."""
@@ -283,14 +247,20 @@ class PictureCanvas(QWidget):
     # -- the mouse ----------------------------------------------------------------
 
     def nearest(self, at: QPointF) -> int | None:
-        """Return the handle within reach of a place: the nearest one, corners before edges at the same distance."""
+        """Return the handle within reach of a place: the chosen one of several that lie on each other, else the nearest."""
+        found = self._within_reach(at)
+        return self._active if self._active in found else found[0] if found else None
+
+    def _within_reach(self, at: QPointF) -> list[int]:
+        """Return the handles that lie as near to a place as the nearest one does, about."""
         found = []
         for n, handle in enumerate(self.scene.handles):
             x, y = self.place.at(handle.at)
             far = ((x - at.x()) ** 2 + (y - at.y()) ** 2) ** 0.5
             if far <= REACH:
                 found.append((round(far), -len(handle.drags), n))
-        return min(found)[2] if found else None
+        found.sort()
+        return [n for far, _, n in found if far <= found[0][0] + TOGETHER]
 
     def _name_at(self, at: QPointF) -> Address | None:
         return next((address for box, address in self._names if box.contains(at)), None)  # type: ignore[attr-defined]
@@ -306,6 +276,8 @@ class PictureCanvas(QWidget):
             if address is not None:
                 self.parameter_wanted.emit(address)
             return
+        self._again = index == self._active
+        self._moved = False
         self.choose(index)
         self._spots[index].setFocus(Qt.FocusReason.MouseFocusReason)
         handle = self.scene.handles[index]
@@ -341,6 +313,7 @@ class PictureCanvas(QWidget):
             return
         changed = self._drag.move(wanted)
         self._refused = self._drag.refused
+        self._moved = True
         if changed:
             self.draw_again()
             self.handle_chosen.emit(self.handle)
@@ -350,6 +323,10 @@ class PictureCanvas(QWidget):
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton and self._drag is not None:
             self.end_drag()
+            found = self._within_reach(event.position())
+            if self._again and not self._moved and self._active in found:
+                self.choose(found[(found.index(self._active) + 1) % len(found)])
+                self.focus_handle()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Put a point into a table."""

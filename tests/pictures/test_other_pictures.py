@@ -417,3 +417,22 @@ def test_no_value_however_odd_keeps_a_picture_from_being_drawn(checkout, data):
 @cache
 def _opened(checkout, name):
     return open_file(checkout / "examples" / EXAMPLES[name]).file
+
+
+def test_the_ramp_that_moves_have_is_the_marked_one(example):
+    """Page 10-3 chooses between linear and exponential, bit 5 of P7N1 (9-6) between straight and sin²."""
+    lathe, num = example("lathe"), example("num")
+
+    def marked(file):
+        return [text.text for text in draw(file, "ramps", "X").texts if text.sort == "now"]
+
+    assert marked(lathe) == ["Linear"]
+    lathe.set(("accdec.positioning_mode", ""), Value("exponential"))
+    assert marked(lathe) == ["Exponential"]
+    num.set(("misc.functions_more", ""), Value(0b100000))
+    assert marked(num) == ["Sin²"]
+    num.set(("misc.functions_more", ""), None)
+    assert marked(num) == []
+    assert any(
+        "not set, so the ramp of moves is not marked" in text for text in notes(draw(num, "ramps", "X"))
+    )

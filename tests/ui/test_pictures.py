@@ -99,6 +99,25 @@ def test_esc_during_a_drag_gives_the_old_value_back(window, pictures, file, whol
     assert whole() == before
 
 
+def test_clicks_go_round_the_handles_that_lie_on_each_other(window, pictures, file):
+    """Limit 2 at the place of the overtravel: each of both edges can be taken."""
+    low = ("zone.overtravel_negative", "1")
+    window.workspace.edit("elsewhere", {("zone.limit2_min", "1"): file.get(low), ("zone.limit2_min", "2"): Value(-400.0, "mm"),
+                                        ("zone.limit2_max", "2"): Value(6.0, "mm")})  # fmt: skip
+    canvas = pictures.chosen_card.canvas
+    here, chosen = place(canvas, low)[0], []
+    assert place(canvas, ("zone.limit2_min", "1"))[0] == here
+    for _ in range(3):
+        QTest.mouseClick(canvas, Qt.MouseButton.LeftButton, pos=here)
+        chosen.append(canvas.handle.drags[0].address)
+    assert chosen[0] != chosen[1]
+    assert set(chosen) == {low, ("zone.limit2_min", "1")}
+    QTest.mousePress(canvas, Qt.MouseButton.LeftButton, pos=here)
+    QTest.mouseMove(canvas, at(canvas, -480.0, -200.0))
+    assert file.get(chosen[2]).value > -495.0
+    QTest.keyClick(canvas, Qt.Key.Key_Escape)
+
+
 def test_no_other_key_works_during_a_drag(window, pictures, file):
     """An undo in the middle would take a step back under the moving value."""
     window.workspace.edit("elsewhere", {LOW: Value(-280.0, "mm")})

@@ -132,6 +132,8 @@ class RampKind(Model):
     """Time constant of an exponential ramp, least time of a sine-squared one."""
     rise: tuple[ParameterId, ...] = ()
     """The time in ms in which a ramp reaches the feedrate, the first one that is set; in place of an acceleration."""
+    modes: tuple[str, ...] = ()
+    """Values of the ``mode`` with which moves have this ramp: keys of the choice, 0 or 1 of the bit."""
     note: str = ""
     """What is assumed, a sentence with its page."""
 
@@ -142,6 +144,10 @@ class RampRoles(Model):
     feedrate: ParameterId
     limits: tuple[ParameterId, ...] = ()
     """Other speeds to compare with."""
+    mode: ParameterId | None = None
+    """What chooses the kind."""
+    mode_bit: int | None = None
+    """The bit of it that does."""
     kinds: tuple[RampKind, ...]
 
 
@@ -226,6 +232,7 @@ _NO_PARAMETERS = {
     "inside",
     "outside",
     "group_none",
+    "modes",
 }
 """Fields with texts that name no parameter."""
 
