@@ -13,6 +13,7 @@ from amp_studio.schema import (
     Schema,
     UnknownParameterError,
     axis_meant,
+    meant,
     show_value,
 )
 
@@ -77,8 +78,9 @@ class Finder:
     def find(self, query: str, most: int = 40) -> list[Hit]:
         """Return the best hits, the best first."""
         query = " ".join(query.split())[:_LONGEST]
+        hits = self._addressed(query)
         query, axis = self._axis(query)
-        hits = self._numbered(query) + self._valued(query)
+        hits += self._numbered(query) + self._valued(query)
         for index in (index_of(self.schema, self.machine), self._texts, self._commands):
             hits += [self._hit(match) for match in index.search(query, most)]
         best: dict[tuple[str, str, str], Hit] = {}
@@ -117,16 +119,25 @@ class Finder:
             hit, address=address, title=self._label(address) if hit.kind == "parameter" else hit.title
         )
 
+    def _addressed(self, query: str) -> list[Hit]:
+        """Return the one value that a question addresses as files and verbs do: ``home.calibration@X``, ``P3N0.5``."""
+        if self.file is None or " " in query or not {"@", "."} & set(query):
+            return []
+        try:
+            return [self._of_number(meant(self.file.evaluation, query).address, _EXACT)]
+        except UnknownParameterError:
+            return []
+
+    def _of_number(self, address: Address, score: float) -> Hit:
+        detail = f"{self.schema.group_of[address[0]].name}, page {self.schema.page(address)}"
+        return Hit("parameter", self._label(address), detail, "number", address[0], score, address)
+
     def _numbered(self, query: str) -> list[Hit]:
         """Return the parameters of a whole number: ``1300``, ``P21N3``, ``Pr61``, or all words of ``P21``."""
         claims = self._here.addressed_by(query) or self._here.words(query)
         found: dict[str, Hit] = {}
         for n, address in enumerate(claims):
-            detail = f"{self.schema.group_of[address[0]].name}, page {self.schema.page(address)}"
-            hit = Hit(
-                "parameter", self._label(address), detail, "number", address[0], _EXACT - n / 100, address
-            )
-            found.setdefault(address[0], hit)
+            found.setdefault(address[0], self._of_number(address, _EXACT - n / 100))
         return list(found.values())
 
     def _valued(self, query: str) -> list[Hit]:

@@ -42,6 +42,13 @@ def test_the_letter_of_an_axis_at_the_end_is_the_axis(finder: Finder, query: str
     assert finder.find(query)[0].address == ("servo.excess_error", "2")
 
 
+def test_an_address_as_verbs_take_it_leads_there(finder: Finder) -> None:
+    assert finder.find("home.calibration@X")[0].address == ("home.calibration", "1")
+    assert finder.find("servo.excess_error@2")[0].address == ("servo.excess_error", "2")
+    num = open_file(EXAMPLES / "num-1060-mill" / "MILL_1060.amp").file
+    assert Finder(num.schema, num.machine, num).find("P3N0.2")[0].address == ("axes.servoed", "")
+
+
 def test_a_value_is_found_in_its_own_and_in_another_unit(finder: Finder) -> None:
     for query in ("12.7", "12.7 mm", "0.5 in"):
         hits = [hit for hit in finder.find(query) if hit.kind == "value"]

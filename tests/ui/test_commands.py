@@ -147,7 +147,7 @@ def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
     window = open_window()
     enabled = {name for name, a in commands(window.menuBar()) if a.isEnabled()}
     assert {"File › New", "File › Open", "Control › Upload From Control", "Help › Commands"} <= enabled
-    assert not {"File › Save", "Edit › Clear Value (Not Set)", "Axis › Copy Axis", "View › Motion"} & enabled
+    assert not {"File › Save", "Edit › Clear (Not Set)", "Axis › Copy Axis", "View › Motion"} & enabled
 
 
 def test_what_an_action_refuses_is_told_in_one_sentence(window: MainWindow, person) -> None:
