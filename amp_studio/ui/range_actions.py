@@ -86,6 +86,16 @@ class RangeActions:
         self._put(block, [heads, *names])
 
     def _put(self, block: AddressBlock, names: list[list[str]]) -> None:
+        """Put a block into the clipboard; a secret alone is refused, among others it is left out."""
+        chosen = [address for row in block for address in row if address is not None]
+        masked = [address for address in chosen if self._page().workspace.is_masked(address)]
+        if masked and len(chosen) == 1:
+            name = describe(self._page().workspace.file, masked[0])
+            raise ValueError(
+                tr("{name} is secret. To copy it, first switch on Show Secrets.").format(name=name)
+            )
+        if masked:
+            self.window.show_status(tr("Secrets are left out; Show Secrets takes them along."))
         cells = [[self._cell(address) for address in row] for row in block]
         if names:
             heads = [[BlockCell(text) for text in names[0]]]
@@ -100,15 +110,10 @@ class RangeActions:
         QGuiApplication.clipboard().setMimeData(data)
 
     def _cell(self, address: Address | None) -> BlockCell:
-        if address is None:
-            return BlockCell("")
         page = self._page()
         workspace = page.workspace
-        if workspace.is_masked(address):
-            name = describe(workspace.file, address)
-            raise ValueError(
-                tr("{name} is secret. To copy it, first switch on Show Secrets.").format(name=name)
-            )
+        if address is None or workspace.is_masked(address):
+            return BlockCell("")
         value = page.table.values.in_units(address, workspace.file.get(address))
         if value is None:
             return BlockCell("not set")
@@ -135,13 +140,16 @@ class RangeActions:
             self._page().workspace.take(entry)
 
     def _planned(self, texts: Mapping[Address, str], doubtful: set[str]) -> BlockEntry:
-        workspace = self._page().workspace
+        page = self._page()
+        workspace = page.workspace
 
         def read(address: Address, text: str) -> Value | None:
             if text in doubtful:
                 raise InvalidValueError(
                     f"{quoted(text)} can be read two ways, as other cells have a decimal comma: write it without groups"
                 )
+            if text == page.table.typed_value(address):
+                return workspace.file.get(address)  # in another unit what is shown is rounded to nine digits
             return workspace.read_plain(address, text)
 
         return plan_entry(workspace.file, texts, read)

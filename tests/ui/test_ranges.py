@@ -360,3 +360,20 @@ def test_the_bits_of_a_word_are_checked_below_its_cell(open_window, checkout, tm
     assert checked == [0, 1], "what is typed is shown in the list"
     QTest.keyClick(field, KEY.Key_Escape)
     assert file.get(address) == Value(0xF)
+
+
+def test_what_was_copied_and_is_pasted_back_changes_nothing_in_any_unit_system(
+    window: MainWindow, file: ParameterFile, accept
+) -> None:
+    seen: list[str] = []
+    accept(BlockPreview, lambda dialog: seen.append(dialog.summary.text()))
+    before = dict(file.values)
+    window.table.show_parameters(list(file.schema.parameters.values()))
+    for system in ("inch", "metric"):
+        window.workspace.show_in(system)
+        window.table_view.selectAll()
+        window.edits.range.copy()
+        window.edits.range.paste()
+    assert [text.partition(": ")[2].split(",")[0] for text in seen] == ["0 change", "0 change"]
+    assert all(text.endswith("0 refused") for text in seen)
+    assert file.values == before
