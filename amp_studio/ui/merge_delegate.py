@@ -162,9 +162,14 @@ class MergeDelegate(QStyledItemDelegate):
 
     def _value(self, painter: QPainter, room: QRect, text: str, unit: str, ink: Token, *, own: bool) -> int:
         """Paint a value with its unit in the second ink; returns how wide it is."""
-        used = self._write(painter, room, text, self._own if own else self._plain, ink)
-        if unit:
-            gap = 0 if unit == "°" else 4
+        gap = 0 if unit == "°" else 4
+        kept = gap + QFontMetrics(self._small).horizontalAdvance(unit) + 3 if unit else 0
+        if kept > room.width() // 2:
+            kept = 0
+        used = self._write(
+            painter, room.adjusted(0, 0, -kept, 0), text, self._own if own else self._plain, ink
+        )
+        if kept:
             used += gap + self._write(painter, room.adjusted(used + gap, 0, 0, 0), unit, self._small, "dim")
         return used
 

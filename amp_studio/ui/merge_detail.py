@@ -6,7 +6,7 @@ import html
 from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPalette
+from PySide6.QtGui import QFont, QFontMetrics, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import (
     QButtonGroup,
     QFrame,
@@ -51,9 +51,9 @@ class ChoiceButton(QToolButton):
 class Line(QLabel):
     """A text of one line that is elided where there is no room; the whole is its tool tip."""
 
-    def __init__(self) -> None:
+    def __init__(self, face: QFont) -> None:
         super().__init__()
-        self.setFont(font("small"))
+        self.setFont(face)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._ink: Token = "dim"
 
@@ -104,7 +104,7 @@ class MergeDetail(QFrame):
         for n, (key, name) in enumerate(
             (("base", "&0"), ("a", "&A"), ("b", "&B"), ("typed", self.tr("&Other")))
         ):
-            button, note = ChoiceButton(name), Line()
+            button, note = ChoiceButton(name), Line(font("small"))
             self.buttons[key], self.notes[key] = button, note
             self._group.addButton(button)
             grid.addWidget(button, n, 0)
@@ -113,11 +113,13 @@ class MergeDetail(QFrame):
         self.other.setFixedWidth(150)
         self.other.setAccessibleName(self.tr("Other value"))
         self.other.returnPressed.connect(self._typed)
-        self.values = {key: QLabel() for key in _COLUMNS}
+        self.values = {key: Line(font("text")) for key in _COLUMNS}
         for n, key in enumerate(_COLUMNS):
             grid.addWidget(self.values[key], n, 1)
         grid.addWidget(self.other, 3, 1)
-        grid.setColumnStretch(2, 1)
+        grid.setColumnMinimumWidth(1, 150)
+        grid.setColumnStretch(1, 1)
+        grid.setColumnStretch(2, 2)
         self._group.buttonClicked.connect(lambda _: self._clicked())
         self.facts = QLabel()
         self.facts.setFont(font("small"))
@@ -164,7 +166,7 @@ class MergeDetail(QFrame):
         self._group.setExclusive(False)
         for side, column in _COLUMNS.items():
             self.buttons[side].setChecked(choice == side)
-            self.values[side].setText(model.cell(row, column).whole)
+            self.values[side].say(model.cell(row, column).whole, "text")
             self._say(self.notes[side], self._judge(row, side) if side != "base" or has_base else None)
         self.buttons["typed"].setChecked(isinstance(choice, Typed))
         self._group.setExclusive(True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt, Signal
@@ -13,26 +12,39 @@ from amp_studio.files import Merge, Row, RowGroup, Typed
 from amp_studio.files.axis_match import axis_letters
 from amp_studio.files.diff import in_one_unit
 from amp_studio.files.merging import ENTRIES, FACTS, HEADER_TEXTS, NOTES, Choice, RowId, Side
-from amp_studio.schema import MASKED, Value, fault, read_address, read_real, read_value, show_value, shown
+from amp_studio.schema import (
+    MASKED,
+    Parameter,
+    Value,
+    fault,
+    read_address,
+    read_real,
+    read_value,
+    show_value,
+    shown,
+)
 from amp_studio.schema.address import whole_of
+from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.schema.visible import visible
+
+from .cell_look import THIN, grouped
 
 Index = QModelIndex | QPersistentModelIndex
 NAME, AXIS, BASE, A, B, RESULT = range(6)
 """Columns."""
 SIDES: dict[int, Side] = {BASE: "base", A: "a", B: "b"}
 """Column -> the source it shows."""
-
-
 _TYPABLE = (*HEADER_TEXTS, "value_notes", "group_notes")
 """Entries of the header that are free texts."""
 
 
 class Cell(NamedTuple):
-    """A value as it is painted: the number or the text, and the unit apart."""
+    """A value as it is painted: the number or the text, and the unit (of a mask its number) apart."""
 
     text: str
     unit: str = ""
+    typed: str = ""
+    """What a person types for it, where that is something else."""
 
     @property
     def whole(self) -> str:
@@ -191,11 +203,10 @@ class MergeModel(QAbstractItemModel):
             elif masked:
                 made.append(Cell(MASKED))
             elif isinstance(value.value, (str, bool)) or not value.unit:
-                text = show_value(parameter, value, secrets=True)
-                made.append(Cell(text if parameter.secret else _grouped(text)))
+                made.append(_bare_cell(parameter, value))
             else:
                 bare = show_value(parameter, Value(value.value), secrets=True)
-                made.append(Cell(_grouped(bare), shown(value.unit)))
+                made.append(Cell(grouped(bare), shown(value.unit)))
         return dict(zip((BASE, A, B, RESULT), made, strict=True))
 
     def text_to_edit(self, row: Row) -> str:
@@ -207,7 +218,8 @@ class MergeModel(QAbstractItemModel):
         ):
             return ""
         value = self.merge.result_of(row)
-        return "" if value is None else self.cell(row, RESULT).whole.replace("\u202f", "")
+        cell = self.cell(row, RESULT)
+        return "" if value is None else cell.typed or cell.whole.replace(THIN, "")
 
     def read(self, row: Row, text: str) -> Typed:
         """Read what was typed for the result; raises ValueError with what is allowed."""
@@ -363,11 +375,9 @@ class MergeModel(QAbstractItemModel):
         return f"{self.tr('Result')}: {text}" if column == RESULT else text
 
 
-@lru_cache(maxsize=4096)
-def _grouped(text: str) -> str:
-    """Return a plain number with its thousands set apart from five digits on; any other text as it is."""
-    sign, digits = ("-", text[1:]) if text.startswith("-") else ("", text)
-    whole, point, rest = digits.partition(".")
-    if not whole.isdecimal() or len(whole) < 5 or (rest and not rest.isdecimal()):
-        return text
-    return f"{sign}{int(whole):,}".replace(",", "\u202f") + point + rest if whole[0] != "0" else text
+def _bare_cell(parameter: Parameter, value: Value) -> Cell:
+    """Return how a value without a unit is painted: a mask by the names of its bits, a number in groups of digits."""
+    text = show_value(parameter, value, secrets=True)
+    if parameter.bits and isinstance(value.value, int) and value.value >= 0:
+        return Cell(labels_of_word(parameter, value.value), f"0x{value.value:X}", text)
+    return Cell(text if parameter.secret or parameter.choices else grouped(text))

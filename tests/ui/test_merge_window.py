@@ -111,6 +111,19 @@ def test_rows_have_every_source_in_one_unit_and_the_result(three: MergeWindow) -
     assert three.head.counts == f"3 differ, {three.merge.same} the same"
 
 
+def test_a_mask_is_shown_by_its_names_and_typed_as_its_number(shown: MergeWindow) -> None:
+    file = new_file("num")
+    address, mask = next(
+        (a, v) for a, v in file.values.items() if file.schema.parameters[a[0]].bits and v.value
+    )
+    other = file.copy()
+    other.set(address, Value(int(mask.value) ^ 1))
+    shown.show_merge({A: MergeSource("a", "", file), B: MergeSource("b", "", other)})
+    (row,) = shown.merge.differing
+    assert shown.model.cell(row, A).unit == f"0x{mask.value:X}"
+    assert shown.model.read(row, shown.model.text_to_edit(row)).value == mask
+
+
 def test_figures_change_their_unit_for_all_sources(three: MergeWindow) -> None:
     row = next(row for row in three.merge.differing if row.address == EXCESS)
     three.view.units["inch"].click()
