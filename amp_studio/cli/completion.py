@@ -133,8 +133,6 @@ def _taken(sub: argparse.ArgumentParser, words: Sequence[str]) -> tuple[argparse
 def _values(action: argparse.Action, values: Sequence[str], current: str) -> Iterable[str]:
     if action.choices is not None:
         return [str(choice) for choice in action.choices]
-    if action.dest == "path" and action.metavar == "FILE" and not values and not current.count("/"):
-        return families()
     if action.dest == "family" or (action.dest == "words" and not values):
         return families()
     if action.dest == "like":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +66,7 @@ def guide_verb(options: argparse.Namespace) -> int:
     if options.output:
         return _write(options, file, come, path)
     if options.next:
-        return _next(options, file, come, options.after)
+        return _next(options, file, come, step)
     if options.json:
         print_json(_as_json(file, come, path, step))
     elif changed := [
@@ -150,14 +151,18 @@ def _write(options: argparse.Namespace, file: ParameterFile, come: GuideProgress
     return 0
 
 
-def _next(options: argparse.Namespace, file: ParameterFile, come: GuideProgress, after: str | None) -> int:
-    """Print the next open value, and what is known about it."""
-    behind = addresses_meant(file.evaluation, after)[-1] if after else None
+def _next(
+    options: argparse.Namespace, file: ParameterFile, come: GuideProgress, only: SetupStep | None
+) -> int:
+    """Print the next open value, of one step where that is asked for, and what is known about it."""
+    behind = addresses_meant(file.evaluation, options.after)[-1] if options.after else None
+    if only is not None:
+        come = replace(come, steps=tuple(each for each in come.steps if each.step is only))
     found = next_open(come, behind)
     if options.json:
         print_json({"next": None if found is None else _open_json(file, found)})
     elif found is None:
-        print("Every active value is set.")
+        print("Every active value is set." if only is None else f"Every active value of {only.title} is set.")
     else:
         step, value = step_of(file.schema)[found[0]], open_value(file, found)
         print(f"Step {step.number} {step.title}: {_shown(value)}")

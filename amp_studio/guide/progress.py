@@ -15,7 +15,7 @@ what is wrong: he learns it at once.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -78,6 +78,8 @@ class GuideProgress:
     """The first step that is not finished, up to which the steps are reached; None where all are."""
     deferred: tuple[Finding, ...]
     """Findings of steps that have not been reached."""
+    places: Mapping[Address, int]
+    """The place of each address in the manual's order."""
 
     @property
     def total(self) -> int:
@@ -140,7 +142,12 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
         )
         for step in steps
     )  # fmt: skip
-    return GuideProgress(each, each[reached - 1] if reached <= len(steps) else None, tuple(deferred))
+    return GuideProgress(
+        each,
+        each[reached - 1] if reached <= len(steps) else None,
+        tuple(deferred),
+        file.machine_schema.places,
+    )
 
 
 def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
@@ -171,8 +178,7 @@ def next_open(now: GuideProgress, after: Address | None = None) -> Address | Non
         return opened[0] if opened else None
     place = {p.id: n for n, p in enumerate(p for each in now.steps for p in each.step.parameters)}
     here = place.get(after[0], -1)
-    own = [a for a in opened if a[0] == after[0]]
-    if after in own:
-        own = own[own.index(after) + 1 :]
+    at = now.places.get(after, -1)
+    own = [a for a in opened if a[0] == after[0] and now.places[a] > at]
     behind = [a for a in opened if place[a[0]] > here]
     return next(iter([*own, *behind, *opened]))

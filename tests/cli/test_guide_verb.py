@@ -73,6 +73,14 @@ def test_the_next_value_comes_with_its_help_and_the_one_after_it_on_request(amp,
     assert amp("guide", fresh, "--next", "--after", "185", "--json").json["next"]["param"] == "186"
 
 
+def test_the_next_value_of_one_step_is_asked_for(amp, fresh: Path) -> None:
+    assert amp("guide", fresh, "jog", "--next", "--json").json["next"]["id"] == "jog.speed_lowest"
+    assert (
+        amp("guide", fresh, "dual", "--next").out == "Every active value of Dual and deskewed axes is set.\n"
+    )
+    assert amp("guide", fresh, "dual", "--next", "--json").json == {"next": None}
+
+
 def test_a_walk_of_next_and_set_comes_to_the_end_of_a_step(amp, fresh: Path) -> None:
     while (found := amp("guide", fresh, "--next", "--json").json["next"])["step"] == 2:
         assert amp("set", fresh, f"{found['param']}={found['allowed'].split(' ')[0]}").code == 0
@@ -99,7 +107,7 @@ def test_the_defaults_of_a_step_are_kept(amp, fresh: Path) -> None:
 def test_a_family_has_its_steps_without_a_file(amp) -> None:
     said = amp("guide", "num").out
     assert said.startswith(
-        "Chapter 3 of the manual is this order. (page 3-1)\n  1  3.1 Axis Declaration (page 3-3)\n"
+        "Chapter 3 of the manual is this order. (page 3-1)\n  1  Axis Declaration (3.1) (page 3-3)\n"
     )
     assert amp("guide", "grblhal", "--json").json["order"] == "ours"
     assert "     P97N0 " in amp("guide", "num", "axes").out

@@ -21,6 +21,7 @@ VERBS: tuple[tuple[str, ...], ...] = (
     ("set", "mill.amp", "1350=7 ipm"),
     ("new", "9pc", "new.amp", "--axes", "X,Y"),
     ("fix", "lathe.amp"),
+    ("guide", "mill.amp", "--done", "dual"),
     ("merge", "mill.amp", "mill.amp", "ours.amp", "-o", "merged.amp"),
     ("import", "values.csv", "-o", "imported.amp", "--family", "9pc"),
     ("export", "mill.amp", "-o", "out.csv"),

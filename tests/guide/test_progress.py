@@ -148,6 +148,14 @@ def test_the_next_open_value_goes_through_the_steps_and_begins_again_after_the_l
     assert len(set(walked)) == now.total
 
 
+def test_the_next_value_lies_behind_the_one_that_was_just_set(mill: ParameterFile) -> None:
+    mill.set(("axis.integrand_name", "2"), Value("j"))
+    now = come(mill)
+    assert next_open(now, ("axis.integrand_name", "2")) == ("axis.integrand_name", "3")
+    mill.set(("axis.integrand_name", "3"), Value("k"))
+    assert next_open(come(mill), ("axis.integrand_name", "3")) == ("home.g28_direction", "1")
+
+
 def test_nothing_is_next_where_nothing_is_open() -> None:
     assert next_open(come(new_file("grblhal"))) is None
 
