@@ -116,7 +116,7 @@ class FixSeveralDialog(QDialog):
         self.setWindowTitle(self.tr("Fix Several"))
         self.resize(760, 480)
         self._leaves: list[tuple[QTreeWidgetItem, Finding]] = []
-        self.list = QTreeWidget()
+        self.list = QTreeWidget(self)  # rows are measured by the rules of a dialog
         self.list.setHeaderHidden(True)
         self.list.setAccessibleName(self.tr("Suggested fixes"))
         self.list.setWordWrap(True)

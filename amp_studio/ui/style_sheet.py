@@ -1,12 +1,16 @@
 """The style sheet over Fusion and the palette: flat buttons and fields, tabs, segments, chips, bars.
 
-Views have no rule here: their delegates paint, which is quicker.
+The views of the window have no rule here: their delegates paint, which is quicker. Lists in dialogs have one, of their height.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from string import Template
+
+_MARKS = Path(__file__).with_name("marks")
+"""Check marks and arrows: a style sheet can draw them only from files."""
 
 _SHEET = Template("""
 QToolTip { background: $raised; color: $text; border: 1px solid $line2; padding: 4px 8px; }
@@ -65,6 +69,17 @@ QLineEdit, QAbstractSpinBox, QComboBox { min-height: 20px; }
 QLineEdit:focus, QPlainTextEdit:focus, QAbstractSpinBox:focus, QComboBox:focus { border: 1px solid $sel; }
 QLineEdit:disabled, QPlainTextEdit:disabled, QAbstractSpinBox:disabled, QComboBox:disabled { color: $off; border-color: $line2; }
 QComboBox::drop-down, QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { border: 0; background: transparent; width: 18px; }
+QComboBox::down-arrow, QAbstractSpinBox::down-arrow { image: url("$marks/down-$scheme.svg"); width: 12px; height: 12px; }
+QAbstractSpinBox::up-arrow { image: url("$marks/up-$scheme.svg"); width: 12px; height: 12px; }
+QCheckBox::indicator, QRadioButton::indicator, QAbstractItemView::indicator { width: 13px; height: 13px; border: 1px solid $edge; border-radius: 3px; background: $base; }
+QRadioButton::indicator { border-radius: 7px; }
+QCheckBox::indicator:checked, QRadioButton::indicator:checked, QAbstractItemView::indicator:checked,
+QCheckBox::indicator:indeterminate, QAbstractItemView::indicator:indeterminate { background: $sel; border-color: $sel; }
+QCheckBox::indicator:checked, QAbstractItemView::indicator:checked { image: url("$marks/check-$scheme.svg"); }
+QCheckBox::indicator:indeterminate, QAbstractItemView::indicator:indeterminate { image: url("$marks/dash-$scheme.svg"); }
+QRadioButton::indicator:checked { image: url("$marks/dot-$scheme.svg"); }
+QCheckBox::indicator:focus, QRadioButton::indicator:focus { border-color: $sel; }
+QCheckBox::indicator:disabled, QRadioButton::indicator:disabled { border-color: $line2; background: $window; }
 QAbstractItemView QLineEdit, QAbstractItemView QComboBox { min-height: 0; border-radius: 0; padding: 0 4px; border: 2px solid $sel; }
 
 QFrame#find-popup { background: $raised; border: 1px solid $line2; border-radius: 4px; }
@@ -82,6 +97,7 @@ QHeaderView::section { background: $panel; color: $dim; border: 0; border-right:
 QHeaderView::section:vertical { padding: 0 4px; }
 QTableView, QTreeView, QListView, QTextBrowser { border: 0; gridline-color: $grid; }
 QDialog QTableView, QDialog QTreeView, QDialog QListView, QDialog QTextBrowser { border: 1px solid $line; }
+QDialog QTreeWidget::item, QDialog QListWidget::item { min-height: 22px; }
 QTableCornerButton::section { background: $panel; border: 0; }
 QGroupBox { border: 0; border-top: 1px solid $line; margin-top: 20px; padding-top: 6px; }
 QGroupBox::title { subcontrol-origin: margin; left: 0; color: $dim; }
@@ -100,6 +116,6 @@ QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 """)
 
 
-def style_sheet(colours: Mapping[str, str]) -> str:
-    """Return the style sheet with the colours of the tokens."""
-    return _SHEET.substitute(colours)
+def style_sheet(colours: Mapping[str, str], is_dark: bool) -> str:
+    """Return the style sheet with the colours of the tokens and the marks of controls for one scheme."""
+    return _SHEET.substitute(colours, marks=_MARKS.as_posix(), scheme="dark" if is_dark else "light")

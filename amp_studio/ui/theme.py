@@ -219,7 +219,7 @@ def wear(choice: ThemeChoice = "system") -> None:
 
 def _dress() -> None:
     QApplication.setPalette(palette())
-    sheet = style_sheet({token: colour(token).name() for token in COLOURS})
+    sheet = style_sheet({token: colour(token).name() for token in COLOURS}, is_dark())
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     application.setStyleSheet(sheet)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QSize
-from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPalette
+from PySide6.QtGui import QColor, QGuiApplication, QIcon, QPalette, QPixmap
 from pytestqt.qtbot import QtBot
 
 from amp_studio.ui import theme
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.settings import UserSettings
+from amp_studio.ui.style_sheet import style_sheet
 from amp_studio.ui.theme import COLOURS, Token
 
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
@@ -147,3 +149,19 @@ def test_only_the_theme_names_a_colour(checkout: Path) -> None:
         and len(node.value) in (4, 7) and node.value.startswith("#") and all(c in "0123456789abcdefABCDEF" for c in node.value[1:])
     ]  # fmt: skip
     assert found == []
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_every_mark_of_the_style_sheet_is_a_picture_that_can_be_read(qtbot: QtBot, dark: bool) -> None:
+    sheet = style_sheet({token: pair[dark] for token, pair in COLOURS.items()}, dark)
+    marks = re.findall(r'url\("([^"]+)"\)', sheet)
+    assert len(set(marks)) == 5
+    assert all(not QPixmap(mark).isNull() for mark in marks)
+
+
+def test_the_marks_have_colours_of_the_table(checkout: Path) -> None:
+    named = {f"{token}-{n}": colours[n] for token, colours in COLOURS.items() for n in (0, 1)}
+    for file in (checkout / "amp_studio" / "ui" / "marks").glob("*.svg"):
+        used = set(re.findall(r"#[0-9A-F]{6}", file.read_text(encoding="utf-8")))
+        dark = int(file.stem.endswith("dark"))
+        assert used <= {colour for token, colour in named.items() if token.endswith(f"-{dark}")}, file.name
