@@ -29,6 +29,7 @@ LINES = (
     "import x.csv -o out.amp --family 57c422b --format csv --keep-unknown --on-fault keep", "export a.amp -o out.csv --format csv",
     "verify a.amp --with serial:/dev/none", "upload --from serial:/dev/none -o out.img", "restore a.img --to serial:/dev/none",
     "simulate a.amp step --axis X --set programmed=1 -o out.csv", "completion bash", "--version", "ports --json",
+    "find a.amp gain integrl --json --limit 3", "find 57c422b overtravel", "get a.amp --changed --axes-differ --with-findings --json",
 )  # fmt: skip
 WORDS = ("--", "-", "-o", "--json", "--help", "--axes", "--sort", "a.amp", "rules.yaml", "x.csv", ".", "/dev/null", "/dev/full",
          "/dev/stdin", "folder", "a.amp.bak", ".a.amp.lock", "", " ", "R3=5", "=", "@X", "57c422b", "9pc", "../a.amp")  # fmt: skip
