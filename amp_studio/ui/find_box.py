@@ -104,9 +104,7 @@ class FindBox(QLineEdit):
         self._popup.show()
         self._popup.raise_()
         found = sum(not row.is_head for row in self.model.rows)
-        said = self.tr("%n found", "", found)
-        if QAccessible.isActive():
-            QAccessible.updateAccessibility(QAccessibleAnnouncementEvent(self, said))
+        self._announce(self.tr("%n found", "", found))
 
     @property
     def is_open(self) -> bool:
@@ -137,6 +135,11 @@ class FindBox(QLineEdit):
     def _mark(self, row: int) -> None:
         self.list.setCurrentIndex(self.model.index(row) if row >= 0 else QModelIndex())
 
+    def _announce(self, text: str) -> None:
+        """Let a screen reader speak a text, as the list never has the focus."""
+        if QAccessible.isActive():
+            QAccessible.updateAccessibility(QAccessibleAnnouncementEvent(self, text))
+
     def _choose(self, *_: object) -> None:
         index = self.list.currentIndex()
         row = self.model.rows[index.row()] if index.isValid() and self.is_open else None
@@ -156,6 +159,7 @@ class FindBox(QLineEdit):
                 self.search()
             elif self.model.rows:
                 self._mark(self.model.next_row(self.list.currentIndex().row(), _STEPS[key]))
+                self._announce(str(self.list.currentIndex().data() or ""))
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             if not self.is_open:
                 self.search()
