@@ -4,7 +4,7 @@ Which parameters a picture is drawn from are facts of the family (``pictures.yam
 set, inactive or out of range becomes a note, and nothing is guessed.
 """
 
-from .draw import FilePicture, draw, pictures_of
+from .draw import FilePicture, draw, drawn_in, pictures_of
 from .editing import dragged, stepped
 from .record import scene_json
 from .scene import Dot, Drag, FilledArea, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
@@ -23,6 +23,7 @@ __all__ = [
     "Text",
     "dragged",
     "draw",
+    "drawn_in",
     "pictures_of",
     "scene_json",
     "scene_svg",

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import axis_name
+from amp_studio.schema import Address, axis_name
 from amp_studio.schema.model import ParameterId, RampRoles
 
 from .gain import draw_gain
@@ -134,3 +134,14 @@ def draw(file: ParameterFile, name: str, part: str = "") -> Scene:
         known = ", ".join(each.name for each in pictures) or "none"
         raise KeyError(f"{file.schema.family.name} has no picture '{name}'. Pictures: {known}")
     return picture.scene(part)
+
+
+def drawn_in(pictures: Iterable[FilePicture], address: Address) -> tuple[str, str] | None:
+    """Return the picture and the part with a handle of a value; None where no handle moves it."""
+    for picture in pictures:
+        keys = [key for key, _ in picture.parts]
+        own = next((key for key in keys if address[1].partition(".")[0] in key.split("+")), keys[0])
+        scene = picture.scene(own)
+        if any(drag.address == address for handle in scene.handles for drag in handle.drags):
+            return picture.name, own
+    return None

@@ -52,6 +52,7 @@ class PictureActions(QObject):
             pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
             pictures.left.connect(lambda: self.show(page, False))
             pictures.told.connect(page.noted)
+            pictures.parameter_chosen.connect(page.detail.show_address)
             page.take_pictures(pictures)
             return pictures
         assert isinstance(page.pictures, PicturesPage)
@@ -71,7 +72,10 @@ class PictureActions(QObject):
     def _toggle(self) -> None:
         page = self.window.page
         assert page is not None
+        address = page.table_view.address()
         self.show(page, not page.shows_pictures)
+        if page.shows_pictures and address is not None:
+            self.pages(page).show_handle_of(address)
 
     def _to_parameter(self, page: FilePage, address: object) -> None:
         self.show(page, False)

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
     QLabel,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -19,7 +20,7 @@ from amp_studio.pictures import FilePicture, Scene
 
 from .picture_canvas import PictureCanvas
 from .segment import Segment
-from .theme import GAP2, GAP3, HEAD, colour, font, scheme
+from .theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
 from .workspace import Workspace
 
 MOST_PARTS = 6
@@ -32,6 +33,8 @@ class PictureCard(QFrame):
     """One picture with its head, the choice of its part, and its notes."""
 
     parameter_wanted = Signal(object)
+    enlarged = Signal(str)
+    """The name of the picture: it is to be shown alone."""
 
     def __init__(self, workspace: Workspace, picture: FilePicture) -> None:
         super().__init__()
@@ -56,10 +59,21 @@ class PictureCard(QFrame):
         self.notes.setTextInteractionFlags(Qt.TextInteractionFlag.LinksAccessibleByMouse)
         self.notes.setContentsMargins(GAP3, 2, GAP3, GAP2)
         self.notes.linkActivated.connect(self._follow)
+        self.enlarge = QToolButton()
+        self.enlarge.setIcon(icon("arrows-out-simple"))
+        self.enlarge.setToolTip(self.tr("Show this picture alone"))
+        self.enlarge.setAccessibleName(self.tr("Show {name} alone").format(name=picture.title))
+        self.enlarge.clicked.connect(lambda: self.enlarged.emit(self.picture.name))
         head = QHBoxLayout()
         head.setContentsMargins(GAP3, 0, GAP2, 0)
         head.setSpacing(GAP2)
-        for widget, stretch in ((self.title, 0), (self.subtitle, 1), (self.parts, 0), (self.more_parts, 0)):
+        for widget, stretch in (
+            (self.title, 0),
+            (self.subtitle, 1),
+            (self.parts, 0),
+            (self.more_parts, 0),
+            (self.enlarge, 0),
+        ):
             head.addWidget(widget, stretch)
         bar = QWidget()
         bar.setFixedHeight(HEAD)
@@ -121,6 +135,7 @@ class PictureCard(QFrame):
 
     def show_notes(self) -> None:
         """Show what is not drawn and why, what is wrong first; each leads to its parameter."""
+        self.enlarge.setVisible(self.small)
         notes = sorted(self.canvas.scene.notes, key=lambda note: not note.wrong)
         most = MOST_NOTES[self.small]
         lines = []

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import RangeError
-from amp_studio.pictures import Handle, pictures_of
+from amp_studio.pictures import Handle, drawn_in, pictures_of
 from amp_studio.schema import (
     Address,
     InvalidValueError,
@@ -31,6 +31,8 @@ from .workspace import Workspace
 ALL = "all"
 TWO_COLUMNS = 760
 """Width from which pictures are side by side."""
+TELL_MS = 200
+"""Milliseconds until the other views show the parameter of a handle; passing by on the way to another one costs nothing."""
 SIDE = 3
 """Pictures beside the first one."""
 
@@ -42,6 +44,8 @@ class PicturesPage(QWidget):
     left = Signal()
     """Esc: back to the table."""
     told = Signal(str)
+    parameter_chosen = Signal(object)
+    """The address of a handle that has had the focus for a moment and is not dragged."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -53,6 +57,10 @@ class PicturesPage(QWidget):
         """Those that were seen already."""
         self._active: PictureCard | None = None
         self._stale = False
+        self._tell = QTimer(self)
+        self._tell.setSingleShot(True)
+        self._tell.setInterval(TELL_MS)
+        self._tell.timeout.connect(self._tell_parameter)
         self._seen: list[PictureCard] = []
         self.names = Segment(self.tr("Pictures"))
         self.names.chosen.connect(self.show_picture)
@@ -99,6 +107,7 @@ class PicturesPage(QWidget):
         if name not in self.cards:
             card = self.cards[name] = PictureCard(self.workspace, self._pictures[name])
             card.parameter_wanted.connect(self.parameter_wanted)
+            card.enlarged.connect(self.show_picture)
             card.canvas.handle_chosen.connect(partial(self._choose, card))
             card.canvas.typed.connect(self.footer.type)
             card.canvas.left.connect(self.left)
@@ -183,10 +192,37 @@ class PicturesPage(QWidget):
 
     # -- the chosen handle ---------------------------------------------------------------
 
+    def show_handle_of(self, address: Address) -> None:
+        """Choose the handle of a value, in its picture; nothing where no picture has one."""
+        found = drawn_in(self._pictures.values(), address)
+        if found is None:
+            return
+        name, part = found
+        if self.card(name) not in self._seen:
+            self.show_picture(name)
+        card = self.card(name)
+        if card.part != part:
+            card.show_part(part)
+        handles = card.canvas.scene.handles
+        own = [n for n, h in enumerate(handles) if [drag.address for drag in h.drags] == [address]]
+        if own:
+            card.canvas.choose(own[0])
+            card.canvas.focus_handle()
+
+    def _tell_parameter(self) -> None:
+        handle = self._active.canvas.handle if self._active else None
+        if handle is not None and self._active is not None:
+            if self._active.canvas.is_dragging:
+                self._tell.start()
+            else:
+                self.parameter_chosen.emit(handle.drags[0].address)
+
     def _choose(self, card: PictureCard, handle: Handle | None) -> None:
         self._active = card if handle is not None else self._active
         if card is self._active:
             self.footer.show_handle(handle)
+        if handle is not None and not card.canvas.is_dragging:
+            self._tell.start()
 
     def _enter(self, text: str) -> None:
         """Set the value that was typed for the chosen handle."""

@@ -279,3 +279,20 @@ def test_every_family_has_a_page_of_pictures(
         card = page.chosen_card
         assert (card.picture.name, card.grab().isNull()) == (name, False)
         assert card.canvas._names or card.canvas.scene.notes
+
+
+def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_panel_follows(window, qtbot):
+    window.go_to(("servo.gain_break_point", "3"))
+    action(window, "Pictures").trigger()
+    page = window.page.pictures
+    card = page.chosen_card
+    assert (page.shown, card.part, card.canvas.handle.label) == ("error", "3", "3730 Gain Break Point, Z")
+    card.canvas.choose(0)
+    wanted = card.canvas.handle.drags[0].address
+    qtbot.waitUntil(lambda: window.page.detail._address == wanted)
+
+
+def test_a_value_without_a_handle_opens_all_pictures(window):
+    window.go_to(("control.type", ""))
+    action(window, "Pictures").trigger()
+    assert window.page.pictures.shown == "all"
