@@ -74,6 +74,9 @@ class TableForm(Protocol):
     def error(self, table: CalibrationTable, at: Fraction, figure: Fraction) -> Fraction:
         """Return the error that a figure of the screen means."""
 
+    def remarks(self, file: ParameterFile, axis: str, table: CalibrationTable) -> tuple[str, ...]:
+        """Return what the control would warn of and takes anyway, as sentences."""
+
     def limits(self, file: ParameterFile, axis: str) -> tuple[str, ...]:
         """Return the limits of the control as sentences, with how many points are left."""
 

@@ -281,6 +281,8 @@ def _table_lines(
         yield f"Calibration table: {len(table.points)} points in {shown(unit)}{how}"
         for at, by in table.points:
             yield f"{float(at / size):14.5f} {float(form.figure(table, at, by) / size):14.5f}"
+        for remark in form.remarks(file, axis, table):
+            note(remark)
     yield from form.limits(file, axis)
     yield form.switching
 
@@ -320,6 +322,7 @@ def _json(
         }  # fmt: skip
     if form is not None:
         data["limits"] = list(form.limits(file, axis))
+        data["remarks"] = list(form.remarks(file, axis, table)) if table is not None else []
     if found.proposal is not None and found.measurement is not None:
         data |= _proposal_json(found.measurement, found.proposal)
     return data

@@ -195,7 +195,8 @@ class CalibrationPage(QWidget):
         assert form is not None
         assert self.target is not None
         try:
-            table, fault = self.present(), ""
+            table = self.present()
+            fault = " ".join(form.remarks(file, axis, table))
         except CalibrationError as error:
             table, fault = CalibrationTable("mm", ()), str(error)
         try:
@@ -203,6 +204,7 @@ class CalibrationPage(QWidget):
         except CalibrationError as error:
             lines = (str(error), form.switching)
         self.fault.setText(fault)
+        self.fault.setStyleSheet(f"color: {colour('warn').name()}")
         self.fault.setVisible(bool(fault))
         self.limits.setText("\n".join(lines))
         self._fill(table)

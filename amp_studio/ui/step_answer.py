@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
@@ -14,6 +16,8 @@ from .motion_plot import MotionPlot
 from .task import Task
 from .tuning_target import TuningTarget
 
+_SHOWN = slice(1, 3)
+"""Of the panels of a step those below the position: following error and velocity. Each takes its time to draw."""
 SETTLE_MS = 150
 """Milliseconds without a further change before it is simulated again."""
 
@@ -116,7 +120,8 @@ class StepAnswer(QWidget):
     def _draw(self) -> None:
         if self.trace is None:
             return
-        self.plot.draw(picture_of(self.trace, self.before if self.before is not self.trace else None))
+        picture = picture_of(self.trace, self.before if self.before is not self.trace else None)
+        self.plot.draw(replace(picture, panels=picture.panels[_SHOWN]))
         self.text.setText(self._figures())
 
     def _figures(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,13 +25,10 @@ from amp_studio.calibration import compensation_of
 from amp_studio.files import RangeError
 from amp_studio.schema.registration import registration_of
 
-from .calibration_page import CalibrationPage
-from .measured_dialog import MeasuredDialog
 from .message_bar import MessageBar
 from .questions import ask
 from .segment import Segment
-from .step_answer import StepAnswer
-from .task import ProgressDialog
+from .task import ProgressDialog, Task
 from .theme import CONTROL, GAP2, icon
 from .tuning_target import ControlTarget, ControlWork, FileTarget, TuningTarget
 from .tuning_values import ValuesPage, undo_actions
@@ -38,6 +36,9 @@ from .workspace import Workspace
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.live import LiveTuning
+
+    from .calibration_page import CalibrationPage
+    from .step_answer import StepAnswer
 
 Connect = Callable[[], "LiveTuning | None"]
 """Asks for a control and returns it, not yet read; None where nobody names one."""
@@ -74,11 +75,11 @@ class TuningWindow(QWidget):
         self.pages.setAccessibleName(self.tr("Pages"))
         self.answer: StepAnswer | None = None
         self.values: list[ValuesPage] = []
+        self._later: dict[QWidget, Callable[[], None]] = {}
         self.calibration: CalibrationPage | None = None
         self._make_pages()
         self._arrange()
-        self.pages.currentRowChanged.connect(self.stack.setCurrentIndex)
-        self.pages.setCurrentRow(0)
+        self.pages.currentRowChanged.connect(self._bring)
         self.undo_action, self.redo_action = undo_actions(
             self, lambda: self.guarded(self._undo), lambda: self.guarded(self._redo)
         )
@@ -88,6 +89,7 @@ class TuningWindow(QWidget):
         self._file_is_closed = False
         workspace.closed.connect(self._follow_file)
         self._show(self.file_target)
+        self.pages.setCurrentRow(0)
 
     def _button(self, text: str, act: Callable[[], object], icon_name: str) -> QPushButton:
         button = QPushButton(icon(icon_name), text)
@@ -96,6 +98,7 @@ class TuningWindow(QWidget):
         return button
 
     def _make_pages(self) -> None:
+        """Make the pages of values; those with a plot are made when they are first shown, because plots take long to load."""
         family = self._workspace.file.schema.family.family
         offered = compensation_of(family)
         titles: list[tuple[str, QWidget]] = []
@@ -105,26 +108,50 @@ class TuningWindow(QWidget):
             self.values.append(values)
             widget: QWidget = values
             if page.key == "servo" and registration_of(family).law:
-                self.answer = StepAnswer()
-                values.axis_chosen.connect(self.answer.choose)
                 widget = QSplitter(Qt.Orientation.Vertical)
                 widget.addWidget(values)
-                widget.addWidget(self.answer)
                 widget.setChildrenCollapsible(False)
+                self._later[widget] = partial(self._make_answer, widget, values)
             titles.append((page.title, widget))
         if offered.table is not None:
-            self.calibration = CalibrationPage(self.guarded, self.read_measured)
-            at = next(
-                (n for n, page in enumerate(offered.pages) if page.key in ("servo", "filters", "steps")),
-                len(titles),
-            )
-            titles.insert(at, (self.tr("Axis Calibration"), self.calibration))
+            holder = QWidget()
+            QVBoxLayout(holder).setContentsMargins(0, 0, 0, 0)
+            self._later[holder] = partial(self._make_calibration, holder)
+            keys = [page.key for page in offered.pages]
+            at = next((n for n, key in enumerate(keys) if key in ("servo", "filters", "steps")), len(titles))
+            titles.insert(at, (self.tr("Axis Calibration"), holder))
         for n, (title, widget) in enumerate(titles):
             self.pages.addItem(title)
             item = self.pages.item(n)
             item.setToolTip(f"{title} (Ctrl+{n + 1})")
             item.setSizeHint(QSize(0, CONTROL + 4))
             self.stack.addWidget(widget)
+        Task(lambda *_: _load_plots()).begin()
+
+    def _make_answer(self, holder: QSplitter, values: ValuesPage) -> None:
+        from .step_answer import StepAnswer
+
+        self.answer = StepAnswer()
+        values.axis_chosen.connect(self.answer.choose)
+        holder.addWidget(self.answer)
+        self.answer.show_target(self.target)
+
+    def _make_calibration(self, holder: QWidget) -> None:
+        from .calibration_page import CalibrationPage
+
+        self.calibration = CalibrationPage(self.guarded, self.read_measured)
+        layout = holder.layout()
+        assert layout is not None
+        layout.addWidget(self.calibration)
+        self.calibration.show_target(self.target)
+        self.calibration.show()
+
+    def _bring(self, row: int) -> None:
+        """Show a page, and make what it has not yet."""
+        self.stack.setCurrentIndex(row)
+        page = self.stack.currentWidget()
+        if page in self._later:
+            self._later.pop(page)()
 
     def _arrange(self) -> None:
         bar = QHBoxLayout()
@@ -243,6 +270,8 @@ class TuningWindow(QWidget):
 
     def read_measured(self, axis: str) -> None:
         """Ask for a file of measured points and set what they make of an axis, as one step."""
+        from .measured_dialog import MeasuredDialog
+
         folder = str(self._workspace.path.parent)
         text, _ = QFileDialog.getOpenFileName(self, self.tr("Measured Points"), folder, _FILES)
         if not text:
@@ -323,3 +352,10 @@ class TuningWindow(QWidget):
             self.guarded(control.put_back)
             return control.may_edit and not control.differences()
         return answer == keep
+
+
+def _load_plots() -> None:
+    """Load what draws and simulates, in a thread, so that no page waits for it."""
+    from . import calibration_page, measured_dialog, step_answer
+
+    _ = calibration_page, measured_dialog, step_answer

@@ -207,3 +207,15 @@ def test_the_errors_before_and_after_are_drawn(amp, mill: Path, laser: Path, tmp
     assert amp(*base, "-o", laser).code == 2
     assert laser.read_text() == POINTS
     assert "--from" in amp("calibrate", mill, "--axis", "X", "-o", picture).err
+
+
+def test_a_turn_whose_net_correction_is_not_zero_is_taken_with_the_message_of_the_control(
+    amp, mill: Path
+) -> None:
+    assert amp("set", mill, "axis.rollover@4=360").code == 0
+    points = ("--insert", "0=0", "--insert", "180=0.004", "--insert", "360=0.001")
+    said = amp("calibrate", mill, "--axis", "4", "--input", "deviation", "--start", "negative", *points)
+    assert said.code == 0
+    assert "NET CORRECTION IS NOT ZERO: it is 0.00100 deg" in said.err
+    assert "9pc.calibration.net" in amp("validate", mill, "--json").out
+    assert amp("calibrate", mill, "--axis", "4", "--replace", "360=0", "--json").json["remarks"] == []

@@ -54,8 +54,9 @@ def page(tuning: TuningWindow, key: str) -> ValuesPage:
 
 
 def calibration(tuning: TuningWindow) -> CalibrationPage:
+    titles = [tuning.pages.item(n).text() for n in range(tuning.pages.count())]
+    tuning.pages.setCurrentRow(titles.index("Axis Calibration"))
     assert tuning.calibration is not None
-    tuning.pages.setCurrentRow(tuning.stack.indexOf(tuning.calibration))
     return tuning.calibration
 
 

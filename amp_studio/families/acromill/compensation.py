@@ -97,6 +97,10 @@ class BallscrewTable:
         """Return the error that a correction takes away."""
         return -figure
 
+    def remarks(self, file: ParameterFile, axis: str, table: CalibrationTable) -> tuple[str, ...]:  # noqa: ARG002
+        """Return nothing: the controller warns of nothing."""
+        return ()
+
     def limits(self, file: ParameterFile, axis: str) -> tuple[str, ...]:
         """Return what the form of the file demands."""
         low, high = self._travel(file, axis)

@@ -110,6 +110,17 @@ class NinePcTable:
         """Return the deviation that a figure of the second column means."""
         return figure - at if table.input == "measurement" else figure
 
+    def remarks(self, file: ParameterFile, axis: str, table: CalibrationTable) -> tuple[str, ...]:
+        """Return the message about a turn whose net correction is not zero."""
+        if not _rollover(file, axis) or not table.points:
+            return ()
+        net = table.points[-1][1] - table.points[0][1]
+        return (
+            (f"NET CORRECTION IS NOT ZERO: it is {float(net):.5f} deg over a turn (page 36-7).",)
+            if net
+            else ()
+        )
+
     def limits(self, file: ParameterFile, axis: str) -> tuple[str, ...]:
         """Return the limits of the screen and the room that is left."""
         turns = file.evaluation.turns((self.parameter, axis))
