@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
+from html import escape
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
@@ -139,8 +140,10 @@ class FilePage(QWidget):
     def _update_title(self) -> None:
         count, hidden = self.table.count, self.table.hidden_rows
         more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
+        if self.filters.active:
+            more += self.tr(", filtered (Ctrl+0 shows all)")
         what = counted(count, "parameter", none="no")
-        self.list_title.setText(f"<b>{self._title}</b> — {what}{more}")
+        self.list_title.setText(f"<b>{escape(self._title)}</b> — {what}{more}")
 
     def show_columns(self, all_axes: bool, hidden_too: bool) -> None:
         """Show unfitted axes and hidden parameters, or leave them out."""

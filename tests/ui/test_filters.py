@@ -59,6 +59,7 @@ def test_filters_combine_with_each_other_and_with_the_group(
     window.groups.choose_group_of("home.calibration")
     assert filters.active == {"changed", "unsaved"}
     assert ids(window) == set()
+    assert window.page.list_title.text().endswith(", filtered (Ctrl+0 shows all)")
 
 
 def test_counts_follow_every_edit_undo_and_save(

@@ -38,6 +38,9 @@ def test_all_that_is_found_can_be_shown_in_the_table_and_a_group_again(window: M
     assert not window.groups.tree.selectedItems()
     assert window.focusWidget() is window.table_view
 
+    window.page.show_found("<u>gain", ["servo.initial_gain"])
+    assert window.page.list_title.text().startswith("<b>Found: &lt;u&gt;gain</b>")
+
     window.groups.choose_group_of("servo.excess_error")
     assert window.page.list_title.text().startswith("<b>Position Loop")
     assert len(window.groups.tree.selectedItems()) == 1
