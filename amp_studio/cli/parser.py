@@ -104,7 +104,9 @@ def _files(verbs: Verbs) -> None:
     sub.add_argument("family")
     sub.add_argument("path", type=path_of)
     sub.add_argument("--machine")
-    sub.add_argument("--axes", help="axis names in order, with commas")
+    sub.add_argument(
+        "--axes", help="axis names in order, with commas; where axes are in groups, X.2 is X of group 2"
+    )
     sub.add_argument("--like", metavar="FILE|EXAMPLE",
                      help="with the values of this file or example, except what was measured on that machine, and passwords")  # fmt: skip
     sub = verbs.add(

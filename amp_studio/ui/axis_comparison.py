@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -15,11 +15,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import AxisDifference, axis_title, compare_axes, fitted_axes
+from amp_studio.files import AxisDifference, axis_letter, axis_title, compare_axes, fitted_axes
 from amp_studio.files.axis_values import bits_of_axes
 from amp_studio.schema import Address, Value, show_value
 
 from .file_page import FilePage
+from .theme import ROW
 
 _DIFFERENCE = Qt.ItemDataRole.UserRole
 
@@ -98,6 +99,7 @@ class AxisComparison(QDialog):
         for difference in found:
             item = QTreeWidgetItem(self._texts(difference))
             item.setData(0, _DIFFERENCE, difference)
+            item.setSizeHint(0, QSize(0, ROW))
             self.list.addTopLevelItem(item)
         for column, width in enumerate((400, 160)):
             self.list.setColumnWidth(column, width)
@@ -109,7 +111,7 @@ class AxisComparison(QDialog):
             (self.take_first, self.tr("&Take for {axis}"), second),
             (self.take_second, self.tr("Ta&ke for {axis}"), first),
         ):
-            button.setText(text.format(axis=target))
+            button.setText(text.format(axis=axis_letter(file, target) or target))
             button.setEnabled(may_take)
 
     def _how_many(self, count: int) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, Qt, QTimer
@@ -131,6 +132,9 @@ class WelcomePage(QWidget):
         outer.setSpacing(0)
         outer.addWidget(self.message)
         outer.addWidget(scroll, 1)
+        order = [self.families, *self._beside_families, self.examples, self.filter, self.list]
+        for before, after in pairwise(order):
+            QWidget.setTabOrder(before, after)
 
     def _head(self, text: str, beside: QWidget) -> QHBoxLayout:
         row, label = QHBoxLayout(), QLabel(text)
@@ -154,6 +158,7 @@ class WelcomePage(QWidget):
     def _buttons(self) -> QHBoxLayout:
         row = QHBoxLayout()
         row.setSpacing(GAP2)
+        self._beside_families: list[QWidget] = []
         for text, name, act in (
             (self.tr("Open…"), "folder-open", self._files.open),
             (self.tr("Open Project…"), "folder-simple", self._open_project),
@@ -166,6 +171,7 @@ class WelcomePage(QWidget):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.clicked.connect(partial(self._window.guarded, act, text.replace("&", "").rstrip("…")))
             row.addWidget(button)
+            self._beside_families.append(button)
         row.addStretch()
         return row
 

@@ -206,3 +206,19 @@ def test_with_nothing_there_yet_it_says_where_to_begin(open_window) -> None:
 )  # fmt: skip
 def test_times_are_said_as_a_person_says_them(qapp, moment: datetime, said: str) -> None:
     assert in_words(moment, datetime(2026, 3, 9, 15, 0, tzinfo=UTC)) == said
+
+
+def test_tab_goes_through_the_page_in_reading_order(two, qtbot: QtBot) -> None:
+    page = two()
+    read_all(page, qtbot)
+    page.families.setFocus()
+    passed = []
+    for _ in range(6):
+        passed.append(page.window().focusWidget())
+        QTest.keyClick(page.window().focusWidget(), Qt.Key.Key_Tab)
+    assert passed[0] is page.families
+    assert [w for w in passed if w in (page.examples, page.filter, page.list)] == [
+        page.examples,
+        page.filter,
+        page.list,
+    ]
