@@ -66,7 +66,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
 
     def checked() -> None:
         end = time.monotonic() + 30.0
-        while shown._check is None and time.monotonic() < end:
+        while not shown.check.is_ready and time.monotonic() < end:
             application.processEvents()
 
     opened = until_painted(lambda: shown.show_merge(sources))

@@ -78,6 +78,13 @@ class ViewBar(QFrame):
         self.heading.setVisible(width > _NARROW)
         self.swap.setText(self.tr("Swap A and B") if width > _NARROWER else "")
 
+    def next_units(self) -> None:
+        """Show the figures in the next unit system."""
+        buttons = list(self.units.values())
+        if buttons:
+            here = next((n for n, button in enumerate(buttons) if button.isChecked()), -1)
+            buttons[(here + 1) % len(buttons)].click()
+
     def _segment(self, texts: Sequence[str]) -> list[QToolButton]:
         group, inner = QButtonGroup(self), QHBoxLayout()
         inner.setSpacing(0)

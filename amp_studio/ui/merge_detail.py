@@ -25,7 +25,7 @@ from amp_studio.files.merging import Choice, Side
 from amp_studio.validate import SEVERITIES, Finding
 
 from .merge_model import BASE, RESULT, A, B, MergeModel
-from .theme import Token, colour, font, icon
+from .theme import Token, colour, font, icon, scheme
 
 Judge = Callable[[Row, Choice], Iterable[Finding] | None]
 """Returns the findings about a row if that were chosen; None while it is not known."""
@@ -130,7 +130,11 @@ class MergeDetail(QFrame):
         layout.addLayout(left, 2)
         layout.addLayout(grid, 5)
         layout.addWidget(self.facts, 1)
+        scheme().changed.connect(self._write_again)
         self.show_row(None)
+
+    def _write_again(self) -> None:
+        self.show_row(self._row)
 
     def show_row(self, row: Row | None) -> None:
         """Show a row, or that none is selected."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from functools import partial
 
@@ -13,10 +12,9 @@ from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QVBoxLayout, 
 from amp_studio.files import Merge, ParameterFile, Row
 from amp_studio.files.merging import Choice, Side
 from amp_studio.schema import Address, same_value
-from amp_studio.validate import Finding, Validator
-from amp_studio.validate.result_check import ResultCheck
 
 from .merge_bars import FindingList, ReadingBar, ResultBar, ViewBar
+from .merge_check import MergeCheck
 from .merge_detail import MergeDetail
 from .merge_header import MergeHeader
 from .merge_model import BASE, A, B, Filter, MergeModel
@@ -24,13 +22,11 @@ from .merge_report import save_merge_report
 from .merge_sources import MergeSource, MergeSources, Offer, ReadSource, is_same_content
 from .merge_tree import MergeTree
 from .message_bar import MessageBar
-from .task import PATIENCE_MS, Task, TaskProgress
+from .task import PATIENCE_MS, Task
 from .workspace import Workspace
 
 _LIVE_MS = 150
 """Milliseconds after an edit of the file until the comparison follows."""
-_PAINTED_MS = 50
-"""Milliseconds until new rows are painted; a check that runs beside that would hold it up."""
 Offers = Callable[[], list[tuple[str, list[Offer]]]]
 SaveResult = Callable[[ParameterFile], object]
 
@@ -61,19 +57,17 @@ class MergeWindow(QDialog):
         self.chosen: dict[int, MergeSource] = {A: first, B: first}
         """Column -> its source; without a base there is no entry for it."""
         self._reading: dict[int, Task] = {}
-        self._check: ResultCheck | None = None
-        self._checking: Task | None = None
+        self.check = MergeCheck(workspace, self)
         self._warned = False
         units = None if workspace.as_entered else workspace.file.header.units
         self.model = MergeModel(Merge(first.file, first.file), units=units, secrets=workspace.secrets)
         self.tree = MergeTree(self.model, lambda tree: self._make_header(offers, tree))
         self.head = self.tree.head
-        self.detail = MergeDetail(self.model, self._judge)
+        self.detail = MergeDetail(self.model, self.check.of_choice)
         self._build()
         self._follow = self._timer(_LIVE_MS, self._read_again)
         self._update = self._timer(0, self._after_choice)
         self._patience = self._timer(PATIENCE_MS, self.reading.show)
-        self._painted = self._timer(_PAINTED_MS, self._begin_check)
         self._connect(save_result)
         self.resize(1180, 740)
         self._show_sources()
@@ -116,6 +110,8 @@ class MergeWindow(QDialog):
         tree.went_to.connect(self.went_to)
         tree.delegate.typed.connect(self._choose)
         self.detail.chosen.connect(self._choose)
+        self.check.ready.connect(self._after_choice)
+        self.check.failed.connect(self._not_checked)
         self.model.chosen.connect(self._count)
         self.model.chosen.connect(self._update.start)
         self.findings.itemActivated.connect(self._show_finding)
@@ -125,6 +121,7 @@ class MergeWindow(QDialog):
         self.workspace.changed.connect(self._edited)
         self.workspace.closed.connect(self.close)
         QShortcut(QKeySequence(QKeySequence.StandardKey.Find), self, view.search.setFocus)
+        QShortcut(QKeySequence("Ctrl+M"), self, view.next_units)
 
     def _choose(self, row: Row, choice: Choice) -> None:
         self.model.choose([row], choice)
@@ -244,8 +241,7 @@ class MergeWindow(QDialog):
         self.tree.fit()
         self.head.place()
         self.tree.unfold()
-        self._check = None
-        self._painted.start()
+        self.check.start(self.merge, is_file=self._target_column() is not None)
         self._after_choice()
 
     def _read_again(self) -> None:
@@ -256,40 +252,17 @@ class MergeWindow(QDialog):
 
     # -- what the result would be ---------------------------------------------------------------
 
-    def _begin_check(self) -> None:
-        """Check the result in the background, one after the other: it takes as long as opening the file."""
-        if self._checking is not None:
-            return
-        merge, own = self.merge, self.workspace.validator.own
-        before = self.workspace.findings if self._target_column() is not None else None
-
-        def work(_: TaskProgress, __: threading.Event) -> tuple[Merge, ResultCheck]:
-            known = Validator(merge.a.copy(), own).run() if before is None else before
-            return merge, ResultCheck(merge, known, own)
-
-        self._checking = Task(work)
-        self._checking.done.connect(self._checked)
-        self._checking.begin()
-
-    def _checked(self, made: tuple[Merge, ResultCheck]) -> None:
-        merge, check = made
-        self._checking = None
-        if merge is self.merge:
-            self._check = check
-            self._after_choice()
-        else:
-            self._painted.start()
-
-    def _judge(self, row: Row, choice: Choice) -> list[Finding] | None:
-        return self._check.with_choice(row, choice) if self._check else None
+    def _not_checked(self, why: str) -> None:
+        self.message.say(
+            self.tr("The result cannot be checked, and so not merged: {why}").format(why=why), "error"
+        )
 
     def _after_choice(self) -> None:
         """Check the result again after a choice, and show what comes of it."""
         self._update.stop()
-        if self._check is not None:
-            self._check.update(self.merge)
+        self.check.follow()
         self.detail.show_row(self.tree.row())
-        self.outcome.show_findings(self._new() if self._check else None)
+        self.outcome.show_findings(self.check.new() if self.check.is_ready else None)
         self._count()
 
     def _count(self) -> None:
@@ -301,12 +274,8 @@ class MergeWindow(QDialog):
         self.outcome.show_counts(left, changes)
         self._enable(changes, left)
 
-    def _new(self) -> list[Finding]:
-        """Return the errors and warnings that the file would get."""
-        return [f for f in self._check.new if f.severity != "advice"] if self._check else []
-
     def _enable(self, changes: int, left: int) -> None:
-        errors = sum(f.severity == "error" for f in self._new())
+        errors = sum(f.severity == "error" for f in self.check.new())
         self._warned = self._warned and bool(errors)
         if self._warned:
             self.outcome.merge.setText(self.tr("&Merge Anyway (New Errors: %n)", "", errors))
@@ -322,7 +291,7 @@ class MergeWindow(QDialog):
             why = self.tr("The file is open read-only.")
         elif not changes:
             why = self.tr("Nothing has been taken yet.")
-        elif self._check is None:
+        elif not self.check.is_ready:
             why = self.tr("The result is being checked.")
         self.outcome.merge.setEnabled(not why)
         self.outcome.merge.setToolTip(why)
@@ -352,7 +321,7 @@ class MergeWindow(QDialog):
         self._after_choice()
         if not self.outcome.merge.isEnabled():
             return
-        errors = any(f.severity == "error" for f in self._new())
+        errors = any(f.severity == "error" for f in self.check.new())
         if errors and not self._warned:
             self._warned = True
             self.outcome.found.setChecked(True)

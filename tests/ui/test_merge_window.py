@@ -126,7 +126,7 @@ def test_a_mask_is_shown_by_its_names_and_typed_as_its_number(shown: MergeWindow
 
 def test_figures_change_their_unit_for_all_sources(three: MergeWindow) -> None:
     row = next(row for row in three.merge.differing if row.address == EXCESS)
-    three.view.units["inch"].click()
+    QTest.keyClick(three, Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier)
     assert three.model.text(row, A) == "0.472440945 in"
 
 
@@ -213,7 +213,7 @@ def test_a_value_is_typed_into_the_result_and_a_wrong_one_keeps_the_editor_open(
 
 def test_below_the_tree_each_choice_has_its_value_and_its_findings(three: MergeWindow, qtbot) -> None:
     show(three, EXCESS)
-    qtbot.waitUntil(lambda: three._check is not None, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: three.check.is_ready, timeout=WAIT_MS)
     detail = three.detail
     assert [detail.values[key].text() for key in ("base", "a", "b")] == ["11 mm", "12 mm", "13 mm"]
     assert detail.notes["a"].text()
@@ -297,6 +297,20 @@ def test_new_errors_are_shown_before_the_file_gets_them(
     assert "Anyway" in shown.outcome.merge.text()
     shown.outcome.merge.click()
     assert window.workspace.file.get(EXCESS) == Value(0.5, "mm")
+
+
+def test_a_result_that_cannot_be_checked_is_not_merged(shown: MergeWindow, monkeypatch, qtbot) -> None:
+    def fail(*_: object) -> None:
+        raise ValueError("no such rule")
+
+    monkeypatch.setattr("amp_studio.ui.merge_check.ResultCheck", fail)
+    other = shown.merge.a.copy()
+    other.set(EXCESS, Value(12.0, "mm"))
+    shown.use(B, MergeSource("other.amp", "", other))
+    shown.model.choose(shown.merge.differing, "b")
+    qtbot.waitUntil(shown.message.isVisible, timeout=WAIT_MS)
+    assert shown.message.text.text() == "The result cannot be checked, and so not merged: no such rule"
+    assert not shown.outcome.merge.isEnabled()
 
 
 def test_the_result_is_saved_as_a_new_file_and_the_open_one_stays(
