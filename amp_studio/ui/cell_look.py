@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import lru_cache
@@ -60,22 +59,31 @@ def _tr(text: str) -> str:
 def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
     """Return shorter texts for the choices of a parameter, each of which no other one has.
 
-    ``Feedback Connector J1`` among others of that kind is ``J1``; what is in brackets is left out.
+    What is in brackets is left out, and so are the words that several begin with, where a code is what remains: ``Feedback
+    Connector J1`` is ``J1`` where all but one begin so, else ``… J1``.
     """
     short = {label: _BRACKETS.sub("", label).strip() or label for label in labels}
-    if len(set(short.values())) < len(short):
+    if len({text.casefold() for text in short.values()}) < len(short):
         short = {label: label for label in labels}
-    beginnings = Counter(
-        " ".join(words[:n])
-        for text in short.values()
-        for words in [text.split()]
-        for n in range(1, len(words))
-    )
-    common = max(
-        (b for b, count in beginnings.items() if count > 1 and count >= len(short) - 2), key=len, default=""
-    )
-    cut = {label: text.removeprefix(common).strip() if common else text for label, text in short.items()}
-    return cut if all(cut.values()) and len(set(cut.values())) == len(cut) else short
+    families: dict[str, list[str]] = {}
+    for label, text in short.items():
+        families.setdefault(text.split()[0].casefold(), []).append(label)
+    cut = dict(short)
+    for alike in families.values():
+        words = [short[label].split() for label in alike]
+        length = _common(words)
+        rests = [" ".join(found[length:]) for found in words]
+        if len(alike) > 1 and length and all(any(c.isdigit() for c in rest) for rest in rests):
+            mark = "" if len(alike) >= len(labels) - 1 else "… "
+            cut |= {label: mark + rest for label, rest in zip(alike, rests, strict=True)}
+    return cut if len({text.casefold() for text in cut.values()}) == len(cut) else short
+
+
+def _common(texts: list[list[str]]) -> int:
+    """Return how many words all texts begin with, so that each has one left."""
+    most = min(map(len, texts)) - 1
+    alike = (len({text[n].casefold() for text in texts}) == 1 for n in range(most))
+    return next((n for n, same in enumerate(alike) if not same), most)
 
 
 def grouped(figure: str) -> str:

@@ -91,6 +91,13 @@ class ChoiceBox(QComboBox):
             for n in range(self.count()):
                 view.setRowHidden(n, rows is not None and n not in rows)
         view.setCurrentIndex(self.model().index(self.currentIndex(), 0))
+        frame = view.parentWidget()
+        if frame is not None and view.isVisible():  # the list is as high as what is left in it
+            count = self.count() if rows is None else len(rows)
+            height = max(1, min(count, self.maxVisibleItems())) * view.sizeHintForRow(
+                max(0, self.currentIndex())
+            )
+            frame.setFixedHeight(height + 2 * view.frameWidth() + frame.height() - view.height())
 
     def _select(self, event: QEvent) -> bool:
         if not isinstance(event, QKeyEvent):

@@ -1,0 +1,48 @@
+"""What a cell shows where there is little room: digits in groups, and choices that cannot be taken for one another."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.schema import family_ids, load_schema
+from amp_studio.ui.cell_look import grouped, short_labels
+
+
+@pytest.mark.parametrize(
+    ("figure", "shown"),
+    [
+        ("1234", "1234"),
+        ("12345", "12\u202f345"),
+        ("-2097152", "-2\u202f097\u202f152"),
+        ("123456.789012", "123\u202f456.789012"),
+        ("0.0000254", "0.0000254"),
+        ("1e-07", "1e-07"),
+        ("0x0000F", "0x0000F"),
+    ],
+)
+def test_digits_are_in_groups_from_five_on(figure: str, shown: str) -> None:
+    assert grouped(figure) == shown
+
+
+def test_a_short_choice_is_a_code_that_no_other_has() -> None:
+    ports = ("No Feedback", "Feedback Connector J1", "Feedback Connector J2")
+    assert short_labels(ports) == dict(zip(ports, ("No Feedback", "J1", "J2"), strict=True))
+    outputs = (
+        "No Output",
+        "Output Axis Mod 1 or Aout1",
+        "Output axis Mod 2 or Aout2",
+        "Analog Out TB2 or Aout5",
+    )
+    assert short_labels(outputs)["Output axis Mod 2 or Aout2"] == "… 2 or Aout2"
+    signs = ("Primary axis positive", "Primary axis negative", "None")
+    assert short_labels(signs) == dict(zip(signs, signs, strict=True)), "words are no codes"
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_no_two_choices_of_a_parameter_look_the_same(family: str) -> None:
+    for parameter in load_schema(family).parameters.values():
+        labels = tuple(choice.label for choice in parameter.choices or ())
+        if len({label.casefold() for label in labels}) == len(labels):
+            short = short_labels(labels)
+            assert len({text.casefold() for text in short.values()}) == len(labels), parameter.id
+            assert all(short.values()), parameter.id
