@@ -26,7 +26,7 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
     ids = {p.id for group in groups for p in group.parameters}
     secrets = {p.id for group in groups for p in group.parameters if p.secret}
     yield from _in_family(family, ids)
-    yield from _in_areas(family)
+    yield from faults_of_areas(family)
     seen: set[str] = set()
     for group in groups:
         yield from _in_group_states(family, group)
@@ -225,7 +225,7 @@ def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator
             yield ("of_one_machine", at), f"there is no parameter {quoted(name)}"
 
 
-def _in_areas(family: Family) -> Iterator[Inconsistency]:
+def faults_of_areas(family: Family) -> Iterator[Inconsistency]:
     """Yield where the areas of a family are not all of its groups in their order."""
     listed = [key for area in family.areas for key in area.groups]
     if family.areas and listed != list(family.groups):

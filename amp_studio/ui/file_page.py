@@ -135,7 +135,8 @@ class FilePage(QWidget):
         address, file = self.table_view.address(), self.workspace.file
         is_of_axis = address is not None and file.evaluation.scope(address) == "axis"
         axis = axis_letter(file, address[1]) or address[1] if address is not None and is_of_axis else ""
-        self.findings.follow(frozenset(parameter.id for parameter in self.table.asked), axis)
+        name = self.tr("Step") if self.left.side == "steps" else self.tr("Group")
+        self.findings.follow(frozenset(parameter.id for parameter in self.table.asked), axis, name)
 
     def _update_title(self) -> None:
         count, hidden = self.table.count, self.table.hidden_rows

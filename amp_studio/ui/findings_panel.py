@@ -102,6 +102,8 @@ class FindingsPanel(QWidget):
         self._shown_ids: frozenset[str] = frozenset()
         self._axis = ""
         self._held_back: Callable[[Finding], bool] = lambda _: False
+        self.shown_name = self.tr("Group")
+        """What the table shows one of."""
         self.model = FindingsModel(workspace)
         self.view = _View()
         self.view.setModel(self.model)
@@ -171,15 +173,20 @@ class FindingsPanel(QWidget):
     def _offer_scopes(self) -> None:
         axis = self.tr("Axis {letter}").format(letter=self._axis) if self._axis else self.tr("Axis")
         kept = self.scope.choice
-        self.scope.offer([("file", self.tr("File"), ""), ("shown", self.tr("Group"), ""), ("axis", axis, "")])
+        self.scope.offer([("file", self.tr("File"), ""), ("shown", self.shown_name, ""), ("axis", axis, "")])
         self.scope.buttons["shown"].setToolTip(self.tr("Findings of the parameters that the table shows"))
         self.scope.buttons["axis"].setEnabled(bool(self._axis))
         self.scope.show_choice(kept)
 
-    def follow(self, shown_ids: frozenset[str], axis: str) -> None:
-        """Take what the table shows, and the letter of the axis of its current cell, as what the filters mean."""
-        if (shown_ids, axis) == (self._shown_ids, self._axis):
+    def follow(self, shown_ids: frozenset[str], axis: str, name: str = "") -> None:
+        """Take what the table shows, and the letter of the axis of its current cell, as what the filters mean.
+
+        ``name`` is what the table shows one of: a step, or a group.
+        """
+        name = name or self.shown_name
+        if (shown_ids, axis, name) == (self._shown_ids, self._axis, self.shown_name):
             return
+        self.shown_name = name
         self._shown_ids, self._axis = shown_ids, axis or self._axis
         self._offer_scopes()
         if self.scope.choice != "file":

@@ -221,6 +221,12 @@ def test_groups_stand_under_their_areas_and_areas_are_no_pages(fresh: MainWindow
     assert jog.data(0, RIGHT) == "35"
 
 
+def test_findings_are_filtered_to_the_step_in_front(fresh: MainWindow) -> None:
+    assert fresh.findings.scope.buttons["shown"].text() == "Step"
+    QTest.mouseClick(fresh.page.left.segment.buttons["groups"], Qt.MouseButton.LeftButton)
+    assert fresh.findings.scope.buttons["shown"].text() == "Group"
+
+
 def test_the_side_that_was_chosen_last_is_that_of_the_next_file(fresh: MainWindow, path: Path) -> None:
     QTest.mouseClick(fresh.page.left.segment.buttons["groups"], Qt.MouseButton.LeftButton)
     assert "Axis Configuration" in fresh.page.list_title.text()
