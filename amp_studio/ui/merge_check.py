@@ -17,6 +17,9 @@ from .workspace import Workspace
 _PAINTED_MS = 50
 """Milliseconds until new rows are painted; a check that runs beside that would hold it up."""
 
+_MANY = 25
+"""Values that are checked again within a few milliseconds."""
+
 
 class MergeCheck(QObject):
     """The findings of a result that the open file does not have. One check runs at a time: it takes as long as opening a file."""
@@ -76,8 +79,10 @@ class MergeCheck(QObject):
 
     def follow(self) -> None:
         """Check again what a choice has changed."""
-        if self._found is not None and self._wanted is not None:
-            self._found.update(self._wanted[0])
+        if self._found is None or self._wanted is None or self._found.update(self._wanted[0], _MANY):
+            return
+        self._found = None  # so many at once are checked in the background
+        self._painted.start()
 
     def new(self) -> list[Finding]:
         """Return the errors and warnings that the file would get; none while they are not known."""

@@ -24,10 +24,12 @@ class ResultCheck:
         self.new: list[Finding] = new_findings(before, self._validator.run())
         """Errors, warnings and recommendations that the file does not have now."""
 
-    def update(self, merge: Merge) -> None:
-        """Follow the choices of a merge of the same sources."""
+    def update(self, merge: Merge, most: int | None = None) -> bool:
+        """Follow the choices of a merge of the same sources; returns False, with nothing done, if over ``most`` values changed."""
         wanted, file = merge.result(), self._result
         changed = [a for a in {*wanted.values, *file.values} if wanted.get(a) != file.get(a)]
+        if most is not None and len(changed) > most:
+            return False
         for address in changed:
             file.set(address, wanted.get(address))
         marked = {a for a, _ in wanted.forced.items() ^ file.forced.items()}
@@ -40,6 +42,7 @@ class ResultCheck:
         else:
             found = self._validator.update({*changed, *marked})
         self.new = new_findings(self._before, found)
+        return True
 
     def with_choice(self, row: Row, choice: Choice) -> list[Finding]:
         """Return the findings about a parameter in the result if that were chosen for it."""
