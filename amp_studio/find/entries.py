@@ -24,6 +24,10 @@ KINDS: dict[HitKind, float] = {
 """What a kind is worth among others whose words match as well: the parameter before its choice, that before its group."""
 
 
+_ESTOP = "E-Stop estop emergency stop held"
+"""How people call what a message is that holds the control in E-Stop."""
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
     """One thing that can be found."""
@@ -96,7 +100,7 @@ def _message(message: ControlMessage, listed: str) -> Entry:
         ("code", " ".join(codes)),
         ("text", message.text or message.title),
         ("text", " ".join(message.also)),
-        ("group", listed),
+        ("group", f"{listed} {_ESTOP if message.reaction == 'e-stop' else ''}"),
         ("meaning", " ".join((message.means, *message.causes, *message.cures))),
     ]
     return Entry(

@@ -202,6 +202,7 @@ class FindActions:
             return
         if hit.kind == "group":
             group = next(g for g in page.workspace.file.schema.groups if g.key == hit.key)
+            page.left.show_side("groups")
             page.groups.choose_group_of(group.parameters[0].id)
         elif hit.address is not None:
             page.go_to(hit.address)

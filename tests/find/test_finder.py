@@ -118,6 +118,13 @@ def test_the_number_of_an_error_says_which_axis_it_means() -> None:
     assert "following-error-too-large" not in {hit.key for hit in of_family("num").find("error 72")}
 
 
+@pytest.mark.parametrize("query", ["estop", "held in e-stop", "why emergency stop"])
+def test_the_reasons_of_an_e_stop_are_found_by_it(query: str) -> None:
+    finder = of_family("9pc")
+    found = {hit.key for hit in finder.find(query) if hit.kind == "message"}
+    assert {"loop-type-missing", "excess-skew", "incompatible-tool-activation-modes"} <= found
+
+
 @pytest.mark.parametrize("query", ["MOT-022", "mot022", "MOT-22", "mot 22", "alarm mot-022"])
 def test_a_code_is_found_however_it_is_written(query: str) -> None:
     assert of_family("syntec").find(query)[0].key == "mot-022"

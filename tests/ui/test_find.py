@@ -59,6 +59,19 @@ def test_a_number_a_value_and_a_choice_each_lead_to_their_cell(window: MainWindo
         assert window.selected() == address, text
 
 
+def test_a_group_is_shown_on_the_left_with_its_parameters(window: MainWindow, box: FindBox) -> None:
+    window.page.left.show_side("steps")
+    typed(box, "home parameters")
+    row = next(
+        n for n, each in enumerate(box.model.rows) if each.hit is not None and each.hit.kind == "group"
+    )
+    box.list.setCurrentIndex(box.model.index(row))
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert window.page.left.side == "groups"
+    assert {row.parameter.id.partition(".")[0] for row in window.table.rows} == {"home"}
+    assert window.focusWidget() is window.table_view
+
+
 def test_heads_are_passed_by_the_keys_and_the_ends_join(box: FindBox) -> None:
     typed(box, "closed loop")
     rows = box.model.rows
