@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-HeadKind = Literal["position", "angle", "measured", "error", "correction", "run", "direction", ""]
+HeadKind = Literal["position", "angle", "measured", "error", "correction", "mean", "run", "direction", ""]
 
 _BRACKETED = re.compile(r"[\[(/_]\s*(mm|um|µm|μm|microns?|in|inch|inches|deg|degrees?|°|arcsec)\s*[\])]?\s*$")
 _SPACED = re.compile(r"\s(mm|um|µm|μm|microns?|inch|inches|deg|degrees?|°|arcsec)\s*$")
@@ -15,14 +15,17 @@ _UNITS = {
     "inches": "in", "deg": "deg", "degree": "deg", "degrees": "deg", "°": "deg", "arcsec": "arcsec",
 }  # fmt: skip
 _KINDS: tuple[tuple[HeadKind, str], ...] = (
-    ("direction", r"direction|dir|approach"),
-    ("run", r"(run|pass|cycle|series)( ?(no\.?|number))?"),
-    ("angle", r"angle|theta|phi|polar angle"),
+    ("", r".*\b(std|stdev|standard|sigma|repeatability|range|max\.?|min\.?|maximum|minimum|limit)\b.*"),
+    ("mean", r".*\b(mean|average|avg\.?|mittelwert|mittel)\b.*"),
+    ("direction", r"direction|dir|approach|richtung"),
+    ("run", r"(run|pass|cycle|series|lauf|messung)( ?(no\.?|number|nr\.?))?"),
+    ("angle", r"angle|theta|phi|polar angle|winkel"),
     ("position", r"((target|nominal|command(ed)?|set|control|absolute)\s*)?(position|pos\.?|point|reading)"),
+    ("position", r"soll|sollposition|sollwert|zielposition"),
     ("position", r"target|nominal|commanded|command|absolute|[xyzabcuvw]|[xyzabcuvw] (position|axis)"),
-    ("correction", r".*\b(correction|compensation|comp\.?)\b.*"),
-    ("measured", r".*\b(measured|measurement|measure|actual|laser)\b.*"),
-    ("error", r".*\b(error|err\.?|deviation|dev\.?|difference|diff\.?)\b.*"),
+    ("correction", r".*\b(correction|compensation|comp\.?|korrektur)\b.*"),
+    ("measured", r".*\b(measured|measurement|measure|actual|laser|ist|istposition|istwert|gemessen)\b.*"),
+    ("error", r".*\b(error|err\.?|deviation|dev\.?|difference|diff\.?|abweichung|fehler)\b.*"),
 )  # fmt: skip
 _RISING = re.compile(r"(?<![a-z])(up|fwd|forwards?|pos|positive|rising|f)(?![a-z])|[↑→]|^\+|\+\)?$")
 _FALLING = re.compile(
@@ -52,6 +55,12 @@ def read_head(text: str, column: int) -> Head:
     if kind in ("", "run") and column and (rising is not None or re.search(r"\d", plain)):
         kind = "error"  # Run 1, 2-, F1
     return Head(kind, unit, rising)
+
+
+def unit_of(cell: str) -> str | None:
+    """Return the unit that a cell of a line of units names, "" for an empty cell; None for what is none."""
+    word = cell.strip().strip("[]()").casefold()
+    return _UNITS.get(word) if word else ""
 
 
 def direction_in(text: str) -> bool | None:

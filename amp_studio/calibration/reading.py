@@ -7,6 +7,7 @@ from a person, and what nobody has answered is listed in ``Measurement.assumed``
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from amp_studio.schema.regular_file import read_file
 from . import renishaw
 from .cells import is_number, lines_of, number_of, separator_of, split
 from .errors import MeasurementError
-from .heads import Head, direction_of, read_head
+from .heads import Head, direction_of, read_head, unit_of
 from .measurement import (
     DECIMALS,
     ERROR_UNITS,
@@ -40,8 +41,9 @@ _BASE = {"mm": "mm", "in": "mm", "um": "mm", "deg": "deg", "arcsec": "deg", "cou
 def read_measured_file(path: Path, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
     """Read a file of measured points; raises MeasurementError with its name, and OSError where it cannot be read."""
     content = read_file(path)
+    wide = content[:2] in (b"\xff\xfe", b"\xfe\xff")  # "Unicode text" of a spreadsheet
     try:
-        text = content.decode("utf-8-sig")
+        text = content.decode("utf-16" if wide else "utf-8-sig")
     except UnicodeDecodeError:
         text = content.decode("cp1252", errors="replace")  # a degree sign of an older program
     try:
@@ -139,7 +141,10 @@ def _hint(separator: str) -> str:
 
 
 def _is_data(line: str, decimal: str) -> bool:
-    cells = split(line, separator_of(line, decimal), 0) if '"' not in line else []
+    try:
+        cells = split(line, separator_of(line, decimal), 0)
+    except MeasurementError:
+        return False
     begins = bool(cells) and (is_number(cells[0]) or direction_of(cells[0]) is not None)
     return begins and sum(is_number(cell) for cell in cells) > 1
 
@@ -148,16 +153,27 @@ def _heads(
     before: Sequence[tuple[int, str]], separator: str, width: int
 ) -> tuple[list[Head] | None, tuple[str, ...]]:
     """Return the heads of the columns, None where there are none, and what was passed over as a title."""
-    heads, titles = None, list(before)
-    if before:
-        n, line = before[-1]
+    heads, titles, units = None, list(before), [""] * width
+    if titles and (found := _units(titles[-1], separator, width)):
+        units = found
+        titles.pop()
+    if titles:
+        n, line = titles[-1]
         cells = split(line, separator, n) if separator else _words(line, width)
         if len(cells) == width:
-            heads = [read_head(cell, column) for column, cell in enumerate(cells)]
+            read = (read_head(cell, column) for column, cell in enumerate(cells))
+            heads = [replace(head, unit=head.unit or unit) for head, unit in zip(read, units, strict=True)]
             titles.pop()
     notes = (f"{len(titles)} lines before the columns were not read" if len(titles) != 1 else
              "1 line before the columns was not read",) if titles else ()  # fmt: skip
     return heads, notes
+
+
+def _units(line: tuple[int, str], separator: str, width: int) -> list[str]:
+    """Return the units of a line that contains nothing else; none for any other line."""
+    cells = [unit_of(cell) for cell in (split(line[1], separator, line[0]) if separator else line[1].split())]
+    found = [unit for unit in cells if unit is not None]
+    return found if len(found) == len(cells) == width and any(found) else []
 
 
 def _words(line: str, width: int) -> list[str]:
@@ -182,6 +198,8 @@ def _table(
         heads = [Head("position", "", None), Head("error", "", None)]
     kinds = [head.kind for head in heads]
     values = [n for n, kind in enumerate(kinds) if kind in ("measured", "error", "correction")]
+    if not values:  # a table of means alone
+        values = [n for n, kind in enumerate(kinds) if kind == "mean"]
     at = next((n for n, kind in enumerate(kinds) if kind in ("position", "angle")), -1)
     if kinds.count("position") + kinds.count("angle") != 1 or not values:
         raise MeasurementError(
@@ -208,14 +226,15 @@ def _table(
         runs = _grouped(rows, kinds, figures[0])
     else:
         runs = parted(figures[0])
-    ignored = sum(kind == "" for kind in kinds)
+    ignored = sum(kind == "" or (kind == "mean" and n not in values) for n, kind in enumerate(kinds))
     if ignored:
         notes = (*notes, f"{ignored} columns that are neither position nor error were not read" if ignored > 1
                  else "1 column that is neither position nor error was not read")  # fmt: skip
     is_circle = kinds[at] == "angle"
     if is_circle and kinds[values[0]] == "measured":
         raise MeasurementError("a circle needs the error of its radius, not the radius: angle, deviation")
-    return RawTable(tuple(runs), kinds[values[0]], heads[at].unit, heads[values[0]].unit, notes, is_circle)
+    kind = "error" if kinds[values[0]] == "mean" else kinds[values[0]]
+    return RawTable(tuple(runs), kind, heads[at].unit, heads[values[0]].unit, notes, is_circle)
 
 
 def _grouped(

@@ -107,8 +107,11 @@ def _draw(options: argparse.Namespace, file: ParameterFile, proposal: Proposal) 
 
 
 def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:
-    name = offered.table.parameter if offered.table else offered.reversal
-    return file.machine_schema.instances(file.schema.parameters[name]) if name else ()
+    parameter = file.schema.parameters[offered.table.parameter if offered.table else offered.reversal]
+    instances = file.machine_schema.instances(parameter)
+    if not instances:
+        raise UsageError(f"{file.machine} has neither a calibration table nor a reversal error")
+    return instances
 
 
 class _Found:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QCoreApplication, QObject, Signal
 
 from amp_studio.calibration.steps import with_followers
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value
+from amp_studio.schema import Address, Schema, Value
 
 from .task import TaskProgress
 from .workspace import Workspace
@@ -22,6 +22,19 @@ if TYPE_CHECKING:
 ControlWork = Callable[[TaskProgress, threading.Event], Any]
 RunExchange = Callable[[str, ControlWork], Any]
 """Runs an exchange with progress and cancel, and returns its result or raises its error."""
+
+
+def effect_words(schema: Schema, address: Address) -> str:
+    """Return when a changed value takes effect by the manual, in words."""
+    effect = schema.parameters[address[0]].effect or schema.family.effect
+    words = {
+        "at-once": QCoreApplication.translate("Tuning", "at once"),
+        "reset": QCoreApplication.translate("Tuning", "on reset"),
+        "restart": QCoreApplication.translate("Tuning", "on restart"),
+        "command": QCoreApplication.translate("Tuning", "on {command}").format(command=effect.command),
+        "unknown": QCoreApplication.translate("Tuning", "not in the manual"),
+    }
+    return words[effect.level]
 
 
 class TuningTarget(QObject):
@@ -161,12 +174,12 @@ class ControlTarget(TuningTarget):
             self._waiting = {a: v for a, v in self._waiting.items() if present.get(a) != v}
             self._show(list(wanted))
             return
-        self._exchange(text, lambda progress, cancel: self.live.set(wanted, progress, cancel))
+        self._exchange(text, lambda progress, cancel: self.live.set(wanted, progress, cancel), wanted)
 
     def send(self) -> None:
         """Download what is collected; raises TransferError."""
         waiting = dict(self._waiting)
-        self._exchange("Download", lambda progress, cancel: self.live.set(waiting, progress, cancel))
+        self._exchange("Download", lambda progress, cancel: self.live.set(waiting, progress, cancel), waiting)
         self._waiting = {}
         self._show([])
 
@@ -174,7 +187,8 @@ class ControlTarget(TuningTarget):
         """Have the control contain what it contained at the first look; raises TransferError."""
         self._waiting = {}
         if self.differences():
-            self._exchange("Put Back", self.live.put_back)
+            changed = [difference.address for difference in self.live.changes().differences]
+            self._exchange("Put Back", self.live.put_back, changed)
         self._done.clear()
         self._undone.clear()
         self._show([])
@@ -184,7 +198,7 @@ class ControlTarget(TuningTarget):
         self._run("Read Control", self.live.look)
         self._show([])
 
-    def _exchange(self, text: str, exchange: ControlWork) -> None:
+    def _exchange(self, text: str, exchange: ControlWork, changed: Iterable[Address]) -> None:
         try:
             outcome: Outcome = self._run(text, exchange)
         finally:
@@ -192,7 +206,10 @@ class ControlTarget(TuningTarget):
                 self._show([])
             else:
                 self.changed.emit([])
-        self.told.emit(outcome.text)
+        schema = self.file.schema
+        effects = dict.fromkeys(effect_words(schema, address) for address in changed)
+        takes = self.tr("Takes effect: {when}.").format(when=", ".join(effects))
+        self.told.emit(f"{outcome.text} {takes}")
 
     def _show(self, addresses: list[Address]) -> None:
         self._shown = self._copy()

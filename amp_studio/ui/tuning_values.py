@@ -28,7 +28,7 @@ from amp_studio.schema import Address, Value, axis_name, limits, show_value, sho
 from amp_studio.schema.values import read_exact
 
 from .theme import GAP2, ROW, colour
-from .tuning_target import TuningTarget
+from .tuning_target import TuningTarget, effect_words
 
 _INSTANCE, _NAME, _VALUE, _ALLOWED, _EFFECT = range(5)
 _ADDRESS = Qt.ItemDataRole.UserRole
@@ -182,7 +182,7 @@ class ValuesPage(QWidget):
             file.machine_schema.label(address),
             show_value(parameter, file.get(address)),
             allowed.text() if allowed else "",
-            self._effect(address),
+            effect_words(file.schema, address),
         )
         may = self.target.may_edit and state.is_active
         for column, text in enumerate(texts):
@@ -209,19 +209,6 @@ class ValuesPage(QWidget):
             axis_name(file.evaluation, address[1]) if file.machine_schema.scopes[address[0]] == "axis" else ""
         )
         return f"{label} {letter}" if letter and letter not in label.split() else label
-
-    def _effect(self, address: Address) -> str:
-        """Return when a change takes effect, in words."""
-        assert self.target is not None
-        schema = self.target.file.schema
-        effect = schema.parameters[address[0]].effect or schema.family.effect
-        return {
-            "at-once": self.tr("at once"),
-            "reset": self.tr("on reset"),
-            "restart": self.tr("on restart"),
-            "command": self.tr("on {command}").format(command=effect.command),
-            "unknown": self.tr("not in the manual"),
-        }[effect.level]
 
     def _moved(self) -> None:
         self._offer_steps()

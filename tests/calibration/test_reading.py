@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
-from amp_studio.calibration import Measurement, MeasurementAnswers, MeasurementError, read_measurement
+from amp_studio.calibration import (
+    Measurement,
+    MeasurementAnswers,
+    MeasurementError,
+    read_measured_file,
+    read_measurement,
+)
 
 KNOWN = MeasurementAnswers("mm", "um", "measured-target")
 
@@ -36,11 +43,15 @@ THERE_AND_BACK = [
         "run,position,deviation\n1,0,0\n1,100,4\n1,200,7\n2,200,12\n2,100,9\n2,0,5\n",
         "Target [mm],Measured [mm]\n0,0\n100,100.004\n200,200.007\n200,200.012\n100,100.009\n0,0.005\n",
         "Target [mm],Correction [um]\n0,0\n100,-4\n200,-7\n200,-12\n100,-9\n0,-5\n",
+        'Machine,"XYZ, 3"\nDate,3 May\n"Target","Run 1 +","Run 1 -"\n"0","0","5"\n"100","4","9"\n"200","7","12"\n',
+        "Position;Vorwärts +;Rückwärts -;Mittelwert;Std Dev\n0;0;5;2.5;1\n100;4;9;6.5;1\n200;7;12;9.5;1\n",
+        "Soll [mm]\tIst [mm]\n0\t0\n100\t100.004\n200\t200.007\n200\t200.012\n100\t100.009\n0\t0.005\n",
+        "Position,up,down\n[mm],[um],[um]\n0,0,5\n100,4,9\n200,7,12\n",
         "\ufeffposition [in],error [um]\r\n0,0\r\n3.937007874015748,4\r\n",
     ],
 )  # fmt: skip
 def test_every_shape_of_a_pass_there_and_back_gives_the_same_runs(text: str) -> None:
-    answers = MeasurementAnswers() if "[" in text else KNOWN
+    answers = KNOWN if "[" not in text or "[um]" in text.split("\n")[1] else MeasurementAnswers()
     if "[in]" in text:
         measurement = read_measurement(text, MeasurementAnswers(sign="measured-target"))
         assert float(measurement.runs[0].points[1][0]) == pytest.approx(100)
@@ -264,3 +275,24 @@ def test_what_would_take_minutes_is_refused_at_once() -> None:
         read_measurement("\n".join(f"{n},0" for n in range(10_001)), KNOWN)
     with pytest.raises(MeasurementError, match="100001 lines"):
         read_measurement("0,0\n" * 100_001, KNOWN)
+
+
+def test_a_line_of_units_below_the_heads_answers_for_them() -> None:
+    found = read_measurement("Position,Error\nin,um\n0,0\n1,4\n", MeasurementAnswers(sign="measured-target"))
+    assert found.assumed == ()
+    assert found.runs[0].points[1] == (Fraction("25.4"), Fraction(4, 1000))
+
+
+def test_means_are_read_where_there_is_nothing_else_and_spreads_never() -> None:
+    text = "Position,Bidirectional Avg Error,Std Dev\n0,0,1\n100,4,1\n"
+    assert runs(read_measurement(text, KNOWN)) == [(True, [(0, 0), (100, 0.004)])]
+    with pytest.raises(MeasurementError, match="what was measured there"):
+        read_measurement("Position,Std Dev\n0,1\n100,1\n", KNOWN)
+
+
+@pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_a_file_is_read_in_the_codings_of_spreadsheets(coding: str, tmp_path: Path) -> None:
+    path = tmp_path / "laser.csv"
+    path.write_bytes("Position [mm],Error [µm]\r\n0,0\r\n100,4\r\n".encode(coding))
+    found = read_measured_file(path, MeasurementAnswers(sign="measured-target"))
+    assert runs(found) == [(True, [(0, 0), (100, 0.004)])]

@@ -143,6 +143,9 @@ def test_the_other_families_have_what_they_have(amp, tmp_path: Path, laser: Path
         path = tmp_path / f"{family}.amp"
         assert amp("new", family, path).code == 0
         assert amp("calibrate", path, "--axis", axis, "--json").json["reversal"]["param"] == named
+    path = tmp_path / "grbl.amp"
+    assert amp("new", "grblhal", path, "--machine", "grbl-1.1").code == 0
+    assert "grbl-1.1 has neither" in amp("calibrate", path, "--axis", "X").err
     path = tmp_path / "syntec.amp"
     assert amp("new", "syntec", path).code == 0
     assert "neither a calibration table nor a reversal error" in amp("calibrate", path, "--axis", "X").err
