@@ -49,7 +49,7 @@ class GroupList(QWidget):
         by_key = {group.key: group for group in schema.groups}
         for name, keys in areas or [("", tuple(by_key))]:
             head = self._add_head(name) if name else None
-            self._add_groups(head, [by_key[key] for key in keys])
+            self._add_groups(head, [by_key[key] for key in keys if key in by_key])
         self.tree.expandAll()
         header = self.tree.header()
         header.setStretchLastSection(False)
@@ -114,6 +114,8 @@ class GroupList(QWidget):
         )
         for item in self._items:
             keys = set(item.data(0, _KEYS))
+            if keys == {_ALL}:
+                keys = {group.key for group in schema.groups}
             counts = {
                 s: sum(own == s and not keys.isdisjoint(places) for own, places in found) for s in SEVERITIES
             }

@@ -5,8 +5,10 @@ from itertools import pairwise
 
 import pytest
 
+from amp_studio.families.grblhal.described import schema_of
 from amp_studio.guide import find_step, step_of, steps_of
 from amp_studio.schema import family_ids, load_schema
+from tests.families.grblhal.recorded import HELP, with_lines
 
 FAMILIES = ("57c422b", "9pc", "acromill", "grblhal", "num", "syntec")
 
@@ -113,6 +115,17 @@ def test_a_step_is_found_by_its_number_and_by_its_id_and_a_wrong_one_names_the_n
         ValueError, match=r"^Unknown step 'jogg'\. Did you mean: jog. The steps have the numbers 1 to 23$"
     ):
         find_step(schema, "jogg")
+
+
+def test_what_a_plugin_adds_to_a_control_that_describes_itself_is_in_the_last_step() -> None:
+    plugin = "[SETTINGGROUP:20|0|Plasma]", "[SETTING:350|20|Arc voltage|V|6|##0.00|10|300|0|0]"
+    schema = schema_of(with_lines(*plugin) + HELP)
+    listed = [p.id for step in steps_of(schema) for p in step.parameters]
+    assert sorted(listed) == sorted(schema.parameters)
+    last = steps_of(schema)[-1]
+    assert last.id == "rest"
+    assert "Arc voltage" in [p.name for p in last.parameters]
+    assert step_of(schema)["axis.steps"].id == "steps"
 
 
 def test_a_control_that_lacks_settings_leaves_the_others_in_their_steps() -> None:

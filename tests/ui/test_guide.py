@@ -221,6 +221,15 @@ def test_groups_stand_under_their_areas_and_areas_are_no_pages(fresh: MainWindow
     assert jog.data(0, RIGHT) == "35"
 
 
+def test_all_parameters_have_the_counts_of_every_group(fresh: MainWindow) -> None:
+    every = fresh.page.groups._items[0]
+    missing = len(fresh.workspace.validator.not_set)
+    assert (every.text(0), every.data(0, RIGHT)) == ("All parameters", str(missing))
+    fresh.workspace.show_later(True)
+    counts = dict(every.data(0, COUNTS))
+    assert counts["error"] == fresh.workspace.count("error") > 10
+
+
 def test_findings_are_filtered_to_the_step_in_front(fresh: MainWindow) -> None:
     assert fresh.findings.scope.buttons["shown"].text() == "Step"
     QTest.mouseClick(fresh.page.left.segment.buttons["groups"], Qt.MouseButton.LeftButton)
