@@ -82,7 +82,9 @@ class Finder:
         query, axis = self._axis(query)
         hits += self._numbered(query) + self._valued(query)
         for index in (index_of(self.schema, self.machine), self._texts, self._commands):
-            hits += [self._hit(match) for match in index.search(query, most)]
+            found = index.search(query, most)
+            # A choice of which only the parameter was named is no more than that parameter.
+            hits += [self._hit(m) for m in found if m.entry.kind != "choice" or "choice" in m.where]
         best: dict[tuple[str, str, str], Hit] = {}
         for hit in sorted(hits, key=lambda hit: -hit.score):
             best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)

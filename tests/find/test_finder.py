@@ -66,6 +66,12 @@ def test_a_choice_that_the_file_has_is_a_value_of_the_axes_that_have_it(finder: 
     ]
 
 
+def test_the_choices_of_a_parameter_are_not_listed_for_its_name_alone(finder: Finder) -> None:
+    assert [hit.kind for hit in finder.find("baud rate") if hit.kind in ("choice", "value")] == []
+    assert any(hit.title == "2 MHz" for hit in finder.find("2 mhz"))
+    assert any(hit.title == "2 MHz" for hit in finder.find("baud rate 2 mhz"))
+
+
 def test_a_value_is_found_after_an_edit(finder: Finder, mill: ParameterFile) -> None:
     address = ("servo.excess_error", "1")
     assert not [hit for hit in finder.find("17.123 mm") if hit.kind == "value"]
