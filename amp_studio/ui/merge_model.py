@@ -256,11 +256,17 @@ class MergeModel(QAbstractItemModel):
 
     def choose(self, rows: Iterable[Row], choice: Choice | None) -> None:
         """Take a side, a typed value or the default again for rows; those that are the same have nothing to choose."""
-        for row in rows:
-            if row.kind != "same" and (choice != "base" or self.merge.base is not None):
-                self.merge.choose(row, choice)
-                self._cells.pop(row.id, None)
-        self._refresh_all()
+        changed = [
+            row for row in rows if row.kind != "same" and (choice != "base" or self.merge.base is not None)
+        ]
+        for row in changed:
+            self.merge.choose(row, choice)
+            self._cells.pop(row.id, None)
+        first = self.index_of(changed[0].id, NAME) if len(changed) == 1 else QModelIndex()
+        if first.isValid():
+            self.dataChanged.emit(first, first.siblingAtColumn(RESULT))
+        else:
+            self._refresh_all()
         self.chosen.emit()
 
     def _refresh_all(self) -> None:
