@@ -25,7 +25,7 @@ class CalculatorDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Calculator")
+        self.setWindowTitle(self.tr("Calculator"))
         self.setMinimumWidth(520)
         self._workspace, self._address, self._commit = workspace, address, commit
         self._family = workspace.file.schema.family.family
@@ -42,9 +42,9 @@ class CalculatorDialog(QDialog):
         self.use.clicked.connect(self._use)
         self.fields: dict[str, QLineEdit] = {}
         self._form = QFormLayout(self)
-        self._form.addRow("&Formula", self.formula)
+        self._form.addRow(self.tr("&Formula"), self.formula)
         self._form.addRow(self.description)
-        self._form.addRow("Result", self.outcome)
+        self._form.addRow(self.tr("Result"), self.outcome)
         self._form.addRow(self.use)
         self.formula.currentTextChanged.connect(self._choose)
         workspace.closed.connect(self.close)
@@ -66,7 +66,7 @@ class CalculatorDialog(QDialog):
     def _work_out(self, *_: object) -> None:
         texts = {name: field.text() for name, field in self.fields.items()}
         self.use.setEnabled(False)
-        self.use.setText("Use the result as a value")
+        self.use.setText(self.tr("Use the result as a value"))
         try:
             result = calculate(self._family, self.formula.currentData(), texts)
         except ValueError as error:
@@ -76,7 +76,11 @@ class CalculatorDialog(QDialog):
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
             label = self._workspace.file.machine_schema.label(self._address)
             unit = shown(self._workspace.typed_unit(self._address))
-            self.use.setText(f"Use the result as the value of {label}{f', in {unit}' if unit else ''}")
+            self.use.setText(
+                self.tr("Use the result as the value of {label}{what}").format(
+                    label=label, what=f", in {unit}" if unit else ""
+                )
+            )
             self.use.setEnabled(self._workspace.may_edit)
 
     def _use(self) -> None:

@@ -18,6 +18,7 @@ from amp_studio.schema import Address, UnitError, Value, convert, show_value, sh
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET
 
+from .translated import Translated
 from .workspace import Workspace
 
 CellKind = Literal["value", "not set", "absent"]
@@ -97,7 +98,7 @@ def grouped(figure: str) -> str:
     return sign + THIN.join(groups) + rest
 
 
-class ShownValues:
+class ShownValues(Translated):
     """The values of a file as the table shows them, in the unit in which they are typed."""
 
     def __init__(self, workspace: Workspace) -> None:
@@ -153,7 +154,7 @@ class ShownValues:
         lines = [self.text(address, file.get(address))]
         lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
         if not state.is_active:
-            page = f" (page {state.page})" if state.page else ""
+            page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
             lines.append(f"{state_name(state.state).capitalize()}: {state.why}{page}")
         if address in self.effective:
             used = self.text(address, self.effective[address])

@@ -48,7 +48,7 @@ class ChoiceBox(QComboBox):
             else str(current)
         )
         keys = [c.key for c in choices]
-        self.setPlaceholderText(key or "not set")
+        self.setPlaceholderText(key or self.tr("not set"))
         self.setCurrentIndex(keys.index(key) if key in keys else -1)
         self.setMaxVisibleItems(20)
         self._typed, self._since = "", QElapsedTimer()
@@ -81,7 +81,9 @@ class ChoiceBox(QComboBox):
         self._show_only(set(found) if found else None)
         if self.view().isVisible():
             QToolTip.showText(
-                self.mapToGlobal(QPoint(0, -30)), typed if found else f"{typed}: no choice", self
+                self.mapToGlobal(QPoint(0, -30)),
+                typed if found else self.tr("{typed}: no choice").format(typed=typed),
+                self,
             )
 
     def _show_only(self, rows: set[int] | None) -> None:

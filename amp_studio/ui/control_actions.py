@@ -23,6 +23,7 @@ from .restore import restore
 from .sheet_actions import enter_by_hand
 from .studio_window import StudioWindow
 from .task import TaskProgress
+from .translated import Translated
 from .tuning_actions import tune
 from .workspace import Workspace
 
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Outcome
 
 
-class ControlActions:
+class ControlActions(Translated):
     """Exchange with the control of the project, or with the emulated one."""
 
     def __init__(self, window: StudioWindow, files: FileActions) -> None:
@@ -42,24 +43,37 @@ class ControlActions:
         self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
         act = window.action
-        menu = window.menuBar().addMenu("&Control")
-        download = act("&Download to Control…", self.download, "F5", "file", "arrow-line-down", "Download")
-        verify = act("&Verify With Control…", self.verify, "F6", "file", "check-circle", "Verify")
-        upload = act("&Upload From Control…", self.upload, "F7", "", "arrow-line-up", "Upload")
-        put_back = act("&Restore Control From Backup…", partial(restore, self.exchanges), None, "")
-        by_hand = act("Enter Values by &Hand…", partial(enter_by_hand, self.exchanges), None, "file")
-        several = act("Several &Controls…", self.several, None, "file")
-        exchanges = act("E&xchanges of This File…", self.recorded, None, "file")
+        menu = window.menuBar().addMenu(self.tr("&Control"))
+        download = act(
+            self.tr("&Download to Control…"),
+            self.download,
+            "F5",
+            "file",
+            "arrow-line-down",
+            self.tr("Download"),
+        )
+        verify = act(
+            self.tr("&Verify With Control…"), self.verify, "F6", "file", "check-circle", self.tr("Verify")
+        )
+        upload = act(
+            self.tr("&Upload From Control…"), self.upload, "F7", "", "arrow-line-up", self.tr("Upload")
+        )
+        put_back = act(self.tr("&Restore Control From Backup…"), partial(restore, self.exchanges), None, "")
+        by_hand = act(self.tr("Enter Values by &Hand…"), partial(enter_by_hand, self.exchanges), None, "file")
+        several = act(self.tr("Several &Controls…"), self.several, None, "file")
+        exchanges = act(self.tr("E&xchanges of This File…"), self.recorded, None, "file")
         menu.addActions([download, verify, upload, put_back, by_hand])
         menu.addSeparator()
-        tuning = act("&Tuning…", lambda: tune(self.window, self.exchanges), "Shift+F9", "file")
+        tuning = act(
+            self.tr("&Tuning…"), lambda: tune(self.window, self.exchanges), self.tr("Shift+F9"), "file"
+        )
         menu.addActions([several, exchanges])
         menu.addAction(tuning)
         menu.addSeparator()
-        self.start_action = act("&Start Emulated Control", self.start_emulated, None, "file")
-        self.estop_action = act("Emulated Control in &E-Stop", self._estop, None, "")
+        self.start_action = act(self.tr("&Start Emulated Control"), self.start_emulated, None, "file")
+        self.estop_action = act(self.tr("Emulated Control in &E-Stop"), self._estop, None, "")
         self.estop_action.setCheckable(True)
-        self.stop_action = act("Sto&p Emulated Control", self.emulated.stop, None, "")
+        self.stop_action = act(self.tr("Sto&p Emulated Control"), self.emulated.stop, None, "")
         menu.addActions([self.start_action, self.estop_action, self.stop_action])
         self.toolbar: list[QAction] = [download, verify, upload]
 
@@ -78,16 +92,18 @@ class ControlActions:
         if workspace is not None and not self.emulated.is_running:
             self.emulated.start(workspace.file.schema.family.family, workspace.file.machine)
             self.estop_action.setChecked(True)
-            self.window.show_status("Starting an emulated control …")
+            self.window.show_status(self.tr("Starting an emulated control …"))
             self.enable()
 
     def _ready(self, address: str) -> None:
-        self.window.show_status(f"Emulated control at {address}, in E-stop")
+        self.window.show_status(self.tr("Emulated control at {address}, in E-stop").format(address=address))
         self.enable()
 
     def _ended(self, output: str) -> None:
         self.window.show_status(
-            f"The emulated control stopped: {output}" if output else "Emulated control stopped"
+            self.tr("The emulated control stopped: {output}").format(output=output)
+            if output
+            else self.tr("Emulated control stopped")
         )
         self.enable()
 
@@ -96,7 +112,7 @@ class ControlActions:
         if line.startswith(("kept in E-stop: ", "refused: the control stays in E-stop: ")):
             self.estop_action.setChecked(True)
         if not line.startswith("estop "):
-            self.window.show_status(f"Emulated control: {line}")
+            self.window.show_status(self.tr("Emulated control: {line}").format(line=line))
 
     def _estop(self) -> None:
         self.emulated.send("estop on" if self.estop_action.isChecked() else "estop off")
@@ -119,7 +135,7 @@ class ControlActions:
         if not self._is_ready(workspace):
             return
         self._name_the_only_way(workspace)
-        address = self.exchanges.ask_address("Download")
+        address = self.exchanges.ask_address(self.tr("Download"))
         if address is None:
             return
         file, path = workspace.file.copy(), workspace.path
@@ -135,7 +151,7 @@ class ControlActions:
             return download_file(file, address, path.parent, path.stem, progress, cancel,
                                  expected=sha256(present), known=present, record=path, notify=notes.append)  # fmt: skip
 
-        if self.exchanges.run("Download", work).verified:
+        if self.exchanges.run(self.tr("Download"), work).verified:
             self.exchanges.remember(workspace, file)
         if notes:
             self.window.show_status("; ".join(notes))
@@ -145,25 +161,45 @@ class ControlActions:
         from amp_studio.sheet.keying import keying_of
 
         if only := keying_of(workspace.file.schema.family.family).only_way.partition(":")[0]:
-            self.window.show_status(f"{only}: use Control > Enter Values by Hand")
+            self.window.show_status(self.tr("{only}: use Control > Enter Values by Hand").format(only=only))
 
     def _is_ready(self, workspace: Workspace) -> bool:
         """Ask about unsaved changes and errors; returns whether the file may be downloaded."""
         if workspace.is_dirty and workspace.may_edit:
-            question = f"{workspace.path.name} has unsaved changes. A download sends the saved file."
-            if ask(self.window, "Download", question, "&Save and Continue", "Cancel") != "&Save and Continue":
+            question = self.tr("{name} has unsaved changes. A download sends the saved file.").format(
+                name=workspace.path.name
+            )
+            if ask(
+                self.window,
+                self.tr("Download"),
+                question,
+                self.tr("&Save and Continue"),
+                self.tr("Cancel"),
+            ) != self.tr("&Save and Continue"):
                 return False
             if not self.window.save():
                 return False
         errors = [f for f in workspace.findings if f.severity == "error"]
         if not errors:
             return True
-        count = "1 error" if len(errors) == 1 else f"{len(errors)} errors, the first"
-        question = f"The file has {count}: {errors[0].message}\n\nDownload it anyway?"
-        answer = ask(
-            self.window, "Download", question, "&Download", "Cancel", default=1, icon=QMessageBox.Icon.Warning
+        count = (
+            self.tr("1 error")
+            if len(errors) == 1
+            else self.tr("{count} errors, the first").format(count=len(errors))
         )
-        return answer == "&Download"
+        question = self.tr("The file has {count}: {message}\n\nDownload it anyway?").format(
+            count=count, message=errors[0].message
+        )
+        answer = ask(
+            self.window,
+            self.tr("Download"),
+            question,
+            self.tr("&Download"),
+            self.tr("Cancel"),
+            default=1,
+            icon=QMessageBox.Icon.Warning,
+        )
+        return answer == self.tr("&Download")
 
     def _preview(self, workspace: Workspace, address: str) -> bytes | None:
         """Show what the download would change in the control; returns the image to replace, or None."""
@@ -173,17 +209,25 @@ class ControlActions:
 
         from .download_preview import DownloadPreview
 
-        image = self.exchanges.fetch(address, "Download", workspace.file.schema.family.family)
+        image = self.exchanges.fetch(address, self.tr("Download"), workspace.file.schema.family.family)
         if not image:
             return image
         try:
             present = decode_content(image)
             if present.schema.family.family != workspace.file.schema.family.family:
-                raise ImageError(f"The control contains parameters for {present.schema.family.name}")
+                raise ImageError(
+                    self.tr("The control contains parameters for {name}").format(
+                        name=present.schema.family.name
+                    )
+                )
         except ImageError as error:
-            question = f"{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
-            answer = ask(self.window, "Download", question, "&Download", "Cancel", default=1)
-            return image if answer == "&Download" else None
+            question = self.tr(
+                "{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
+            ).format(error=error)
+            answer = ask(
+                self.window, self.tr("Download"), question, self.tr("&Download"), self.tr("Cancel"), default=1
+            )
+            return image if answer == self.tr("&Download") else None
         self.exchanges.remember(workspace, by_schema(present, workspace.file.schema))
         found = verify_content(workspace.file, image).values
         if (
@@ -210,20 +254,20 @@ class ControlActions:
         """Compare the file with the parameters of the control."""
         workspace = self._workspace()
         self._name_the_only_way(workspace)
-        address = self.exchanges.ask_address("Verify")
+        address = self.exchanges.ask_address(self.tr("Verify"))
         if address is None:
             return
         from amp_studio.transfer.client.verification import verify_content
         from amp_studio.transfer.content import decode_content
 
-        image = self.exchanges.fetch(address, "Verify", workspace.file.schema.family.family)
+        image = self.exchanges.fetch(address, self.tr("Verify"), workspace.file.schema.family.family)
         found = verify_content(workspace.file, image)
         if not found.unreadable:
             present = by_schema(decode_content(image), workspace.file.schema)
             self.exchanges.remember(workspace, present)
         if not found.values.differences:
             icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
-            show_message(self.window, "Verify", found.summary(), icon)
+            show_message(self.window, self.tr("Verify"), found.summary(), icon)
             return
         page = self.window.page
         assert page is not None
@@ -231,38 +275,44 @@ class ControlActions:
 
     def upload(self) -> None:
         """Read the parameters of the control, ask about each value out of range, and save them as a new file."""
-        address = self.exchanges.ask_address("Upload")
+        address = self.exchanges.ask_address(self.tr("Upload"))
         if address is None:
             return
         file = self._uploaded(address)
         if settle(file, "an upload", AskInDialogs(self.window)):
             self._save_upload(file)
         else:
-            self.window.show_status("Upload cancelled. No file was written.")
+            self.window.show_status(self.tr("Upload cancelled. No file was written."))
 
     def _uploaded(self, address: str) -> ParameterFile:
         """Return the parameters of the control as a file; raises ValueError when they cannot be read."""
         from amp_studio.transfer.content import decode_content
         from amp_studio.transfer.image import ImageError
 
-        image = self.exchanges.fetch(address, "Upload")
+        image = self.exchanges.fetch(address, self.tr("Upload"))
         if not image:
-            raise ValueError("The control contains no parameters: there is nothing to upload.")
+            raise ValueError(self.tr("The control contains no parameters: there is nothing to upload."))
         try:
             return decode_content(image)
         except ImageError as error:
             raise ValueError(
-                f"{error}.\n\nTo save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'."
+                self.tr(
+                    "{error}.\n\nTo save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'."
+                ).format(error=error, address=address)
             ) from None
 
     def _save_upload(self, file: ParameterFile) -> None:
         """Save an upload as a new file; asks for another name when it cannot be written."""
-        while (path := self._files.ask_path("Save upload as", Path("from-control"))) is not None:
+        while (path := self._files.ask_path(self.tr("Save upload as"), Path("from-control"))) is not None:
             file.header.name = path.stem
             try:
                 self._files.write_new(path, partial(Document.create, file, path))
             except OSError as error:
-                show_message(self.window, "Upload", f"{error}.\n\nChoose another name.")
+                show_message(
+                    self.window,
+                    self.tr("Upload"),
+                    self.tr("{error}.\n\nChoose another name.").format(error=error),
+                )
             else:
                 return
-        self.window.show_status("Upload cancelled. No file was written.")
+        self.window.show_status(self.tr("Upload cancelled. No file was written."))

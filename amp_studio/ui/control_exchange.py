@@ -15,6 +15,7 @@ from .emulated_control import EmulatedControl
 from .questions import show_message
 from .studio_window import StudioWindow
 from .task import ProgressDialog, TaskProgress
+from .translated import Translated
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ STAGES = {
 }
 
 
-class ControlExchange:
+class ControlExchange(Translated):
     """Exchanges with the control of the project, or with the emulated one, in a dialog with progress."""
 
     def __init__(self, window: StudioWindow, emulated: EmulatedControl) -> None:
@@ -46,7 +47,7 @@ class ControlExchange:
         """Ask for the address of the control; suggests the emulated control, that of the project and the last one."""
         settings = self.window.settings
         offered = self.known_addresses() or ["tcp://127.0.0.1:9600"]
-        label = (
+        label = self.tr(
             "Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)"
         )
         text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
@@ -63,12 +64,14 @@ class ControlExchange:
 
             return fetch_image(address, progress, cancel, family=family)
 
-        image: bytes = ProgressDialog(title, work, self.window, "Waiting for the control …", STAGES).run()
+        image: bytes = ProgressDialog(
+            title, work, self.window, self.tr("Waiting for the control …"), STAGES
+        ).run()
         return image
 
     def run(self, title: str, work: Callable[[TaskProgress, threading.Event], Outcome]) -> Outcome:
         """Run a download or restore, show its outcome and return it."""
-        hint = "Waiting for the control …"
+        hint = self.tr("Waiting for the control …")
         outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()
         icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
         show_message(self.window, title, outcome.text, icon)

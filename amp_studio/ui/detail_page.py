@@ -18,6 +18,7 @@ from amp_studio.validate import NOT_SET, Finding, rule_title
 
 from .pages import drawn, link
 from .theme import colour, icon_html, severity_html
+from .translated import Translated
 from .workspace import Workspace
 
 USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calculate:", "message:"
@@ -30,7 +31,7 @@ def tr(text: str) -> str:
     return QCoreApplication.translate("DetailPage", text)
 
 
-class DetailPage:
+class DetailPage(Translated):
     """Writes the page of one address; what it needs besides the file is set by the panel."""
 
     def __init__(self, workspace: Workspace) -> None:
@@ -86,7 +87,7 @@ class DetailPage:
             lines.append(f"{html.escape(stored)} <small>{tr('as stored in the control')}</small>")
         state = file.evaluation.state(address)
         if not state.is_active:
-            page = f" (page {state.page})" if state.page else ""
+            page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
             lines.append(f"<i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i>")
         if allowed := self._allowed(address):
             lines.append(f"{tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
@@ -99,11 +100,13 @@ class DetailPage:
         unit = self._workspace.typed_unit(address)
         found = limits(file.evaluation, address, unit)
         if found is None:
-            return f"no bounds printed, in {shown(unit)}" if unit else ""
+            return self.tr("no bounds printed, in {shown}").format(shown=shown(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = found.text() + "".join(f" (set by {file.machine_schema.label(s)})" for s in sources)
         return text + (
-            " — no range in degrees is printed; the metric numbers are used" if found.borrowed else ""
+            self.tr(" — no range in degrees is printed; the metric numbers are used")
+            if found.borrowed
+            else ""
         )
 
     # -- sections --------------------------------------------------------------
@@ -226,7 +229,7 @@ class DetailPage:
     def _history(self, address: Address) -> str:
         lines = [
             f"<p><small>{day_and_time(entry.when)}, {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
-            f"<br>{html.escape(entry.old or 'not set')} → {html.escape(entry.new or 'not set')}</p>"
+            f"<br>{html.escape(entry.old or self.tr('not set'))} → {html.escape(entry.new or self.tr('not set'))}</p>"
             for entry in self._workspace.document.history(address)
         ]
         label = html.escape(self._workspace.file.machine_schema.label(address))

@@ -53,8 +53,9 @@ class DiskWatch(QObject):
         self._refused = state  # offered once for each change
         if state == "removed":
             self._page.bar.say(
-                f"{workspace.path.name} was removed or renamed by another program. Your work is still open: "
-                "save it under a new name.",
+                self.tr(
+                    "{name} was removed or renamed by another program. Your work is still open: save it under a new name."
+                ).format(name=workspace.path.name),
                 "warning",
             )
         else:
@@ -63,17 +64,31 @@ class DiskWatch(QObject):
     def offer(self) -> None:
         """Say that the file on disk is another one now, with a button for each way on."""
         name, dirty = self._page.workspace.path.name, self._page.workspace.is_dirty
-        compare, reload = ("Co&mpare…", lambda: self._compare(self._page)), ("&Reload", self._ask_reload)
+        compare, reload = (
+            (self.tr("Co&mpare…"), lambda: self._compare(self._page)),
+            (self.tr("&Reload"), self._ask_reload),
+        )
         if dirty:
-            text = f"{name} was changed by another program while you have unsaved changes. Compare both, then save."
+            text = self.tr(
+                "{name} was changed by another program while you have unsaved changes. Compare both, then save."
+            ).format(name=name)
             self._page.bar.say(text, "warning", compare, reload)
         else:
-            self._page.bar.say(f"{name} was changed by another program.", "warning", reload, compare)
+            self._page.bar.say(
+                self.tr("{name} was changed by another program.").format(name=name),
+                "warning",
+                reload,
+                compare,
+            )
 
     def _ask_reload(self) -> None:
         workspace = self._page.workspace
         if workspace.is_dirty:
-            question = f"Reload {workspace.path.name}? Your unsaved changes will be lost."
-            if ask(self._page, "Reload", question, "&Reload", "Cancel", default=1) != "&Reload":
+            question = self.tr("Reload {name}? Your unsaved changes will be lost.").format(
+                name=workspace.path.name
+            )
+            if ask(
+                self._page, self.tr("Reload"), question, self.tr("&Reload"), self.tr("Cancel"), default=1
+            ) != self.tr("&Reload"):
                 return
         self._reload(self._page)

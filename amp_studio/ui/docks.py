@@ -13,6 +13,7 @@ from .file_page import FilePage
 from .segment import Segment
 from .settings import UserSettings
 from .theme import GAP2, HEAD, font
+from .translated import Translated
 
 _PANELS = (
     ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 248),
@@ -42,7 +43,7 @@ class _Heads(QStackedWidget):
         return QSize(0, HEAD)
 
 
-class Docks:
+class Docks(Translated):
     """One dock for each kind of panel. Nothing is docked while no file is open."""
 
     def __init__(self, window: QMainWindow, settings: UserSettings) -> None:
@@ -70,7 +71,7 @@ class Docks:
 
     def _share_the_bottom(self) -> None:
         """Make room for the parameter in the dock of the findings, with a segment that chooses between them."""
-        below = self._dock("Findings")
+        below = self._dock(self.tr("Findings"))
         self._bottom = QStackedWidget()
         self._bottom.addWidget(self._stacks["Findings"])
         below.setWidget(self._bottom)
@@ -79,7 +80,8 @@ class Docks:
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
         self.chooser = Segment(
-            _name("Panel"), [(title, _name(title), "") for title in ("Findings", "Parameter")]
+            _name(self.tr("Panel")),
+            [(title, _name(title), "") for title in (self.tr("Findings"), self.tr("Parameter"))],
         )
         self.chooser.layout().setContentsMargins(GAP2, 0, GAP2, 0)
         self.chooser.chosen.connect(self._turn_bottom)
@@ -167,8 +169,8 @@ class Docks:
         self._size = size
         if self._is_first or self._arranged is not None:
             return
-        self._take("Parameter", size.width() < WIDE)
-        self._take("Groups", size.width() < LEFT_WIDE)
+        self._take(self.tr("Parameter"), size.width() < WIDE)
+        self._take(self.tr("Groups"), size.width() < LEFT_WIDE)
         self._fold(size.height() < LOW)
 
     def show(self, title: str) -> None:
@@ -177,7 +179,7 @@ class Docks:
         if title == "Parameter" and title in self._taken:
             self.chooser.show_choice(title)
             self._turn_bottom(title)
-            dock = self._dock("Findings")
+            dock = self._dock(self.tr("Findings"))
         elif title == "Findings":
             self.chooser.show_choice(title)
             self._turn_bottom(title)
@@ -204,7 +206,11 @@ class Docks:
 
     def _move_parameter(self, into: QStackedWidget | None, heads: QStackedWidget | None) -> None:
         """Put the panel of the parameter beside the findings, or back into its own dock."""
-        stack, head, dock = self._stacks["Parameter"], self._heads["Parameter"], self._dock("Parameter")
+        stack, head, dock = (
+            self._stacks["Parameter"],
+            self._heads["Parameter"],
+            self._dock(self.tr("Parameter")),
+        )
         if into is not None and heads is not None:
             into.addWidget(stack)
             heads.addWidget(head)
@@ -218,8 +224,8 @@ class Docks:
         self.chooser.setVisible(into is not None)
         for title in self._heads["Findings"].findChildren(QLabel, "title"):
             title.setVisible(into is None)  # the chooser has the word
-        self.chooser.show_choice("Findings")
-        self._turn_bottom("Findings")
+        self.chooser.show_choice(self.tr("Findings"))
+        self._turn_bottom(self.tr("Findings"))
 
     def _turn_bottom(self, title: str) -> None:
         if self._bottom.indexOf(self._stacks[title]) >= 0:
@@ -231,7 +237,7 @@ class Docks:
     def _fold(self, is_low: bool) -> None:
         """Show the head of the findings alone, or all of them."""
         self._bottom.setVisible(not is_low)
-        self._dock("Findings").setMaximumHeight(HEAD if is_low else 16_777_215)
+        self._dock(self.tr("Findings")).setMaximumHeight(HEAD if is_low else 16_777_215)
 
     def _widen(self) -> None:
         """Put back what a small window has taken away, so that an arrangement is that of a large one."""

@@ -22,7 +22,15 @@ class DifferenceList(QTreeWidget):
 
     def __init__(self, file: ParameterFile, found: Comparison, *, secrets: bool) -> None:
         super().__init__()
-        self.setHeaderLabels(["Parameter", "Axis", "Difference", "This file", "The control"])
+        self.setHeaderLabels(
+            [
+                self.tr("Parameter"),
+                self.tr("Axis"),
+                self.tr("Difference"),
+                self.tr("This file"),
+                self.tr("The control"),
+            ]
+        )
         self.setRootIsDecorated(False)
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)
@@ -31,7 +39,7 @@ class DifferenceList(QTreeWidget):
             QTreeWidgetItem([
                 schema.on(machine).label(difference.address),
                 schema.on(machine).instance_label(difference.address),
-                "not in this file" if difference.a is None else "only in this file" if difference.b is None else "different",
+                self.tr("not in this file") if difference.a is None else self.tr("only in this file") if difference.b is None else "different",
                 *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
                   for v in difference.in_one_unit()),
             ])
@@ -64,11 +72,10 @@ class DownloadPreview(QDialog):
         super().__init__(parent)
         self.setWindowTitle(title)
         self.resize(900, 500)
-        text = QLabel(f"{counts(found)} The download replaces all parameters in the control. Values that are not set in this file are "
-                      "not sent. The control's present parameters are saved beside the file first.\n\nThe control must be in E-stop.")  # fmt: skip
+        text = QLabel(self.tr("{counts} The download replaces all parameters in the control. Values that are not set in this file are not sent. The control's present parameters are saved beside the file first.\n\nThe control must be in E-stop.").format(counts=counts(found)))  # fmt: skip
         text.setWordWrap(True)
         self.list = DifferenceList(file, found, secrets=secrets)
-        self.send, cancel = QPushButton(f"&{title}"), QPushButton("Cancel")
+        self.send, cancel = QPushButton(f"&{title}"), QPushButton(self.tr("Cancel"))
         self.send.setDefault(True)
         self.send.clicked.connect(self.accept)
         cancel.clicked.connect(self.reject)

@@ -17,30 +17,31 @@ from .file_page import FilePage
 from .questions import ask, show_message
 from .range_actions import RangeActions
 from .studio_window import StudioWindow
+from .translated import Translated
 from .workspace import Workspace
 
 
-class EditActions:
+class EditActions(Translated):
     """Everything that changes a value."""
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act, keys = window.action, QKeySequence.StandardKey
-        self.undo = act("&Undo", self._undo, keys.Undo, "edit", "arrow-u-up-left", "Undo")
-        self.redo = act("&Redo", self._redo, keys.Redo, "edit", "arrow-u-up-right", "Redo")
-        edit = act("&Edit Value", self._edit, "F2", "edit")
-        steps = act("Histor&y of Steps…", self.steps, "Ctrl+Shift+H", "file")
-        quick = act("&Quick Edit by Number…", self.quick_edit, "F4", "edit")
-        calculator = act("Ca&lculator…", self.calculator, "F3", "file")
-        tables = act("&Tables of the Manual…", self.tables, "Shift+F3", "file")
+        self.undo = act(self.tr("&Undo"), self._undo, keys.Undo, "edit", "arrow-u-up-left", self.tr("Undo"))
+        self.redo = act(self.tr("&Redo"), self._redo, keys.Redo, "edit", "arrow-u-up-right", self.tr("Redo"))
+        edit = act(self.tr("&Edit Value"), self._edit, "F2", "edit")
+        steps = act(self.tr("Histor&y of Steps…"), self.steps, self.tr("Ctrl+Shift+H"), "file")
+        quick = act(self.tr("&Quick Edit by Number…"), self.quick_edit, "F4", "edit")
+        calculator = act(self.tr("Ca&lculator…"), self.calculator, "F3", "file")
+        tables = act(self.tr("&Tables of the Manual…"), self.tables, self.tr("Shift+F3"), "file")
         fix = act("F&ix Selected Finding", self._fix, "F8", "edit")
-        why = act("S&how Explanation of Finding", self._why, "Shift+F1", "file")
-        several = act("Fix Se&veral…", self.fix_several, "Shift+F8", "edit", "magic-wand")
-        safe = act("Apply All &Safe Fixes", self.fix_safe, None, "edit")
-        note = act("N&ote…", self.note, "Alt+Return", "file", "note-pencil")
+        why = act(self.tr("S&how Explanation of Finding"), self._why, self.tr("Shift+F1"), "file")
+        several = act(self.tr("Fix Se&veral…"), self.fix_several, self.tr("Shift+F8"), "edit", "magic-wand")
+        safe = act(self.tr("Apply All &Safe Fixes"), self.fix_safe, None, "edit")
+        note = act(self.tr("N&ote…"), self.note, self.tr("Alt+Return"), "file", "note-pencil")
         self.range = RangeActions(window)
         self.of_a_cell: list[QAction] = [edit, *self.range.actions, note]
-        self.menu = menu = window.menuBar().addMenu("&Edit")
+        self.menu = menu = window.menuBar().addMenu(self.tr("&Edit"))
         for actions in (
             (self.undo, self.redo, steps),
             self.of_a_cell,
@@ -52,7 +53,7 @@ class EditActions:
 
     def show_state(self, workspace: Workspace | None) -> None:
         """Update text and state of Undo and Redo."""
-        for action, name in ((self.undo, "&Undo"), (self.redo, "&Redo")):
+        for action, name in ((self.undo, self.tr("&Undo")), (self.redo, self.tr("&Redo"))):
             stack = workspace.undo_stack if workspace and workspace.may_edit else None
             is_undo = action is self.undo
             can = stack is not None and (stack.canUndo() if is_undo else stack.canRedo())
@@ -73,7 +74,7 @@ class EditActions:
     def _here(self) -> Address:
         address = self.window.selected()
         if address is None:
-            raise ValueError("Select a value in the table first.")
+            raise ValueError(self.tr("Select a value in the table first."))
         return address
 
     # -- one value -------------------------------------------------------------
@@ -90,15 +91,26 @@ class EditActions:
         except RangeError as error:
             return self._ask_force(workspace, address, text, str(error))
         except InvalidValueError as error:
-            show_message(self.window, "Value not accepted", f"{name}: {error}.\n\nNothing was changed.")
+            show_message(
+                self.window,
+                self.tr("Value not accepted"),
+                self.tr("{name}: {error}.\n\nNothing was changed.").format(name=name, error=error),
+            )
             return False
         return True
 
     def _ask_force(self, workspace: Workspace, address: Address, text: str, problem: str) -> bool:
-        force = "&Force and Mark"
-        question = f"{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
+        force = self.tr("&Force and Mark")
+        question = self.tr(
+            "{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
+        ).format(problem=problem)
         icon = QMessageBox.Icon.Warning
-        if ask(self.window, "Out of range", question, force, "Cancel", default=1, icon=icon) != force:
+        if (
+            ask(
+                self.window, self.tr("Out of range"), question, force, self.tr("Cancel"), default=1, icon=icon
+            )
+            != force
+        ):
             return False
         return workspace.enter(address, text, force=True)
 
@@ -144,7 +156,11 @@ class EditActions:
 
         workspace = self._workspace()
         if not calculators(workspace.file.schema.family.family):
-            raise ValueError(f"No formulas are published for {workspace.file.schema.family.name}.")
+            raise ValueError(
+                self.tr("No formulas are published for {name}.").format(
+                    name=workspace.file.schema.family.name
+                )
+            )
         commit = partial(self.commit_to, workspace)
         CalculatorDialog(workspace, self.window.selected(), commit, self.window).show()
 
@@ -163,14 +179,14 @@ class EditActions:
         able = tuple(finding for finding in findings if finding.fix)
         if not able:
             raise ValueError(
-                "The selected finding has no suggested fix. Show it to see the parameters to check."
+                self.tr("The selected finding has no suggested fix. Show it to see the parameters to check.")
             )
         self.fix_all(able)
 
     def _why(self) -> None:
         finding = self.window.findings.current() if self.window.findings else None
         if finding is None:
-            raise ValueError("No finding is selected.")
+            raise ValueError(self.tr("No finding is selected."))
         self.why(finding)
 
     def why(self, finding: Finding) -> None:
@@ -203,10 +219,12 @@ class EditActions:
         """Apply the suggested fix of a finding as one step, if the finding still exists and its fix was tried."""
         if finding not in self._workspace().findings:
             raise ValueError(
-                "This finding has changed or no longer exists. Select it again in the list of findings."
+                self.tr(
+                    "This finding has changed or no longer exists. Select it again in the list of findings."
+                )
             )
         workspace, wanted = self._workspace(), {r.address: r.value for r in finding.fix}
-        workspace.edit(f"Fix: {workspace.step_text(wanted)}", wanted)
+        workspace.edit(self.tr("Fix: {step_text}").format(step_text=workspace.step_text(wanted)), wanted)
 
     def fix_all(self, findings: Sequence[Finding]) -> None:
         """Apply the suggested fixes of several findings as one step, each in the light of those before it."""
@@ -215,9 +233,11 @@ class EditActions:
             return
         workspace, keys = self._workspace(), {finding.key for finding in findings}
         wanted = partial(apply_fixes, workspace.validator, lambda finding: finding.key in keys)
-        if not workspace.do("Fix several", wanted):
+        if not workspace.do(self.tr("Fix several"), wanted):
             raise ValueError(
-                "These findings have changed or no longer exist. Select them again in the list of findings."
+                self.tr(
+                    "These findings have changed or no longer exist. Select them again in the list of findings."
+                )
             )
 
     def fix_several(self) -> None:
@@ -226,7 +246,7 @@ class EditActions:
 
         workspace = self._workspace()
         if not any(finding.fix for finding in workspace.listed):
-            raise ValueError("No finding has a suggested fix.")
+            raise ValueError(self.tr("No finding has a suggested fix."))
         dialog = FixSeveralDialog(workspace, workspace.listed, self.window)
         if dialog.exec() and (chosen := dialog.chosen()):
             self.fix_all(chosen)
@@ -235,7 +255,7 @@ class EditActions:
     def fix_safe(self) -> None:
         """Apply every suggested fix that cannot change motion, as one step."""
         workspace = self._workspace()
-        if not workspace.do("Apply all safe fixes", lambda: apply_all_safe(workspace.validator)):
+        if not workspace.do(self.tr("Apply all safe fixes"), lambda: apply_all_safe(workspace.validator)):
             self.window.show_status(
-                "There is no safe fix: no finding has a suggested fix that cannot change motion."
+                self.tr("There is no safe fix: no finding has a suggested fix that cannot change motion.")
             )

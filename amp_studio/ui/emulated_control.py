@@ -79,4 +79,6 @@ class EmulatedControl(QObject):
         lines = (
             bytes(self._process.readAllStandardError().data()).decode("utf-8", "replace").strip().splitlines()
         )
-        self.ended.emit("" if self._stopping else (lines[-1] if lines else "it stopped unexpectedly"))
+        self.ended.emit(
+            "" if self._stopping else (lines[-1] if lines else self.tr("it stopped unexpectedly"))
+        )

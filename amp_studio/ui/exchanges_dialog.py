@@ -22,29 +22,30 @@ class ExchangesDialog(QDialog):
 
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(f"Exchanges — {workspace.path.name}")
+        self.setWindowTitle(self.tr("Exchanges — {name}").format(name=workspace.path.name))
         self.resize(980, 480)
         path = real_path(workspace.path)
         found = read_exchanges(path.parent, text_of_name(path.name))
         self.tree = QTreeWidget()
         self.tree.setHeaderLabels(_HEADS)
         self.tree.setUniformRowHeights(True)
-        self.tree.setAccessibleName("Recorded exchanges")
+        self.tree.setAccessibleName(self.tr("Recorded exchanges"))
         for each in reversed(found):
             digests = (each.before[:12], each.after[:12])
             item = QTreeWidgetItem(
                 [day_and_time(each.when), each.who, each.verb, each.control, *digests, each.text]
             )
-            kept = f"\nKept copy: {each.kept}" if each.kept else ""
+            kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
             item.setToolTip(6, each.text + kept)
             for param, old, new in each.changes:
-                item.addChild(QTreeWidgetItem(["", "", "", param, old or "not set", new or "not set"]))
+                item.addChild(
+                    QTreeWidgetItem(["", "", "", param, old or self.tr("not set"), new or self.tr("not set")])
+                )
             self.tree.addTopLevelItem(item)
         for column in range(6):
             self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         count = counted(len(found), "exchange", none="no")
-        text = QLabel(f"{count[:1].upper()}{count[1:]} recorded in {path.parent}. "
-                      "Control > Restore Control From Backup puts a kept copy back.")  # fmt: skip
+        text = QLabel(self.tr("{upper}{what} recorded in {parent}. Control > Restore Control From Backup puts a kept copy back.").format(upper=count[:1].upper(), what=count[1:], parent=path.parent))  # fmt: skip
         text.setWordWrap(True)
         layout = QVBoxLayout(self)
         layout.addWidget(text)

@@ -34,6 +34,7 @@ from .questions import ask
 from .settings import is_there
 from .studio_window import StudioWindow
 from .task import in_background
+from .translated import Translated
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -49,33 +50,33 @@ Show = Callable[[Workspace, FilePage | None], FilePage]
 """Shows a workspace in a new tab, or in the place of a page."""
 
 
-class FileActions:
+class FileActions(Translated):
     """Everything that opens, saves or prints the open file."""
 
     def __init__(self, window: StudioWindow, show: Show) -> None:
         self.window, self._show_in_tab = window, show
         act, keys = window.action, QKeySequence.StandardKey
-        new = act("&New…", self.new, keys.New, "", "file-plus", "New")
-        opened = act("&Open…", self.open, keys.Open, "", "folder-open", "Open")
-        save = act("&Save", window.save, keys.Save, "edit", "floppy-disk")
-        save_as = act("Save &As…", self.save_as, "Ctrl+Shift+S")
-        close = act("&Close", self.close, keys.Close)
-        report = act("&Report…", self.report, keys.Print, "file", "printer", "Report")
-        menu = window.menuBar().addMenu("&File")
+        new = act(self.tr("&New…"), self.new, keys.New, "", "file-plus", self.tr("New"))
+        opened = act(self.tr("&Open…"), self.open, keys.Open, "", "folder-open", self.tr("Open"))
+        save = act(self.tr("&Save"), window.save, keys.Save, "edit", "floppy-disk")
+        save_as = act(self.tr("Save &As…"), self.save_as, self.tr("Ctrl+Shift+S"))
+        close = act(self.tr("&Close"), self.close, keys.Close)
+        report = act(self.tr("&Report…"), self.report, keys.Print, "file", "printer", self.tr("Report"))
+        menu = window.menuBar().addMenu(self.tr("&File"))
         menu.addActions([new, opened])
-        self._recent_menu = QMenu("Open R&ecent", window)
+        self._recent_menu = QMenu(self.tr("Open R&ecent"), window)
         self._recent_menu.aboutToShow.connect(self._fill_recent)
         self._recent_menu.setEnabled(bool(self.recent()))
         menu.addMenu(self._recent_menu)
         menu.addActions([save, save_as, close])
         menu.addSeparator()
         self.comparing = CompareActions(window, self.ask_path, self.write_new)
-        menu.addActions([self.comparing.action, act("Recover &Backup…", self.recover, None, "edit")])
+        menu.addActions([self.comparing.action, act(self.tr("Recover &Backup…"), self.recover, None, "edit")])
         menu.addSeparator()
         self.formats = FormatActions(window, self.ask_path, self.write_new)
         menu.addActions(self.formats.actions)
         menu.addSeparator()
-        menu.addActions([report, act("&Machine Facts…", self.facts, None, "edit")])
+        menu.addActions([report, act(self.tr("&Machine Facts…"), self.facts, None, "edit")])
         menu.addSeparator()
         menu.addAction(act("E&xit", window.close, keys.Quit, ""))
         self.last_session: list[Path] = window.settings.session()
@@ -119,7 +120,7 @@ class FileActions:
             action = QAction(f"&{n} {path.name.replace('&', '&&')}  ({path.parent})", self._recent_menu)
             action.setData(path)
             action.triggered.connect(
-                lambda *_, path=path: self.window.guarded(lambda: self.open_path(path), "Open")
+                lambda *_, path=path: self.window.guarded(lambda: self.open_path(path), self.tr("Open"))
             )
             self._recent_menu.addAction(action)
 
@@ -135,13 +136,15 @@ class FileActions:
         if not dialog.exec():
             return
         file = dialog.make()
-        path = dialog.path() or self.ask_path("New parameter file", Path(file.header.name or "machine"))
+        path = dialog.path() or self.ask_path(
+            self.tr("New parameter file"), Path(file.header.name or "machine")
+        )
         if path:
             self.write_new(path, lambda: Document.create(file, path))
 
     def open_example(self, example: Path) -> None:
         """Open a copy of an example; the example itself is never edited."""
-        path = self.ask_path("Copy of an example", example)
+        path = self.ask_path(self.tr("Copy of an example"), example)
         if path is None:
             return
         content = example.read_bytes()
@@ -161,8 +164,12 @@ class FileActions:
             return None
         path = Path(text)
         path = path if path.suffix else path.with_suffix(".amp")
-        question = f"{path.name} already exists. Replace it? The existing file becomes its backup."
-        if path.exists() and ask(self.window, title, question, "&Replace", "Cancel", default=1) != "&Replace":
+        question = self.tr("{name} already exists. Replace it? The existing file becomes its backup.").format(
+            name=path.name
+        )
+        if path.exists() and ask(
+            self.window, title, question, self.tr("&Replace"), self.tr("Cancel"), default=1
+        ) != self.tr("&Replace"):
             return None
         return real_path(path) if path.exists() else path  # of a link it is the file that is replaced
 
@@ -172,7 +179,11 @@ class FileActions:
         Raises ValueError for a file that is open here.
         """
         if self.window.page_of(path) is not None:
-            raise ValueError(f"{path.name} is open in a tab. Close it first, or choose another name.")
+            raise ValueError(
+                self.tr("{name} is open in a tab. Close it first, or choose another name.").format(
+                    name=path.name
+                )
+            )
 
         def work() -> CheckedDocument:
             if not path.exists():
@@ -188,13 +199,13 @@ class FileActions:
                     raise
             return document, checked(document)
 
-        self._show(in_background(self.window, "Saving", work), instead)
+        self._show(in_background(self.window, self.tr("Saving"), work), instead)
 
     def open(self) -> None:
         """Ask for a file and open it."""
         project, workspace = self.window.project, self.window.workspace
         folder = workspace.path.parent if workspace else project.folder if project else ""
-        text, _ = QFileDialog.getOpenFileName(self.window, "Open", str(folder), FILTER)
+        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Open"), str(folder), FILTER)
         if text:
             self.open_path(Path(text))
 
@@ -208,12 +219,18 @@ class FileActions:
             self.window.tabs.bring(page)
             return
         try:
-            opened = in_background(self.window, "Opening", lambda: _opened(Document.open, path))
+            opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.open, path))
         except InUseError as error:
-            question = f"{error}.\n\nOpen it read-only?"
-            if ask(self.window, "File in use", question, "&Open Read-Only", "Cancel") != "&Open Read-Only":
+            question = self.tr("{error}.\n\nOpen it read-only?").format(error=error)
+            if ask(
+                self.window,
+                self.tr("File in use"),
+                question,
+                self.tr("&Open Read-Only"),
+                self.tr("Cancel"),
+            ) != self.tr("&Open Read-Only"):
                 return
-            opened = in_background(self.window, "Opening", lambda: _opened(Document.view, path))
+            opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.view, path))
         self._show(opened)
 
     def reload(self, page: FilePage) -> None:
@@ -229,7 +246,7 @@ class FileActions:
             if here and again:
                 again.go_to(here)
 
-        self.window.guarded(work, "Open")
+        self.window.guarded(work, self.tr("Open"))
 
     def restore_session(self) -> None:
         """Open the files that were open when the program was left; what cannot be opened is named."""
@@ -238,9 +255,13 @@ class FileActions:
         for path in paths:
             try:
                 try:
-                    opened = in_background(self.window, "Opening", partial(_opened, Document.open, path))
+                    opened = in_background(
+                        self.window, self.tr("Opening"), partial(_opened, Document.open, path)
+                    )
                 except InUseError:
-                    opened = in_background(self.window, "Opening", partial(_opened, Document.view, path))
+                    opened = in_background(
+                        self.window, self.tr("Opening"), partial(_opened, Document.view, path)
+                    )
             except (OSError, ValueError):
                 missing.append(path.name)
             else:
@@ -253,7 +274,7 @@ class FileActions:
         if last is not None:
             tabs.bring(last)
         if missing:
-            self.window.show_status(f"Not opened again: {', '.join(missing)}")
+            self.window.show_status(self.tr("Not opened again: {list}").format(list=", ".join(missing)))
 
     def keep_session(self) -> None:
         """Store which files are open, the one in front last, and which are on the second side."""
@@ -278,15 +299,25 @@ class FileActions:
         unsaved = document.find_unsaved()
         if unsaved is None or not (unsaved.changes or unsaved.header):
             return
-        note = "" if unsaved.fits else "\n\nThe file was changed since then. Check the recovered values."
+        note = (
+            ""
+            if unsaved.fits
+            else self.tr("\n\nThe file was changed since then. Check the recovered values.")
+        )
         changes = len(unsaved.changes) + len(unsaved.header)
         count = counted(changes, "change")
-        text = (f"The program ended before {count} from {day_and_time(unsaved.when)} ({unsaved.who}) could be saved."
-                f"{note}\n\nRecover the unsaved work? You can undo this.")  # fmt: skip
-        answer = ask(self.window, "Unsaved work found", text, "&Recover", "&Discard", "Decide &Later")
-        if answer == "&Recover":
+        text = (self.tr("The program ended before {count} from {day_and_time} ({who}) could be saved.{note}\n\nRecover the unsaved work? You can undo this.").format(count=count, day_and_time=day_and_time(unsaved.when), who=unsaved.who, note=note))  # fmt: skip
+        answer = ask(
+            self.window,
+            self.tr("Unsaved work found"),
+            text,
+            self.tr("&Recover"),
+            self.tr("&Discard"),
+            self.tr("Decide &Later"),
+        )
+        if answer == self.tr("&Recover"):
             self._recover_unsaved(page.workspace, unsaved)
-        elif answer == "&Discard":
+        elif answer == self.tr("&Discard"):
             document.discard_unsaved()
         else:
             self.window.close_page(page)  # the first edit would write over it
@@ -299,7 +330,7 @@ class FileActions:
             file.set_many(changes, force="recovered from unsaved work")
             vars(file.header).update(unsaved.header)
 
-        workspace.do("Recover unsaved work", recover)
+        workspace.do(self.tr("Recover unsaved work"), recover)
 
     # -- the open file ---------------------------------------------------------
 
@@ -317,7 +348,7 @@ class FileActions:
     def save_as(self) -> None:
         """Save under a new name; the original file is not changed."""
         page, workspace, here = self.window.page, self._workspace(), self.window.selected()
-        path = self.ask_path("Save as", workspace.path)
+        path = self.ask_path(self.tr("Save as"), workspace.path)
         if path is None:
             return
         if same_file(path, workspace.path):
@@ -332,11 +363,24 @@ class FileActions:
         workspace = self._workspace()
         path = workspace.path
         if not backup_path(path).is_file():
-            raise FileNotFoundError(f"{path.name} has no backup yet. The first save makes one.")
-        lost = " Your unsaved changes will be lost." if workspace.is_dirty else ""
-        question = f"Replace {path.name} by its backup? The present content becomes the backup.{lost}"
-        if ask(self.window, "Recover backup", question, "&Replace", "Cancel", default=1) == "&Replace":
-            in_background(self.window, "Recovering", lambda: recover_backup(path, workspace.document.digest))
+            raise FileNotFoundError(
+                self.tr("{name} has no backup yet. The first save makes one.").format(name=path.name)
+            )
+        lost = self.tr(" Your unsaved changes will be lost.") if workspace.is_dirty else ""
+        question = self.tr(
+            "Replace {name} by its backup? The present content becomes the backup.{lost}"
+        ).format(name=path.name, lost=lost)
+        if ask(
+            self.window,
+            self.tr("Recover backup"),
+            question,
+            self.tr("&Replace"),
+            self.tr("Cancel"),
+            default=1,
+        ) == self.tr("&Replace"):
+            in_background(
+                self.window, self.tr("Recovering"), lambda: recover_backup(path, workspace.document.digest)
+            )
             page = self.window.page
             assert page is not None
             self.reload(page)
@@ -348,7 +392,7 @@ class FileActions:
         workspace = self._workspace()
         dialog = FactsDialog(workspace.file.header, self.window)
         if dialog.exec():
-            workspace.do("Machine facts", lambda: vars(workspace.file.header).update(dialog.texts()))
+            workspace.do(self.tr("Machine facts"), lambda: vars(workspace.file.header).update(dialog.texts()))
 
     def report(self) -> None:
         """Print the file as PDF, HTML, CSV or text."""

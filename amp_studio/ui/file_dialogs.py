@@ -66,12 +66,12 @@ class FactsDialog(_Form):
     """Edits the header of a file."""
 
     def __init__(self, header: Header, parent: QWidget | None = None) -> None:
-        super().__init__("Machine facts", parent)
+        super().__init__(self.tr("Machine facts"), parent)
         self.name, self.application = QLineEdit(header.name), QLineEdit(header.application)
         self.revision, self.notes = QLineEdit(header.revision), QPlainTextEdit(header.notes)
         self.notes.setTabChangesFocus(True)
-        for label, field in (("&Name", self.name), ("&Application", self.application),
-                             ("Control software &revision", self.revision), ("N&otes", self.notes)):  # fmt: skip
+        for label, field in ((self.tr("&Name"), self.name), (self.tr("&Application"), self.application),
+                             (self.tr("Control software &revision"), self.revision), ("N&otes", self.notes)):  # fmt: skip
             self.form.addRow(label, field)
         self.add_buttons(self.tr("Change &Facts"))
 
@@ -89,38 +89,38 @@ class ReportDialog(_Form):
     """Asks for path, order and content of a report."""
 
     def __init__(self, path: Path, parent: QWidget | None = None) -> None:
-        super().__init__("Report", parent)
+        super().__init__(self.tr("Report"), parent)
         self.setMinimumWidth(560)
         self.sort = QComboBox()
         for key, name in (
-            ("axis", "Axis and non-axis parameters"),
-            ("number", "By parameter number"),
-            ("group", "By group"),
+            ("axis", self.tr("Axis and non-axis parameters")),
+            ("number", self.tr("By parameter number")),
+            ("group", self.tr("By group")),
         ):
             self.sort.addItem(name, key)
         self.sort.setCurrentIndex(2)
-        self.changed = QCheckBox("Only values that &differ from the default")
-        self.inactive = QCheckBox("Also what the control &ignores on this machine")
+        self.changed = QCheckBox(self.tr("Only values that &differ from the default"))
+        self.inactive = QCheckBox(self.tr("Also what the control &ignores on this machine"))
         self.units = QComboBox()
         for choice, name in UNIT_CHOICES.items():
             self.units.addItem(name[0].upper() + name[1:], choice)
-        self.show_it = QCheckBox("O&pen the report when it is written")
+        self.show_it = QCheckBox(self.tr("O&pen the report when it is written"))
         self.path = QLineEdit(str(path.with_suffix(".pdf").absolute()))
-        self.path.setToolTip("The file extension sets the format: .pdf, .html, .csv or .txt")
-        browse = QPushButton("&Browse…")
+        self.path.setToolTip(self.tr("The file extension sets the format: .pdf, .html, .csv or .txt"))
+        browse = QPushButton(self.tr("&Browse…"))
         browse.setAutoDefault(False)
         browse.clicked.connect(self._browse)
         row = QHBoxLayout()
         row.addWidget(self.path)
         row.addWidget(browse)
-        label = QLabel("&File (.pdf .html .csv .txt)")
+        label = QLabel(self.tr("&File (.pdf .html .csv .txt)"))
         label.setBuddy(self.path)
-        self.form.addRow("&Order", self.sort)
+        self.form.addRow(self.tr("&Order"), self.sort)
         self.language = QComboBox()
         for code in language_codes():
             self.language.addItem(language_of(code).name, code)
-        self.form.addRow("&Units", self.units)
-        self.form.addRow("&Language", self.language)
+        self.form.addRow(self.tr("&Units"), self.units)
+        self.form.addRow(self.tr("&Language"), self.language)
         self.form.addRow("", self.changed)
         self.form.addRow("", self.inactive)
         self.form.addRow(label, row)
@@ -129,7 +129,7 @@ class ReportDialog(_Form):
 
     def _browse(self) -> None:
         endings = "PDF (*.pdf);;HTML (*.html);;CSV (*.csv);;Text (*.txt)"
-        text, chosen = QFileDialog.getSaveFileName(self, "Report", self.path.text(), endings)
+        text, chosen = QFileDialog.getSaveFileName(self, self.tr("Report"), self.path.text(), endings)
         if text:
             path = Path(text)
             self.path.setText(
@@ -152,22 +152,22 @@ class ProjectDialog(_Form):
     """Asks for the project information of a new or existing project."""
 
     def __init__(self, info: ProjectInfo | None, parent: QWidget | None = None) -> None:
-        super().__init__("Project information", parent)
+        super().__init__(self.tr("Project information"), parent)
         self._info = info
         self.family = _family_box()
         self.machine = QComboBox()
         self.name = QLineEdit(info.name if info else "")
         self.name.setValidator(QRegularExpressionValidator(QRegularExpression(r".{1,64}")))
         self.control = QLineEdit(info.control if info else "")
-        self.control.setPlaceholderText("tcp://host:port or serial:/dev/ttyUSB0?baud=115200")
-        self.control.setToolTip("On Windows, for example: serial:COM3?baud=115200")
+        self.control.setPlaceholderText(self.tr("tcp://host:port or serial:/dev/ttyUSB0?baud=115200"))
+        self.control.setToolTip(self.tr("On Windows, for example: serial:COM3?baud=115200"))
         self.control_name = QLineEdit(info.control_name if info else "CNC_1")
         self.revision = QLineEdit(info.revision if info else "")
         self.notes = QPlainTextEdit(info.notes if info else "")
         self.notes.setTabChangesFocus(True)
-        for label, field in (("&Name", self.name), ("Control &family", self.family), ("&Machine type", self.machine),
-                             ("Control &address", self.control), ("&Control name", self.control_name),
-                             ("Software &revision", self.revision), ("N&otes", self.notes)):  # fmt: skip
+        for label, field in ((self.tr("&Name"), self.name), (self.tr("Control &family"), self.family), (self.tr("&Machine type"), self.machine),
+                             (self.tr("Control &address"), self.control), (self.tr("&Control name"), self.control_name),
+                             (self.tr("Software &revision"), self.revision), ("N&otes", self.notes)):  # fmt: skip
             self.form.addRow(label, field)
         self.family.currentIndexChanged.connect(lambda _: self._machines())
         if info:
@@ -199,5 +199,5 @@ class ProjectDialog(_Form):
         if self.name.text().strip():
             super().accept()
         else:
-            show_message(self, "Project information", "Type a name for the project.")
+            show_message(self, self.tr("Project information"), self.tr("Type a name for the project."))
             self.name.setFocus()

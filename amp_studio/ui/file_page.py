@@ -140,7 +140,7 @@ class FilePage(QWidget):
 
     def _update_title(self) -> None:
         count, hidden = self.table.count, self.table.hidden_rows
-        more = f", {hidden} hidden (Ctrl+H shows them)" if hidden else ""
+        more = self.tr(", {hidden} hidden (Ctrl+H shows them)").format(hidden=hidden) if hidden else ""
         if self.filters.active:
             more += self.tr(", filtered (Ctrl+0 shows all)")
         what = counted(count, "parameter", none="no")
@@ -219,7 +219,11 @@ class FilePage(QWidget):
             self.table_view.setCurrentIndex(index)
             self.table_view.scrollTo(index)
         else:
-            self.noted.emit(f"{describe(self.workspace.file, address)} is not available on this machine type")
+            self.noted.emit(
+                self.tr("{describe} is not available on this machine type").format(
+                    describe=describe(self.workspace.file, address)
+                )
+            )
 
     def follow(self, parameter_id: str) -> None:
         """Go to a parameter, in the selected axis if it exists there."""
@@ -229,7 +233,7 @@ class FilePage(QWidget):
             self.go_to((parameter_id, here[1] if here and here[1] in instances else instances[0]))
         else:
             name = file.schema.parameters[parameter_id].name
-            self.noted.emit(f"{name} is not available on this machine type")
+            self.noted.emit(self.tr("{name} is not available on this machine type").format(name=name))
 
     def _show_finding(self, finding: Finding) -> None:
         if finding.addresses:

@@ -30,7 +30,7 @@ class FileTabs(QSplitter):
     def __init__(self) -> None:
         super().__init__(Qt.Orientation.Horizontal)
         self.setChildrenCollapsible(False)
-        self.sides = [self._side("Open files"), self._side("Open files beside")]
+        self.sides = [self._side(self.tr("Open files")), self._side(self.tr("Open files beside"))]
         self._active = self.sides[0]
         self._shown: FilePage | None = None
         self.sides[1].hide()
@@ -172,13 +172,15 @@ class FileTabs(QSplitter):
         if not isinstance(page, FilePage):
             return
         menu = QMenu(self)
-        menu.addAction("&Close", partial(self.close_wanted.emit, page))
-        others = menu.addAction("Close &Others", partial(self._close_others, page))
+        menu.addAction(self.tr("&Close"), partial(self.close_wanted.emit, page))
+        others = menu.addAction(self.tr("Close &Others"), partial(self._close_others, page))
         others.setEnabled(len(self.pages()) > 1)
         menu.addSeparator()
-        beside = menu.addAction("Show &Beside", partial(self.move_across, page))
+        beside = menu.addAction(self.tr("Show &Beside"), partial(self.move_across, page))
         beside.setEnabled(len(self.pages()) > 1)
-        menu.addAction("Copy &Path", partial(QGuiApplication.clipboard().setText, str(page.workspace.path)))
+        menu.addAction(
+            self.tr("Copy &Path"), partial(QGuiApplication.clipboard().setText, str(page.workspace.path))
+        )
         menu.exec(side.tabBar().mapToGlobal(place))
         menu.deleteLater()
 

@@ -13,6 +13,7 @@ from .file_page import FilePage
 from .filter_bar import mark_names
 from .studio_window import StudioWindow
 from .task import in_background
+from .translated import Translated
 
 _LETTERS: dict[Mark, str] = {
     "not-set": "n", "changed": "c", "findings": "f", "axes-differ": "x", "unsaved": "s", "since-download": "d",
@@ -21,7 +22,7 @@ _LETTERS: dict[Mark, str] = {
 """The letter that is underlined in the name of each filter, as far as its language has it."""
 
 
-class FilterActions:
+class FilterActions(Translated):
     """Filters and bookmarks of the file in front."""
 
     def __init__(self, window: StudioWindow, into: QMenu) -> None:
@@ -33,9 +34,9 @@ class FilterActions:
             action.setToolTip(tip)
             menu.addAction(action)
         menu.addSeparator()
-        menu.addAction(window.action(_tr("&All Rows"), self._clear, "Ctrl+0"))
+        menu.addAction(window.action(_tr("&All Rows"), self._clear, self.tr("Ctrl+0")))
         self.bookmark = window.action(
-            _tr("Boo&kmark"), self.toggle_bookmark, "Ctrl+B", "file", "bookmark-simple"
+            _tr("Boo&kmark"), self.toggle_bookmark, self.tr("Ctrl+B"), "file", "bookmark-simple"
         )
 
     def add(self, page: FilePage) -> None:

@@ -19,6 +19,7 @@ from .menu_commands import commands
 from .message_page import MessageWindow
 from .studio_window import StudioWindow
 from .task import Task
+from .translated import Translated
 
 _SOON_MS = 1_000
 """Milliseconds after a file was opened until its family is indexed, so that it is painted first."""
@@ -28,7 +29,7 @@ _COMMAND = 0.8
 """What a command is worth among parameters whose words match as well."""
 
 
-class FindActions:
+class FindActions(Translated):
     """Builds the box; the words of a family are indexed in a thread when its first file is opened."""
 
     def __init__(self, window: StudioWindow) -> None:
@@ -54,10 +55,12 @@ class FindActions:
         self.box.entered.connect(self._forget_menus)
         act = window.action
         self.actions = [
-            act("&Find…", self.box.begin, "Ctrl+F", ""),
-            act("&Go to Number…", self.box.begin, "Ctrl+G", "file"),
+            act(self.tr("&Find…"), self.box.begin, self.tr("Ctrl+F"), ""),
+            act(self.tr("&Go to Number…"), self.box.begin, self.tr("Ctrl+G"), "file"),
         ]
-        self.commands_action = act("&Commands…", partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", "")
+        self.commands_action = act(
+            self.tr("&Commands…"), partial(self.box.begin, COMMANDS), self.tr("Ctrl+Shift+P"), ""
+        )
         self.actions[0].setShortcuts([QKeySequence("Ctrl+F"), QKeySequence("Ctrl+K")])
 
     # -- the files ---------------------------------------------------------------------
@@ -191,10 +194,10 @@ class FindActions:
             MessageWindow(self.window, load_schema(family), message).show()
         elif row.every and self.window.page is not None:
             self.window.guarded(
-                partial(self.window.page.show_found, self.box.text().strip(), row.every), "Find"
+                partial(self.window.page.show_found, self.box.text().strip(), row.every), self.tr("Find")
             )
         elif row.hit is not None and self.window.page is not None:
-            self.window.guarded(partial(self._follow, row.hit, self.window.page), "Find")
+            self.window.guarded(partial(self._follow, row.hit, self.window.page), self.tr("Find"))
 
     def _follow(self, hit: Hit, page: FilePage) -> None:
         if hit.kind == "message":

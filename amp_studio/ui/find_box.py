@@ -204,5 +204,7 @@ class FindBox(QLineEdit):
         painter.setFont(font("caption"))
         painter.setPen(colour("dim"))
         place = self.rect().adjusted(0, 0, -GAP2, 0)
-        painter.drawText(place, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, "Ctrl K")
+        painter.drawText(
+            place, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, self.tr("Ctrl K")
+        )
         painter.end()

@@ -37,7 +37,7 @@ class WhyDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Why")
+        self.setWindowTitle(self.tr("Why"))
         self.resize(640, 460)
         self._go_to, self._linked = go_to, list[Address]()
         self.page = QTextBrowser()
@@ -56,7 +56,12 @@ class WhyDialog(QDialog):
         lines, before = [f"<p>{mark} {html.escape(finding.message)}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
             cell = html.escape(text)
-            if title in ("Applies where", "Demands", "With the values", "Comes to"):
+            if title in (
+                self.tr("Applies where"),
+                self.tr("Demands"),
+                self.tr("With the values"),
+                self.tr("Comes to"),
+            ):
                 cell = f"<code>{cell}</code>"
             if address is not None:
                 cell = f'<a href="seen:{len(self._linked)}">{cell}</a>'
@@ -74,26 +79,26 @@ class SuppressDialog(QDialog):
 
     def __init__(self, finding: Finding, who: str, parent: QWidget) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Suppress a Finding")
+        self.setWindowTitle(self.tr("Suppress a Finding"))
         self.setMinimumWidth(520)
         self._finding = finding
         effect = QLabel(f"<b>{html.escape(finding.message)}</b><br>The finding is no longer listed, but reports print it "
                       "with the reason and the name. The suppression is saved in rules.yaml beside the file.")  # fmt: skip
         effect.setWordWrap(True)
         self.reason, self.name = QLineEdit(), QLineEdit(who)
-        self.everywhere = QCheckBox("Also suppress the same finding of other parameters")
+        self.everywhere = QCheckBox(self.tr("Also suppress the same finding of other parameters"))
         self.everywhere.setEnabled(bool(finding.addresses))
         buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
         )
         self._ok = buttons.button(QDialogButtonBox.StandardButton.Ok)
-        self._ok.setText("&Suppress")
+        self._ok.setText(self.tr("&Suppress"))
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         form = QFormLayout(self)
         form.addRow(effect)
-        form.addRow("&Reason", self.reason)
-        form.addRow("&Name", self.name)
+        form.addRow(self.tr("&Reason"), self.reason)
+        form.addRow(self.tr("&Name"), self.name)
         form.addRow(self.everywhere)
         form.addRow(buttons)
         for field in (self.reason, self.name):

@@ -49,41 +49,46 @@ class FleetDialog(QDialog):
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self.setWindowTitle(f"Several Controls — {workspace.path.name}")
+        self.setWindowTitle(self.tr("Several Controls — {name}").format(name=workspace.path.name))
         self.resize(900, 480)
         self._workspace, self._is_ready = workspace, is_ready
         self.rows: list[FleetRow] = []
         self.addresses = QPlainTextEdit("\n".join(addresses))
-        self.addresses.setPlaceholderText("One address a line: tcp://192.168.0.11:9600")
+        self.addresses.setPlaceholderText(self.tr("One address a line: tcp://192.168.0.11:9600"))
         self.addresses.setTabChangesFocus(True)
-        self.addresses.setAccessibleName("Addresses of the controls")
+        self.addresses.setAccessibleName(self.tr("Addresses of the controls"))
         self.addresses.setMaximumHeight(110)
-        self.stop = QCheckBox("One after the other, and &stop at the first failure")
+        self.stop = QCheckBox(self.tr("One after the other, and &stop at the first failure"))
         self.stop.setChecked(True)
         self.table = QTreeWidget()
-        self.table.setHeaderLabels(["Control", "Result", "SHA-256", "How it ended"])
+        self.table.setHeaderLabels(
+            [self.tr("Control"), self.tr("Result"), "SHA-256", self.tr("How it ended")]
+        )
         self.table.setRootIsDecorated(False)
-        self.table.setAccessibleName("Results")
+        self.table.setAccessibleName(self.tr("Results"))
         for column in range(3):
             self.table.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-        self.verify_button, self.download_button = QPushButton("&Verify"), QPushButton("&Download…")
-        self.save_button, close = QPushButton("Save &Table…"), QPushButton("&Close")
+        self.verify_button, self.download_button = (
+            QPushButton(self.tr("&Verify")),
+            QPushButton(self.tr("&Download…")),
+        )
+        self.save_button, close = QPushButton(self.tr("Save &Table…")), QPushButton(self.tr("&Close"))
         self.save_button.setEnabled(False)
         buttons = QHBoxLayout()
         buttons.addWidget(self.save_button)
         buttons.addStretch()
         for button, act in (
-            (self.verify_button, lambda: guarded(self.verify, "Verify")),
-            (self.download_button, lambda: guarded(self.download, "Download")),
+            (self.verify_button, lambda: guarded(self.verify, self.tr("Verify"))),
+            (self.download_button, lambda: guarded(self.download, self.tr("Download"))),
             (close, self.close),
         ):
             button.clicked.connect(act)
             buttons.addWidget(button)
-        self.save_button.clicked.connect(lambda: guarded(self.save, "Save Table"))
+        self.save_button.clicked.connect(lambda: guarded(self.save, self.tr("Save Table")))
         for each in (self.verify_button, self.download_button, self.save_button, close):
             each.setAutoDefault(False)
         layout = QVBoxLayout(self)
-        layout.addWidget(QLabel("Controls, one address a line:"))
+        layout.addWidget(QLabel(self.tr("Controls, one address a line:")))
         layout.addWidget(self.addresses)
         layout.addWidget(self.stop)
         layout.addWidget(self.table)
@@ -96,7 +101,7 @@ class FleetDialog(QDialog):
 
         found = [line.strip() for line in self.addresses.toPlainText().splitlines() if line.strip()]
         if not found:
-            raise ValueError("Name at least one control: its address, one a line.")
+            raise ValueError(self.tr("Name at least one control: its address, one a line."))
         check_addresses(found)
         return found
 
@@ -106,7 +111,7 @@ class FleetDialog(QDialog):
 
         named, file, path = self._named(), self._workspace.file.copy(), self._workspace.path
         stop_on_failure = self.stop.isChecked()
-        self._run("Verify", lambda progress, cancel: verify_each(
+        self._run(self.tr("Verify"), lambda progress, cancel: verify_each(
             file, path, named, _of_each(progress), stop_on_failure=stop_on_failure, cancel=cancel))  # fmt: skip
 
     def download(self) -> None:
@@ -116,19 +121,23 @@ class FleetDialog(QDialog):
         named = self._named()
         if not self._is_ready(self._workspace):
             return
-        what = f"Download {self._workspace.path.name} to {counted(len(named), 'control')}?"
-        question = (
-            f"{what} All parameters of each are replaced; what it contains now is kept beside the file first."
+        what = self.tr("Download {name} to {count}?").format(
+            name=self._workspace.path.name, count=counted(len(named), "control")
         )
-        if ask(self, "Download", question, "&Download", "Cancel", default=1) != "&Download":
+        question = self.tr(
+            "{what} All parameters of each are replaced; what it contains now is kept beside the file first."
+        ).format(what=what)
+        if ask(
+            self, self.tr("Download"), question, self.tr("&Download"), self.tr("Cancel"), default=1
+        ) != self.tr("&Download"):
             return
         file, path = self._workspace.file.copy(), self._workspace.path
         stop_on_failure = self.stop.isChecked()
-        self._run("Download", lambda progress, cancel: download_each(
+        self._run(self.tr("Download"), lambda progress, cancel: download_each(
             file, path, path.parent, named, _of_each(progress), stop_on_failure=stop_on_failure, cancel=cancel))  # fmt: skip
 
     def _run(self, title: str, work: Callable[[Progress, threading.Event], list[FleetRow]]) -> None:
-        self.rows = ProgressDialog(title, work, self, "Waiting for the controls …").run()
+        self.rows = ProgressDialog(title, work, self, self.tr("Waiting for the controls …")).run()
         self.table.clear()
         for row in self.rows:
             item = QTreeWidgetItem([row.address, row.word, row.sha256[:12], row.text])
@@ -139,7 +148,9 @@ class FleetDialog(QDialog):
             self.table.addTopLevelItem(item)
         well = sum(row.ending == "well" for row in self.rows)
         self.table.setAccessibleDescription(
-            f"{well} of {counted(len(self.rows), 'control')} without a failure"
+            self.tr("{well} of {count} without a failure").format(
+                well=well, count=counted(len(self.rows), "control")
+            )
         )
         self.save_button.setEnabled(bool(self.rows))
 
@@ -149,9 +160,13 @@ class FleetDialog(QDialog):
         from amp_studio.transfer.client.fleet import HEADS
 
         near = str(self._workspace.path.with_name("controls.csv"))
-        text, _ = QFileDialog.getSaveFileName(self, "Save table", near, "Tables (*.csv *.html *.pdf *.xlsx)")
+        text, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Save table"), near, "Tables (*.csv *.html *.pdf *.xlsx)"
+        )
         if text:
-            write_paper(results_paper("Controls", HEADS, [row.cells for row in self.rows]), Path(text))
+            write_paper(
+                results_paper(self.tr("Controls"), HEADS, [row.cells for row in self.rows]), Path(text)
+            )
 
 
 def _of_each(progress: Progress) -> Callable[[str], Progress]:

@@ -16,6 +16,7 @@ from amp_studio.schema import family_ids, load_schema
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import in_background
+from .translated import Translated
 
 if TYPE_CHECKING:
     from amp_studio.formats import FormatError
@@ -24,7 +25,7 @@ _SHOWN = 8
 """Number of errors of an import that a question lists."""
 
 
-class FormatActions:
+class FormatActions(Translated):
     """Imports a text file as a parameter file, and exports the open file as text."""
 
     def __init__(
@@ -37,8 +38,8 @@ class FormatActions:
         self._notes: list[str] = []
         """Notes about the text that was read last."""
         self.actions = [
-            window.action("&Import…", self.read),
-            window.action("Ex&port…", self.write, None, "file"),
+            window.action(self.tr("&Import…"), self.read),
+            window.action(self.tr("Ex&port…"), self.write, None, "file"),
         ]
 
     def read(self) -> None:
@@ -47,7 +48,10 @@ class FormatActions:
 
         endings = " ".join(f"*{ending}" for f in all_formats() for ending in f.endings)
         text, _ = QFileDialog.getOpenFileName(
-            self.window, "Import", "", f"Text formats ({endings});;All files (*)"
+            self.window,
+            self.tr("Import"),
+            "",
+            self.tr("Text formats ({endings});;All files (*)").format(endings=endings),
         )
         if text:
             self.read_from(Path(text))
@@ -57,7 +61,7 @@ class FormatActions:
         file = self._understood(source)
         if file is None or not self._takes_what_is_out_of_range(file):
             return
-        path = self._ask_path("Import as", source)
+        path = self._ask_path(self.tr("Import as"), source)
         if path is not None:
             file.header.name = path.stem
             self._write_new(path, lambda: Document.create(file, path))
@@ -85,8 +89,10 @@ class FormatActions:
 
     def _family(self) -> str | None:
         names = {load_schema(name).family.name: name for name in family_ids()}
-        asked = "Control family:"
-        chosen, taken = QInputDialog.getItem(self.window, "Import", asked, list(names), editable=False)
+        asked = self.tr("Control family:")
+        chosen, taken = QInputDialog.getItem(
+            self.window, self.tr("Import"), asked, list(names), editable=False
+        )
         return names[chosen] if taken else None
 
     def _kept(self, path: Path, family: str | None, error: FormatError) -> ParameterFile | None:
@@ -98,29 +104,43 @@ class FormatActions:
         except FormatError:
             raise error from None
         listed = "\n".join(list(file.unknown)[:_SHOWN])
-        question = f"{error}.\n\nKeep the lines that are not recognised, so that an export writes them back?\n{listed}"
-        wanted = ask(self.window, "Import", question, "&Keep Them", "Cancel", default=1)
-        return file if wanted == "&Keep Them" else None
+        question = self.tr(
+            "{error}.\n\nKeep the lines that are not recognised, so that an export writes them back?\n{listed}"
+        ).format(error=error, listed=listed)
+        wanted = ask(
+            self.window, self.tr("Import"), question, self.tr("&Keep Them"), self.tr("Cancel"), default=1
+        )
+        return file if wanted == self.tr("&Keep Them") else None
 
     def _import(self, path: Path, family: str | None, keep: bool) -> ParameterFile:
         from amp_studio.formats import import_file
 
         self._notes.clear()
         read = lambda: import_file(path, family, keep_unknown=keep, notify=self._notes.append)  # noqa: E731  # one line to hand over
-        return in_background(self.window, "Importing", read)
+        return in_background(self.window, self.tr("Importing"), read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
         faults = out_of_range(file)
         if not faults:
             return True
-        more = f"\nand {len(faults) - _SHOWN} more" if len(faults) > _SHOWN else ""
+        more = self.tr("\nand {what} more").format(what=len(faults) - _SHOWN) if len(faults) > _SHOWN else ""
         listed = "\n".join(problem for _, problem in faults[:_SHOWN])
-        count = "One value is" if len(faults) == 1 else f"{len(faults)} values are"
-        question = f"{count} not allowed:\n{listed}{more}\n\nImport them and mark them as forced?"
-        if (
-            ask(self.window, "Import", question, "&Import and Mark", "Cancel", default=1)
-            != "&Import and Mark"
-        ):
+        count = (
+            self.tr("One value is")
+            if len(faults) == 1
+            else self.tr("{count} values are").format(count=len(faults))
+        )
+        question = self.tr(
+            "{count} not allowed:\n{listed}{more}\n\nImport them and mark them as forced?"
+        ).format(count=count, listed=listed, more=more)
+        if ask(
+            self.window,
+            self.tr("Import"),
+            question,
+            self.tr("&Import and Mark"),
+            self.tr("Cancel"),
+            default=1,
+        ) != self.tr("&Import and Mark"):
             return False
         keep(file, [address for address, _ in faults], "an import")
         return True
@@ -137,7 +157,9 @@ class FormatActions:
             for f in offered
         }
         near = workspace.path.with_suffix(offered[0].ending)
-        text, chosen = QFileDialog.getSaveFileName(self.window, "Export", str(near), ";;".join(filters))
+        text, chosen = QFileDialog.getSaveFileName(
+            self.window, self.tr("Export"), str(near), ";;".join(filters)
+        )
         if not text:
             return
         found = filters.get(chosen)
@@ -148,11 +170,15 @@ class FormatActions:
         secrets = workspace.secrets
         notes: list[str] = []
         in_background(
-            self.window, "Exporting", lambda: export_file(file, path, key, notes.append, secrets=secrets)
+            self.window,
+            self.tr("Exporting"),
+            lambda: export_file(file, path, key, notes.append, secrets=secrets),
         )
         left_out = 0 if secrets else len(secret_values(file))
         left_out_note = (
-            f"; {counted(left_out, 'secret value')} left out (to export them, switch on View > Show Secrets)"
+            self.tr("; {count} left out (to export them, switch on View > Show Secrets)").format(
+                count=counted(left_out, "secret value")
+            )
             if left_out
             else ""
         )

@@ -10,16 +10,17 @@ from amp_studio.schema import Address
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
+from .translated import Translated
 
 
-class GuideActions:
+class GuideActions(Translated):
     """Leads through commissioning."""
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act = window.action
-        self.next = act(_tr("&Next Not Set"), self.go_on, "Ctrl+.")
-        self.done = act(_tr("Mark Step as &Done"), self.mark, "Ctrl+Shift+.", "edit")
+        self.next = act(_tr("&Next Not Set"), self.go_on, self.tr("Ctrl+."))
+        self.done = act(_tr("Mark Step as &Done"), self.mark, self.tr("Ctrl+Shift+."), "edit")
         self.keep = act(_tr("Keep De&faults of This Step"), self.keep_defaults, None, "edit")
         self.later = act(_tr("&Show Later Findings"), self.show_later)
         self.check_list = act(_tr("&Check List…"), self.save_check_list)
@@ -85,7 +86,7 @@ class GuideActions:
         """Tick a step as done, that of the selected value by default, or take the tick away; it is saved with the file."""
         workspace, step = self._page().workspace, step or self._step()
         is_ticked = bool(workspace.progress.of(step).ticked)
-        by = None if is_ticked else f"{now()} by {user()}"
+        by = None if is_ticked else self.tr("{now} by {user}").format(now=now(), user=user())
         text = _tr("Step {number} not done") if is_ticked else _tr("Step {number} done")
         workspace.do(text.format(number=step.number), lambda: tick(workspace.file, step, by))
         each = workspace.progress.of(step)

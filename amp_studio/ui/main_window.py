@@ -74,7 +74,7 @@ class MainWindow(StudioWindow):
         )
         self._help_menu()
         self._toolbar()
-        self.view.panels.addAction(self.action("&Reset Layout", self.docks.reset))
+        self.view.panels.addAction(self.action(self.tr("&Reset Layout"), self.docks.reset))
         self.welcome = WelcomePage(self, self.files, self.projects.open)
         self.centre = QStackedWidget()
         self.centre.addWidget(self.welcome)
@@ -89,9 +89,9 @@ class MainWindow(StudioWindow):
     # -- building --------------------------------------------------------------
 
     def _help_menu(self) -> None:
-        menu = self.menuBar().addMenu("&Help")
+        menu = self.menuBar().addMenu(self.tr("&Help"))
         menu.addAction(self.finder.commands_action)
-        menu.addAction(self.action("&About AMP Studio", self._about, None, ""))
+        menu.addAction(self.action(self.tr("&About AMP Studio"), self._about, None, ""))
 
     def _toolbar(self) -> None:
         undo = (self.edits.undo, self.edits.redo)
@@ -105,8 +105,7 @@ class MainWindow(StudioWindow):
     def _about(self) -> None:
         from amp_studio import __version__
 
-        show_message(self, "About AMP Studio", f"AMP Studio {__version__}\n\nThe numbered parameters of machine controls: "
-             "edit, check, print, exchange and simulate them.", QMessageBox.Icon.Information)  # fmt: skip
+        show_message(self, self.tr("About AMP Studio"), self.tr("AMP Studio {version}\n\nThe numbered parameters of machine controls: edit, check, print, exchange and simulate them.").format(version=__version__), QMessageBox.Icon.Information)  # fmt: skip
 
     # -- the open files ----------------------------------------------------------
 
@@ -117,9 +116,13 @@ class MainWindow(StudioWindow):
         page.selected.connect(self._show_value)
         page.noted.connect(self.show_status)
         page.detail.take_others(lambda: [p.workspace for p in self.tabs.pages() if p is not page])
-        page.detail.calculator_wanted.connect(lambda: self.guarded(self.edits.calculator, "Calculator"))
+        page.detail.calculator_wanted.connect(
+            lambda: self.guarded(self.edits.calculator, self.tr("Calculator"))
+        )
         page.findings.fix_requested.connect(self._fix)
-        page.findings.several_requested.connect(lambda: self.guarded(self.edits.fix_several, "Fix Several"))
+        page.findings.several_requested.connect(
+            lambda: self.guarded(self.edits.fix_several, self.tr("Fix Several"))
+        )
         page.findings.explanation_requested.connect(self._why)
         page.findings.suppression_requested.connect(self._suppress)
         self.guide.connect_page(page)
@@ -158,16 +161,16 @@ class MainWindow(StudioWindow):
         self.status.value.setText(self.page.address_text() if self.page else "")
 
     def _fill_cells(self, pairs: dict[Address, Address]) -> None:
-        self.guarded(lambda: self.edits.range.fill_from(pairs), "Fill")
+        self.guarded(lambda: self.edits.range.fill_from(pairs), self.tr("Fill"))
 
     def _why(self, finding: Finding) -> None:
-        self.guarded(lambda: self.edits.why(finding), "Explain")
+        self.guarded(lambda: self.edits.why(finding), self.tr("Explain"))
 
     def _suppress(self, finding: Finding) -> None:
-        self.guarded(lambda: self.edits.suppress(finding), "Suppress")
+        self.guarded(lambda: self.edits.suppress(finding), self.tr("Suppress"))
 
     def _fix(self, findings: tuple[Finding, ...]) -> None:
-        self.guarded(lambda: self.edits.fix_all(findings), "Fix")
+        self.guarded(lambda: self.edits.fix_all(findings), self.tr("Fix"))
 
     def _update(self, page: FilePage) -> None:
         """Follow a change of a file, in front or not."""
@@ -231,7 +234,7 @@ class MainWindow(StudioWindow):
 
     def open_first(self, path: Path) -> None:
         """Open a file from the command line, the welcome page or a drop; an error is shown."""
-        self.guarded(lambda: self.files.open_path(path), "Open")
+        self.guarded(lambda: self.files.open_path(path), self.tr("Open"))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files and folders of this machine."""
@@ -244,7 +247,9 @@ class MainWindow(StudioWindow):
         for url in event.mimeData().urls():
             if url.isLocalFile():
                 path = Path(url.toLocalFile())
-                self.guarded(partial(self._open_anything, path), f"Open {path.name}")
+                self.guarded(
+                    partial(self._open_anything, path), self.tr("Open {name}").format(name=path.name)
+                )
 
     def _open_anything(self, path: Path) -> None:
         """Open a parameter file, or a project by its folder; import the text of a control. Raises ValueError, OSError."""

@@ -111,10 +111,10 @@ class RecommendationsPage(QScrollArea):
             column.addWidget(self._frame(schema, each, may_apply(each.parameter)))
         usable = [each for each in found if may_apply(each.parameter)]
         if len(usable) > 1:
-            together = self._button(f"Apply All {len(usable)}", usable)
+            together = self._button(self.tr("Apply All {count}").format(count=len(usable)), usable)
             column.addWidget(together, alignment=Qt.AlignmentFlag.AlignRight)
         if not found:
-            column.addWidget(QLabel("No recommendations."))
+            column.addWidget(QLabel(self.tr("No recommendations.")))
         column.addStretch()
         self.setWidget(inside)
 
@@ -132,9 +132,9 @@ class RecommendationsPage(QScrollArea):
         title.linkActivated.connect(lambda url: self._follow(QUrl(url)))
         head.addWidget(title, 1)
         if usable:
-            head.addWidget(self._button("Apply", [each]), alignment=Qt.AlignmentFlag.AlignTop)
+            head.addWidget(self._button(self.tr("Apply"), [each]), alignment=Qt.AlignmentFlag.AlignTop)
         column.addLayout(head)
-        for text in (each.why, f"Price: {each.price}" if each.price else ""):
+        for text in (each.why, self.tr("Price: {price}").format(price=each.price) if each.price else ""):
             if text:
                 label = QLabel(html.escape(text))
                 label.setWordWrap(True)

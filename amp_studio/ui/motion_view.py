@@ -65,7 +65,7 @@ class MotionView(QWidget):
     ) -> None:
         super().__init__(parent, Qt.WindowType.Window)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(f"Motion — {workspace.path.name}")
+        self.setWindowTitle(self.tr("Motion — {name}").format(name=workspace.path.name))
         self.resize(1220, 800)
         QShortcut(Qt.Key.Key_Escape, self, self.close)
         self._workspace, self._show_parameter = workspace, show
@@ -87,12 +87,15 @@ class MotionView(QWidget):
         for box in (self.scenario, self.axis):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.settings, self.machine = SettingsForm(self.run), SettingsForm(self.run)
-        self.run_button, self.save_button = QPushButton("&Run"), QPushButton("&Save…")
-        self.settling, self.all_of_it = QPushButton("&Zoom to Settling"), QPushButton("Show &All")
-        self.compare, self.keep = QCheckBox("&Before"), QPushButton("&Keep as Before")
+        self.run_button, self.save_button = QPushButton(self.tr("&Run")), QPushButton(self.tr("&Save…"))
+        self.settling, self.all_of_it = (
+            QPushButton(self.tr("&Zoom to Settling")),
+            QPushButton(self.tr("Show &All")),
+        )
+        self.compare, self.keep = QCheckBox(self.tr("&Before")), QPushButton(self.tr("&Keep as Before"))
         self.compare.setChecked(True)
-        self.compare.setToolTip("Draw the trace from before the changes under the present one")
-        self.keep.setToolTip("Compare with the present trace from now on")
+        self.compare.setToolTip(self.tr("Draw the trace from before the changes under the present one"))
+        self.keep.setToolTip(self.tr("Compare with the present trace from now on"))
         self.summary, self.values = QLabel(), QLabel()
         self.summary.setWordWrap(True)
         self.summary.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
@@ -118,7 +121,9 @@ class MotionView(QWidget):
         machine = QWidget()
         column = QVBoxLayout(machine)
         note = QLabel(
-            "What the control does not know. An empty field takes what is assumed or given by parameters."
+            self.tr(
+                "What the control does not know. An empty field takes what is assumed or given by parameters."
+            )
         )
         note.setWordWrap(True)
         column.addWidget(note)
@@ -126,11 +131,11 @@ class MotionView(QWidget):
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         pages = (
-            (self.figures, "Figures"),
-            (self.recommendations, "Recommended"),
-            (self.assumptions, "Assumed"),
+            (self.figures, self.tr("Figures")),
+            (self.recommendations, self.tr("Recommended")),
+            (self.assumptions, self.tr("Assumed")),
         )
-        for page, title in (*pages, (machine, "Machine"), (self.values, "Cursors")):
+        for page, title in (*pages, (machine, self.tr("Machine")), (self.values, self.tr("Cursors"))):
             self.tabs.addTab(page, title)
         side = QWidget()
         right = QVBoxLayout(side)
@@ -233,7 +238,7 @@ class MotionView(QWidget):
         def work(_: TaskProgress, __: threading.Event) -> Trace:
             return simulate(file, scenario, str(axis) if axis else None, settings)
 
-        self.summary.setText("Simulating …")
+        self.summary.setText(self.tr("Simulating …"))
         self._task = Task(work)
         self._task.done.connect(self._show_result)
         self._task.failed.connect(self._stop)
@@ -253,7 +258,7 @@ class MotionView(QWidget):
         self.figures.clear()
         self.assumptions.clear()
         self.recommendations.show_all(self._workspace.file.schema, (), self._may_apply)
-        self.tabs.setTabText(1, "Recommended")
+        self.tabs.setTabText(1, self.tr("Recommended"))
         for button in (self.save_button, self.settling, self.all_of_it, self.keep):
             button.setEnabled(False)
         self._fail(error)
@@ -279,15 +284,21 @@ class MotionView(QWidget):
             button.setEnabled(True)
         self.settling.setEnabled(settling_span(trace) is not None)
         assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
-        plural = "figure of the machine is" if assumed == 1 else "figures of the machine are"
+        plural = (
+            self.tr("figure of the machine is") if assumed == 1 else self.tr("figures of the machine are")
+        )
         warning = f" <b>{assumed} {plural} assumed</b>, see Assumed." if assumed else ""
         self.summary.setText(f"{html.escape(trace.model)}.{warning}")
         self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
         count = len(trace.recommendations)
-        self.tabs.setTabText(1, f"Recommended ({count})" if count else "Recommended")
+        self.tabs.setTabText(
+            1, self.tr("Recommended ({count})").format(count=count) if count else self.tr("Recommended")
+        )
         self.assumptions.show_trace(trace)
         taken = (_ASSUMED.match(text) for text in trace.assumptions)
-        self.machine.show_defaults({found[1]: f"{found[2]}, assumed" for found in taken if found})
+        self.machine.show_defaults(
+            {found[1]: self.tr("{what}, assumed").format(what=found[2]) for found in taken if found}
+        )
         self._redraw()
 
     def _other(self) -> Trace | None:
@@ -326,7 +337,7 @@ class MotionView(QWidget):
             whole = old is not None and isinstance(old.value, int) and each.value.is_integer()
             wanted[address] = Value(int(each.value) if whole else each.value, each.unit)
         try:
-            self._workspace.edit("Apply Recommendation", wanted)
+            self._workspace.edit(self.tr("Apply Recommendation"), wanted)
         except RangeError as error:
             self._fail(error)
 
@@ -349,7 +360,7 @@ class MotionView(QWidget):
             return
         name = f"{self._workspace.path.stem}-{self.trace.scenario}-{self.trace.axis}.svg"
         text, chosen = QFileDialog.getSaveFileName(
-            self, "Save", str(self._workspace.path.with_name(name)), _ENDINGS
+            self, self.tr("Save"), str(self._workspace.path.with_name(name)), _ENDINGS
         )
         if not text:
             return

@@ -9,6 +9,7 @@ from amp_studio.files.out_of_range import RangeDecision
 from amp_studio.schema import Address, write_value
 
 from .questions import ask, show_message
+from .translated import Translated
 
 _ANSWERS: dict[str, RangeDecision] = {
     "&Continue checking": "keep",
@@ -17,7 +18,7 @@ _ANSWERS: dict[str, RangeDecision] = {
 }
 
 
-class AskInDialogs:
+class AskInDialogs(Translated):
     """A person who decides about each value in a dialog."""
 
     def __init__(self, parent: QWidget) -> None:
@@ -26,16 +27,16 @@ class AskInDialogs:
     def decide(self, problem: str) -> RangeDecision:
         """Ask whether to keep the value, to edit it or to quit."""
         icon = QMessageBox.Icon.Warning
-        return _ANSWERS[ask(self._parent, "Out of range", f"{problem}.", *_ANSWERS, icon=icon)]
+        return _ANSWERS[ask(self._parent, self.tr("Out of range"), f"{problem}.", *_ANSWERS, icon=icon)]
 
     def new_value(self, file: ParameterFile, address: Address, problem: str) -> str | None:
         """Ask for another value; a secret is not shown."""
         parameter = file.schema.parameters[address[0]]
         old = "" if parameter.secret else write_value(parameter, file.get(address))
         echo = QLineEdit.EchoMode.Password if parameter.secret else QLineEdit.EchoMode.Normal
-        text, accepted = QInputDialog.getText(self._parent, "Edit parameter", problem, echo, old)
+        text, accepted = QInputDialog.getText(self._parent, self.tr("Edit parameter"), problem, echo, old)
         return text if accepted else None
 
     def refused(self, problem: str) -> None:
         """Show why the other value cannot be taken either."""
-        show_message(self._parent, "Edit parameter", f"{problem}.")
+        show_message(self._parent, self.tr("Edit parameter"), f"{problem}.")

@@ -16,29 +16,30 @@ from .compare_actions import FILTER
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import PATIENCE_MS, ProgressDialog, in_background
+from .translated import Translated
 
 
-class ProjectActions:
+class ProjectActions(Translated):
     """New, open, information; open, copy, rename, delete and recover the files of a project."""
 
     def __init__(self, window: StudioWindow, open_path: Callable[[Path], None]) -> None:
         self.window, self._open_path = window, open_path
         act = window.action
-        menu = window.menuBar().addMenu("&Project")
+        menu = window.menuBar().addMenu(self.tr("&Project"))
         menu.addActions([
-            act("&New Project…", self.new, None, ""),
-            act("&Open Project…", self.open, None, ""),
-            act("Project &Information…", self.change, None, "project"),
+            act(self.tr("&New Project…"), self.new, None, ""),
+            act(self.tr("&Open Project…"), self.open, None, ""),
+            act(self.tr("Project &Information…"), self.change, None, "project"),
         ])  # fmt: skip
         menu.addSeparator()
         menu.addActions([
-            act("Open &File of the Project…", self.open_file, "Ctrl+Shift+O", "project"),
-            act("Chec&k All Files…", self.check, "Ctrl+Shift+F8", "project"),
-            act("&Copy File…", self.copy, None, "project"),
-            act("Copy from &Another Project…", self.copy_from, None, "project"),
-            act("&Rename File…", self.rename, None, "project"),
-            act("&Delete File…", self.delete, None, "project"),
-            act("Reco&ver a Deleted or Older File…", self.recover, None, "project"),
+            act(self.tr("Open &File of the Project…"), self.open_file, self.tr("Ctrl+Shift+O"), "project"),
+            act(self.tr("Chec&k All Files…"), self.check, self.tr("Ctrl+Shift+F8"), "project"),
+            act(self.tr("&Copy File…"), self.copy, None, "project"),
+            act(self.tr("Copy from &Another Project…"), self.copy_from, None, "project"),
+            act(self.tr("&Rename File…"), self.rename, None, "project"),
+            act(self.tr("&Delete File…"), self.delete, None, "project"),
+            act(self.tr("Reco&ver a Deleted or Older File…"), self.recover, None, "project"),
         ])  # fmt: skip
 
     def notice(self, folder: Path) -> None:
@@ -61,14 +62,16 @@ class ProjectActions:
 
     def _the_project(self) -> Project:
         if self.window.project is None:
-            raise ValueError("Open a project first: Project > Open Project.")
+            raise ValueError(self.tr("Open a project first: Project > Open Project."))
         return self.window.project
 
     def _show(self, project: Project) -> None:
         self.window.project = project
         files = len(project.files())
         self.window.show_status(
-            f"Project {project.info.name}: {counted(files, 'file', none='no')} in {project.folder}"
+            self.tr("Project {name}: {count} in {folder}").format(
+                name=project.info.name, count=counted(files, "file", none="no"), folder=project.folder
+            )
         )
 
     # -- the project -----------------------------------------------------------
@@ -80,13 +83,13 @@ class ProjectActions:
         dialog = ProjectDialog(None, self.window)
         if dialog.exec():
             info = dialog.info()
-            folder = QFileDialog.getExistingDirectory(self.window, "Folder of the new project")
+            folder = QFileDialog.getExistingDirectory(self.window, self.tr("Folder of the new project"))
             if folder:
                 self._show(Project.create(Path(folder), info))
 
     def open(self) -> None:
         """Ask for a project folder and choose one of its files."""
-        folder = QFileDialog.getExistingDirectory(self.window, "Open project")
+        folder = QFileDialog.getExistingDirectory(self.window, self.tr("Open project"))
         if folder:
             self.open_folder(Path(folder))
 
@@ -112,14 +115,14 @@ class ProjectActions:
 
     def _choose(self, title: str, paths: list[Path]) -> Path | None:
         if not paths:
-            raise ValueError("The project has no files of this kind.")
+            raise ValueError(self.tr("The project has no files of this kind."))
         names, workspace = [p.stem for p in paths], self.window.workspace
         here = names.index(workspace.path.stem) if workspace and workspace.path in paths else 0
-        name, accepted = QInputDialog.getItem(self.window, title, "File", names, here, False)
+        name, accepted = QInputDialog.getItem(self.window, title, self.tr("File"), names, here, False)
         return paths[names.index(name)] if accepted else None
 
     def _ask_name(self, title: str, name: str = "") -> str:
-        text, accepted = QInputDialog.getText(self.window, title, "New name", text=name)
+        text, accepted = QInputDialog.getText(self.window, title, self.tr("New name"), text=name)
         return text.strip() if accepted else ""
 
     def _let_go(self, path: Path) -> bool:
@@ -134,7 +137,7 @@ class ProjectActions:
 
     def open_file(self) -> None:
         """Open a file of the project."""
-        path = self._choose("Open", self._the_project().files())
+        path = self._choose(self.tr("Open"), self._the_project().files())
         if path:
             self._open_path(path)
 
@@ -144,9 +147,9 @@ class ProjectActions:
 
         paths = self._the_project().files()
         if not paths:
-            raise ValueError("The project has no files yet.")
+            raise ValueError(self.tr("The project has no files yet."))
         checking = ProgressDialog(
-            "Check All Files",
+            self.tr("Check All Files"),
             lambda progress, cancelled: check_files(paths, progress, cancelled),
             self.window,
         )
@@ -161,30 +164,32 @@ class ProjectActions:
             if address is not None and page is not None:
                 page.go_to(address)
 
-        self.window.guarded(show, "Open")
+        self.window.guarded(show, self.tr("Open"))
 
     def copy(self) -> None:
         """Copy a file of the project under a new name and open the copy."""
-        self._copy(self._choose("Copy", self._the_project().files()))
+        self._copy(self._choose(self.tr("Copy"), self._the_project().files()))
 
     def copy_from(self) -> None:
         """Copy a file of another project into this one."""
         folder = str(self._the_project().folder.parent)
-        text, _ = QFileDialog.getOpenFileName(self.window, "Copy from another project", folder, FILTER)
+        text, _ = QFileDialog.getOpenFileName(
+            self.window, self.tr("Copy from another project"), folder, FILTER
+        )
         self._copy(Path(text) if text else None)
 
     def _copy(self, source: Path | None) -> None:
-        name = self._ask_name("Copy", source.stem) if source else ""
+        name = self._ask_name(self.tr("Copy"), source.stem) if source else ""
         if source and name:
             project = self._the_project()
-            path = in_background(self.window, "Copying", lambda: project.copy(source, name))
+            path = in_background(self.window, self.tr("Copying"), lambda: project.copy(source, name))
             self._open_path(path)
 
     def rename(self) -> None:
         """Rename a file of the project; the open one stays open under its new name."""
         project = self._the_project()
-        path = self._choose("Rename", project.files())
-        name = self._ask_name("Rename", path.stem) if path else ""
+        path = self._choose(self.tr("Rename"), project.files())
+        name = self._ask_name(self.tr("Rename"), path.stem) if path else ""
         if path is None or not name:
             return
         was_open = self.window.page_of(path) is not None
@@ -198,18 +203,24 @@ class ProjectActions:
     def delete(self) -> None:
         """Delete a file of the project; it can be recovered."""
         project = self._the_project()
-        path = self._choose("Delete", project.files())
-        question = f"Delete {path.name}? It is kept as a backup and can be recovered." if path else ""
-        if path is None or ask(self.window, "Delete", question, "&Delete", "Cancel", default=1) != "&Delete":
+        path = self._choose(self.tr("Delete"), project.files())
+        question = (
+            self.tr("Delete {name}? It is kept as a backup and can be recovered.").format(name=path.name)
+            if path
+            else ""
+        )
+        if path is None or ask(
+            self.window, self.tr("Delete"), question, self.tr("&Delete"), self.tr("Cancel"), default=1
+        ) != self.tr("&Delete"):
             return
         if self._let_go(path):
             project.delete(path)
-            self.window.show_status(f"{path.name} deleted")
+            self.window.show_status(self.tr("{name} deleted").format(name=path.name))
 
     def recover(self) -> None:
         """Recover a deleted file or an older version."""
         project = self._the_project()
-        path = self._choose("Recover", project.backups())
+        path = self._choose(self.tr("Recover"), project.backups())
         if path and self._let_go(path):
             project.recover(path)
             self._open_path(path)

@@ -67,16 +67,26 @@ class ProjectCheckDialog(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Check All Files")
+        self.setWindowTitle(self.tr("Check All Files"))
         self.resize(900, 500)
         totals = [counted(sum(c.count(s) for c in checked), s, none="no") for s in SEVERITIES]
         unread = sum(bool(c.fault) for c in checked)
         self.text = QLabel(
-            f"{counted(len(checked), 'file')} as saved on disk: {', '.join(totals)}"
-            + (f"; {unread} cannot be read" if unread else "")
+            self.tr("{count} as saved on disk: {list}").format(
+                count=counted(len(checked), "file"), list=", ".join(totals)
+            )
+            + (self.tr("; {unread} cannot be read").format(unread=unread) if unread else "")
         )
         self.tree = QTreeWidget()
-        self.tree.setHeaderLabels(["File", "Errors", "Warnings", "Recommendations", "Finding"])
+        self.tree.setHeaderLabels(
+            [
+                self.tr("File"),
+                self.tr("Errors"),
+                self.tr("Warnings"),
+                self.tr("Recommendations"),
+                self.tr("Finding"),
+            ]
+        )
         self.tree.setUniformRowHeights(True)
         self.tree.addTopLevelItems([_branch(c) for c in checked])
         for column in range(4):

@@ -28,19 +28,21 @@ class QuickEdit(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Quick Edit")
+        self.setWindowTitle(self.tr("Quick Edit"))
         self.setMinimumWidth(480)
         self._table, self._workspace, self._commit, self._show = table, table.workspace, commit, show
         self._address: Address | None = None
         self.number = QLineEdit()
-        self.number.setPlaceholderText("1300, or home.calibration@1")
-        self.name = QLabel("Type a number and press Enter, then a value and press Enter. Escape closes.")
+        self.number.setPlaceholderText(self.tr("1300, or home.calibration@1"))
+        self.name = QLabel(
+            self.tr("Type a number and press Enter, then a value and press Enter. Escape closes.")
+        )
         self.name.setWordWrap(True)
         self.name.setMinimumHeight(3 * self.name.fontMetrics().height())
         self.name.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.editor: QLineEdit | ChoiceBox | None = None
         self._form = QFormLayout(self)
-        self._form.addRow("&Number", self.number)
+        self._form.addRow(self.tr("&Number"), self.number)
         self._form.addRow("", self.name)
         table.workspace.closed.connect(self.close)
 
@@ -64,11 +66,11 @@ class QuickEdit(QDialog):
             return
         self._show(address)
         file = self._workspace.file
-        place = file.machine_schema.instance_label(address) or "Control"
+        place = file.machine_schema.instance_label(address) or self.tr("Control")
         state = file.evaluation.state(address)
         inactive = "" if state.is_active else f"\n{state_name(state.state).capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)
-        bounds = f"\nAllowed here: {allowed}" if allowed else ""
+        bounds = self.tr("\nAllowed here: {allowed}").format(allowed=allowed) if allowed else ""
         self.name.setText(
             f"{file.machine_schema.label(address)}, {place}{bounds}{inactive}" + (f"\n{note}" if note else "")
         )
@@ -81,7 +83,7 @@ class QuickEdit(QDialog):
                 line.setEchoMode(QLineEdit.EchoMode.Password)
             line.selectAll()
             self.editor = line
-        self._form.addRow("&Value", self.editor)
+        self._form.addRow(self.tr("&Value"), self.editor)
         self.editor.show()  # the layout would show it later, and a hidden widget gets no focus
         self.editor.setFocus(Qt.FocusReason.OtherFocusReason)
 
@@ -105,7 +107,9 @@ class QuickEdit(QDialog):
         if text is None or self._commit(self._address, str(text)):
             self._offer(None)
             self.name.setText(
-                f"{self.name.text().splitlines()[0]}: value set. Type the next number, or press Escape to close."
+                self.tr("{what}: value set. Type the next number, or press Escape to close.").format(
+                    what=self.name.text().splitlines()[0]
+                )
             )
             self.number.setFocus()
             self.number.selectAll()

@@ -23,6 +23,7 @@ from amp_studio.schema.quoting import quoted
 from .block_preview import BlockPreview
 from .file_page import FilePage
 from .studio_window import StudioWindow
+from .translated import Translated
 
 AddressBlock = Sequence[Sequence[Address | None]]
 _LISTED = 4
@@ -34,20 +35,20 @@ def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
     return QCoreApplication.translate("RangeActions", text, disambiguation, n)
 
 
-class RangeActions:
+class RangeActions(Translated):
     """The actions on the selected cells of the table in front."""
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act, keys = window.action, QKeySequence.StandardKey
         copy = act(tr("&Copy"), self.copy, keys.Copy, "file")
-        named = act(tr("Copy with Na&mes"), self.copy_with_names, "Ctrl+Shift+C", "file")
+        named = act(tr("Copy with Na&mes"), self.copy_with_names, self.tr("Ctrl+Shift+C"), "file")
         paste = act(tr("&Paste…"), self.paste, keys.Paste, "edit")
-        down = act(tr("Fill &Down"), self.fill_down, "Ctrl+D", "edit")
-        across = act(tr("Fill &Across Axes"), self.fill_across, "Ctrl+R", "edit")
-        default = act(tr("&Back to Default"), self.to_default, "Ctrl+Backspace", "edit")
+        down = act(tr("Fill &Down"), self.fill_down, self.tr("Ctrl+D"), "edit")
+        across = act(tr("Fill &Across Axes"), self.fill_across, self.tr("Ctrl+R"), "edit")
+        default = act(tr("&Back to Default"), self.to_default, self.tr("Ctrl+Backspace"), "edit")
         clear = act(tr("Clear (&Not Set)"), self.clear, keys.Delete, "edit")
-        every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, "Ctrl+Shift+A", "axes")
+        every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, self.tr("Ctrl+Shift+A"), "axes")
         self.actions: list[QAction] = [copy, named, paste, down, across, default, clear, every]
         for action in (copy, named, paste, down, across, default, clear):  # a text field has its own
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)

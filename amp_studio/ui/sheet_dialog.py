@@ -71,12 +71,15 @@ class SheetDialog(QDialog):
         self.around, self.left_out = QTextBrowser(), QTextBrowser()
         self.tabs = QTabWidget()
         for title, page in (
-            ("&Values", self.list),
-            ("&Before and After", self.around),
-            ("&Not on This Sheet", self.left_out),
+            (self.tr("&Values"), self.list),
+            (self.tr("&Before and After"), self.around),
+            (self.tr("&Not on This Sheet"), self.left_out),
         ):
             self.tabs.addTab(page, title)
-        self.update_button, self.save_button = QPushButton("&Update"), QPushButton("&Save or Print…")
+        self.update_button, self.save_button = (
+            QPushButton(self.tr("&Update")),
+            QPushButton(self.tr("&Save or Print…")),
+        )
         layout = QVBoxLayout(self)
         for widget in (self.text, self.tabs, self.details):
             layout.addWidget(widget)
@@ -89,7 +92,7 @@ class SheetDialog(QDialog):
         self._fill()
 
     def _buttons(self) -> QHBoxLayout:
-        close = QPushButton("&Close")
+        close = QPushButton(self.tr("&Close"))
         buttons = QHBoxLayout()
         for button, act in (
             (self.update_button, self.refresh),
@@ -122,7 +125,7 @@ class SheetDialog(QDialog):
         self.list.blockSignals(True)
         self.list.clear()
         for stage, steps in PrintedSheet(self.sheet).parts():
-            head = QTreeWidgetItem([stage.title or "Values"])
+            head = QTreeWidgetItem([stage.title or self.tr("Values")])
             head.setToolTip(0, stage.why)
             head.setFirstColumnSpanned(True)
             self.list.addTopLevelItem(head)
@@ -136,7 +139,8 @@ class SheetDialog(QDialog):
         self.list.expandAll()
         self.list.blockSignals(False)
         self.around.setPlainText(
-            _instructions("Before", self.sheet.before) + _instructions("After", self.sheet.after)
+            _instructions(self.tr("Before"), self.sheet.before)
+            + _instructions(self.tr("After"), self.sheet.after)
         )
         self.left_out.setPlainText(
             "\n".join(f"{left.number}  {left.name}: {left.why}." for left in self.sheet.left_out)
@@ -170,21 +174,32 @@ class SheetDialog(QDialog):
         total, items = len(self.sheet.entries), self.items()
         states = [judged(item.data(_STEP, _ENTRY), item.text(_READ)).state for item in items]
         parts = [
-            f"{self.ticks.done} of {total} keyed in",
-            f"{states.count('same')} read back as they should be",
+            self.tr("{done} of {total} keyed in").format(done=self.ticks.done, total=total),
+            self.tr("{count} read back as they should be").format(count=states.count("same")),
         ]
         if wrong := states.count("old") + states.count("other"):
-            parts.append(f"{wrong} not as keyed in")
+            parts.append(self.tr("{wrong} not as keyed in").format(wrong=wrong))
         if self.ticks.forgotten:
-            parts.append(f"{self.ticks.forgotten} ticks left out, whose values have changed since")
-        lines = [", ".join(parts) + f". Compared with {self.sheet.present}.", *self.sheet.warnings]
+            parts.append(
+                self.tr("{forgotten} ticks left out, whose values have changed since").format(
+                    forgotten=self.ticks.forgotten
+                )
+            )
+        lines = [
+            ", ".join(parts) + self.tr(". Compared with {present}.").format(present=self.sheet.present),
+            *self.sheet.warnings,
+        ]
         self.text.setText("\n".join(lines))
 
     def _explain(self, item: QTreeWidgetItem | None, *_: object) -> None:
         entry = item.data(_STEP, _ENTRY) if item is not None else None
         if isinstance(entry, SheetEntry):
             stage = self.sheet.stages[entry.stage]
-            why = f"{stage.why} (page {stage.page})" if stage.page else stage.why
+            why = (
+                self.tr("{why} (page {page})").format(why=stage.why, page=stage.page)
+                if stage.page
+                else stage.why
+            )
             self.details.setText(
                 "\n".join(
                     filter(None, (f"{entry.name}, page {entry.page}. {why}", entry.order, *entry.until))
@@ -210,7 +225,9 @@ class SheetDialog(QDialog):
             else:
                 self.ticks.read_back(entry, item.text(_READ))
         except OSError as error:
-            show_message(self, self.sheet.title, f"The tick is not kept: {error}.")
+            show_message(
+                self, self.sheet.title, self.tr("The tick is not kept: {error}.").format(error=error)
+            )
         self.list.blockSignals(True)
         self._judge(item)
         self.list.blockSignals(False)
@@ -218,7 +235,7 @@ class SheetDialog(QDialog):
 
     def _stale(self, *_: object) -> None:
         self.update_button.setEnabled(True)
-        self.text.setText("The file has changed: update the sheet before you go on.")
+        self.text.setText(self.tr("The file has changed: update the sheet before you go on."))
 
     def save(self) -> None:
         """Ask for a name and write the sheet; the ending sets the format."""
@@ -234,7 +251,7 @@ class SheetDialog(QDialog):
             tuple(self.ticks.shown.items()),
         )
         try:
-            in_background(self, "Printing", lambda: write_sheet(printed, Path(text)))
+            in_background(self, self.tr("Printing"), lambda: write_sheet(printed, Path(text)))
         except (OSError, ValueError) as error:
             show_message(self, self.sheet.title, str(error))
 

@@ -176,7 +176,11 @@ class StepsPanel(QWidget):
         for n, step in enumerate(guide.steps, 1):
             below = QTreeWidgetItem([f"{n}  {step.title}"])
             below.setData(0, KEY, step)
-            below.setToolTip(0, f"{step.title}, page {step.page}" + (f": {step.what}" if step.what else ""))
+            below.setToolTip(
+                0,
+                self.tr("{title}, page {page}").format(title=step.title, page=step.page)
+                + (f": {step.what}" if step.what else ""),
+            )
             item.addChild(below)
         self.tree.addTopLevelItem(item)
 

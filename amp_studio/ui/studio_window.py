@@ -192,12 +192,16 @@ class StudioWindow(QMainWindow):
         assert page is not None
         workspace = page.workspace
         try:
-            workspace.save(lambda work: in_background(self, "Saving", work))
+            workspace.save(lambda work: in_background(self, self.tr("Saving"), work))
         except ChangedOnDiskError:
             page.conflict.emit()
             return False
         except OSError as error:
-            show_message(self, "Not saved", f"{error}.\n\nYour work is still open.")
+            show_message(
+                self,
+                self.tr("Not saved"),
+                self.tr("{error}.\n\nYour work is still open.").format(error=error),
+            )
             return False
         if workspace.document.notes:
             self.show_status("; ".join(workspace.document.notes))
@@ -211,6 +215,13 @@ class StudioWindow(QMainWindow):
         if not page.workspace.is_dirty or not page.workspace.may_edit:
             return True
         self.tabs.bring(page)
-        question = f"Save the changes to {page.workspace.path.name}?"
-        answer = ask(self, "Unsaved changes", question, "&Save", "&Discard", "Cancel")
-        return self.save(page) if answer == "&Save" else answer == "&Discard"
+        question = self.tr("Save the changes to {name}?").format(name=page.workspace.path.name)
+        answer = ask(
+            self,
+            self.tr("Unsaved changes"),
+            question,
+            self.tr("&Save"),
+            self.tr("&Discard"),
+            self.tr("Cancel"),
+        )
+        return self.save(page) if answer == self.tr("&Save") else answer == "&Discard"

@@ -31,13 +31,15 @@ class TablesDialog(QDialog):
     def __init__(self, workspace: Workspace, address: Address | None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle("Tables of the Manual")
+        self.setWindowTitle(self.tr("Tables of the Manual"))
         self.resize(900, 560)
         self._schema = workspace.file.schema
         own = address[0] if address else ""
         self._tables = sorted(self._schema.tables.values(), key=lambda table: own not in table.params)
         self.search = QLineEdit()
-        self.search.setPlaceholderText("Search all tables, for example an alarm, a motor or a number")
+        self.search.setPlaceholderText(
+            self.tr("Search all tables, for example an alarm, a motor or a number")
+        )
         self.search.setClearButtonEnabled(True)
         self.list, self.page = QListWidget(), QTextBrowser()
         self.list.setMaximumWidth(330)
@@ -69,7 +71,7 @@ class TablesDialog(QDialog):
                 self.list.addItem(item)
         self.list.setCurrentRow(0)
         if not self.list.count():
-            self.page.setPlainText("No table contains these words.")
+            self.page.setPlainText(self.tr("No table contains these words."))
 
     def _show(self, item: QListWidgetItem | None, *_: object) -> None:
         if item is not None:

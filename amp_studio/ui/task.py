@@ -135,8 +135,8 @@ class ProgressDialog(QDialog):
 
     def _progress(self, stage: str, done: int, total: int) -> None:
         if stage in ("silent", "cut"):
-            silence = f"No answer for {done} s" if done else ""
-            self._silence("The line is cut" if stage == "cut" else silence)
+            silence = self.tr("No answer for {done} s").format(done=done) if done else ""
+            self._silence(self.tr("The line is cut") if stage == "cut" else silence)
             return
         self._stage = self._stages.get(stage, stage)
         if not self.task.cancelled.is_set():
@@ -146,7 +146,7 @@ class ProgressDialog(QDialog):
 
     def _silence(self, why: str) -> None:
         """Show why there is no answer; nothing when there is one again."""
-        waiting = f"\n{why}, trying again …" if why else ""
+        waiting = self.tr("\n{why}, trying again …").format(why=why) if why else ""
         doing = STOPPING if self.task.cancelled.is_set() else self._stage
         self.text.setText(doing + waiting)
 

@@ -179,7 +179,9 @@ class ControlTarget(TuningTarget):
     def send(self) -> None:
         """Download what is collected; raises TransferError."""
         waiting = dict(self._waiting)
-        self._exchange("Download", lambda progress, cancel: self.live.set(waiting, progress, cancel), waiting)
+        self._exchange(
+            self.tr("Download"), lambda progress, cancel: self.live.set(waiting, progress, cancel), waiting
+        )
         self._waiting = {}
         self._show([])
 
@@ -188,14 +190,14 @@ class ControlTarget(TuningTarget):
         self._waiting = {}
         if self.differences():
             changed = [difference.address for difference in self.live.changes().differences]
-            self._exchange("Put Back", self.live.put_back, changed)
+            self._exchange(self.tr("Put Back"), self.live.put_back, changed)
         self._done.clear()
         self._undone.clear()
         self._show([])
 
     def look(self) -> None:
         """Read the control again."""
-        self._run("Read Control", self.live.look)
+        self._run(self.tr("Read Control"), self.live.look)
         self._show([])
 
     def _exchange(self, text: str, exchange: ControlWork, changed: Iterable[Address]) -> None:

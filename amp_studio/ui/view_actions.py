@@ -14,41 +14,63 @@ from amp_studio.schema.registration import why_not_simulated
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
+from .translated import Translated
 from .workspace import Workspace
 
 
-class ViewActions:
+class ViewActions(Translated):
     """What is shown, and in which units; only the control type changes values."""
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act = window.action
         self.menu = menu = window.menuBar().addMenu(QCoreApplication.translate("ViewActions", "&View"))
-        self.units_menu, self.machine_menu = QMenu("&Units", window), QMenu("Control &Type", window)
+        self.units_menu, self.machine_menu = (
+            QMenu(self.tr("&Units"), window),
+            QMenu(self.tr("Control &Type"), window),
+        )
         self._groups: list[QActionGroup] = []
-        self.switch = act("S&witch mm / inch", self._switch, "Ctrl+M", "units", "ruler", "mm / inch")
-        self.as_entered = self._option("Show Values &As Entered", self._show_as_entered, "Ctrl+E")
-        self.all_axes = self._option("Show Un&fitted Axes", self._show_columns, "Ctrl+U")
-        self.hidden_too = self._option("Show &Hidden Parameters", self._show_columns, "Ctrl+H")
-        self.secrets = self._option("Show Se&crets", self._show_secrets)
-        self.secrets.setToolTip("Show passwords in clear text, also in exports")
-        self.motion_action = act("&Motion…", self._motion, "F9", "file", "activity", "Motion")
+        self.switch = act(
+            self.tr("S&witch mm / inch"),
+            self._switch,
+            self.tr("Ctrl+M"),
+            "units",
+            "ruler",
+            self.tr("mm / inch"),
+        )
+        self.as_entered = self._option(
+            self.tr("Show Values &As Entered"), self._show_as_entered, self.tr("Ctrl+E")
+        )
+        self.all_axes = self._option(self.tr("Show Un&fitted Axes"), self._show_columns, self.tr("Ctrl+U"))
+        self.hidden_too = self._option(
+            self.tr("Show &Hidden Parameters"), self._show_columns, self.tr("Ctrl+H")
+        )
+        self.secrets = self._option(self.tr("Show Se&crets"), self._show_secrets)
+        self.secrets.setToolTip(self.tr("Show passwords in clear text, also in exports"))
+        self.motion_action = act(
+            self.tr("&Motion…"), self._motion, "F9", "file", "activity", self.tr("Motion")
+        )
         menu.addMenu(self.units_menu)
         menu.addMenu(self.machine_menu)
         menu.addActions([self.switch, self.as_entered, self.all_axes, self.hidden_too, self.secrets])
         menu.addSeparator()
-        self.panels = panels = menu.addMenu("&Go To")
+        self.panels = panels = menu.addMenu(self.tr("&Go To"))
         for n, (title, panel) in enumerate(
-            (("&Groups", "Groups"), ("&Parameter Help", "Parameter"), ("&Findings", "Findings")), 2
+            (
+                (self.tr("&Groups"), self.tr("Groups")),
+                (self.tr("&Parameter Help"), self.tr("Parameter")),
+                (self.tr("&Findings"), self.tr("Findings")),
+            ),
+            2,
         ):
-            panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
-        panels.insertAction(panels.actions()[0], act("&Table", self._to_table, "Ctrl+1"))
+            panels.addAction(act(title, partial(window.show_panel, panel), self.tr("Ctrl+{n}").format(n=n)))
+        panels.insertAction(panels.actions()[0], act(self.tr("&Table"), self._to_table, self.tr("Ctrl+1")))
         menu.addSeparator()
         tabs = window.tabs
         menu.addActions([
-            act("Ne&xt File", partial(tabs.turn, 1), "Ctrl+Tab"),
-            act("Pre&vious File", partial(tabs.turn, -1), "Ctrl+Shift+Tab"),
-            act("Show File &Beside", tabs.move_across, "Ctrl+\\"),
+            act(self.tr("Ne&xt File"), partial(tabs.turn, 1), self.tr("Ctrl+Tab")),
+            act(self.tr("Pre&vious File"), partial(tabs.turn, -1), self.tr("Ctrl+Shift+Tab")),
+            act(self.tr("Show File &Beside"), tabs.move_across, self.tr("Ctrl+\\")),
         ])  # fmt: skip
         menu.addSeparator()
         menu.addAction(self.motion_action)
@@ -136,9 +158,9 @@ class ViewActions:
         workspace = self._workspace()
         parameter = workspace.file.schema.family.machine_parameter
         if parameter:
-            workspace.edit("Control type", {(parameter, ""): Value(machine)})
+            workspace.edit(self.tr("Control type"), {(parameter, ""): Value(machine)})
         else:
-            workspace.do("Control type", partial(workspace.file.set_machine, machine))
+            workspace.do(self.tr("Control type"), partial(workspace.file.set_machine, machine))
         self.check(workspace)
 
     # -- what is shown ---------------------------------------------------------
@@ -159,7 +181,7 @@ class ViewActions:
         family = workspace.file.schema.family if workspace else None
         reason, action = why_not_simulated(family) if family else "", self.motion_action
         translate = QCoreApplication.translate
-        missing = translate("ViewActions", "&Motion… (not for {family})") if reason else "&Motion…"
+        missing = translate("ViewActions", "&Motion… (not for {family})") if reason else self.tr("&Motion…")
         action.setText(missing.format(family=family.short or family.name) if family else missing)
         action.setIconText(translate("ViewActions", "Motion"))
         action.setToolTip(reason or translate("ViewActions", "Motion (F9)"))

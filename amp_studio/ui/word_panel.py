@@ -122,7 +122,7 @@ class WordPanel(QScrollArea):
         named = re.search(rf"(?<![\d.]){bit.bit}(?![\d.])", bit.label)  # "Axis 7" already names the bit
         item = QListWidgetItem(bit.label if named else f"{bit.bit}  {bit.label}")
         item.setData(Qt.ItemDataRole.UserRole, bit.bit)
-        item.setToolTip(f"bit {bit.bit}")
+        item.setToolTip(self.tr("bit {bit}").format(bit=bit.bit))
         self.ticks.addItem(item)
 
     def _add_field(self, bit: Bit) -> None:
@@ -131,7 +131,7 @@ class WordPanel(QScrollArea):
             editor = QComboBox()
             editor.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
             editor.setMinimumContentsLength(_LEAST_LETTERS)
-            editor.setPlaceholderText("another code")
+            editor.setPlaceholderText(self.tr("another code"))
             for choice in bit.choices:
                 editor.addItem(choice.label, choice.raw)
             editor.activated.connect(lambda _, b=bit, e=editor: self._set(b, e.currentData()))
@@ -142,7 +142,9 @@ class WordPanel(QScrollArea):
             editor.setKeyboardTracking(False)
             editor.valueChanged.connect(lambda number, b=bit: self._set(b, number))
         editor.setToolTip(
-            f"bits {bit.bit} to {bit.bit + bit.width - 1}" if bit.width > 1 else f"bit {bit.bit}"
+            self.tr("bits {bit} to {what}").format(bit=bit.bit, what=bit.bit + bit.width - 1)
+            if bit.width > 1
+            else self.tr("bit {bit}").format(bit=bit.bit)
         )
         label = QLabel(bit.label)
         label.setWordWrap(True)

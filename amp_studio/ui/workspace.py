@@ -122,7 +122,7 @@ class Workspace(QObject):
         Returns whether it changed anything.
         """
         entered = self.entered(address, text)
-        why = f"on {now()} in the studio" if force else ""
+        why = self.tr("on {now} in the studio").format(now=now()) if force else ""
         return self.edit(
             self.step_text({address: entered.value}, entered.expression), {address: entered.value}, why
         )
