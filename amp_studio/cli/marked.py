@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
-from amp_studio.find import Mark, ValueMarks, noted, rows_of_file
 from amp_studio.schema import Meant
-from amp_studio.validate import Validator, rules_beside
+
+if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
+    from amp_studio.find import Mark
 
 _OPTIONS: dict[str, Mark] = {
     "changed": "changed",
@@ -28,8 +30,12 @@ def marks_asked(options: argparse.Namespace) -> list[Mark]:
 
 def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: list[Mark]) -> list[Meant]:
     """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
+    from amp_studio.find import ValueMarks, noted, rows_of_file
+
     marks = ValueMarks(file)
     if "findings" in wanted:
+        from amp_studio.validate import Validator, rules_beside
+
         marks.take_findings(Validator(file, rules_beside(path, file.schema)).run())
     if "since-download" in wanted:
         from amp_studio.transfer.client.last_download import last_download
