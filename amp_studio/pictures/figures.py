@@ -154,9 +154,11 @@ class ValueReader:
         """Return the letter of an axis, or what it is called without one."""
         return axis_name(self.evaluation, instance) or instance
 
-    def note(self, text: str, address: Address | None = None, *, wrong: bool = False) -> None:
+    def note(
+        self, text: str, address: Address | None = None, *, wrong: bool = False, is_remark: bool = False
+    ) -> None:
         """Say something about the picture, once."""
-        self.notes.setdefault(text, PictureNote(text, address, wrong))
+        self.notes.setdefault(text, PictureNote(text, address, wrong, is_remark))
 
     def direction(self, role: Direction | None, instance: str, axes: tuple[str, ...]) -> float:
         """Return 1 or -1, 0 where the direction is not known."""

@@ -43,9 +43,9 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
                 "error" if gain.wrong else "now",
             )
         )
-    for n, each in enumerate(each for each in drawn if each is not at):
+    for n, each in enumerate(drawn):
         place = each.number or 1.0
-        level = y.high * (0.3 + 0.12 * (n % 3))
+        level = y.high * (0.24 + 0.12 * (n % 4))
         lines.append(
             Polyline(((place, y.low), (place, y.high)), "error" if each.wrong else "limit", dashed=True)
         )
@@ -59,9 +59,11 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
                 "dim",
             )
         )
-        handles.append(
-            figures.handle(each, (place, 0.92 * y.high), figures.drag(each, "x", 2.0 * place), second=True)
-        )
+        if all(
+            handle.drags[0].address != each.address for handle in handles
+        ):  # the break has one on its step
+            drag = figures.drag(each, "x", 2.0 * place)
+            handles.append(figures.handle(each, (place, 0.92 * y.high), drag, second=True))
     if at is not None and at in drawn:
         _say_order(figures, at, drawn)
     return Scene(

@@ -70,7 +70,9 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     if way and speed is not None and speed.number is not None:
         sign = "plus" if way > 0.0 else "minus"
         figures.note(
-            f"{figures.axis(axis)} leaves its switch in {sign} direction at {speed.shown}", speed.address
+            f"{figures.axis(axis)} leaves its switch in {sign} direction at {speed.shown}",
+            speed.address,
+            is_remark=True,
         )
     return Home(position, marker, calibration, switch, place, -off or towards, off, speed, pull_off)
 
@@ -173,7 +175,8 @@ def draw_rail(
         if math.isfinite(place):
             drawing.dots.append(Dot(at(place), "switch"))
             figures.note(
-                "Where a home switch lies is no value of this file: it is drawn on its side of the marker."
+                "Where a home switch lies is no value of this file: it is drawn on its side of the marker.",
+                is_remark=True,
             )
         side = home.off
         place = near - home.side * 2.0 * SWITCH * length

@@ -79,7 +79,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
             Text(at, each.role.name, _told(each, pieces), "left", of, "now" if is_used else "second")
         )
         if each.role.note:
-            figures.note(each.role.note)
+            figures.note(each.role.note, is_remark=True)
     x = like.x if like else Scale("", "s", 0.0, 1.08 * (longest or distance / speed))
     bounds = [feed, *_bounds(figures, roles, feed, axis)]
     y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * max(each.number or 0.0 for each in bounds))

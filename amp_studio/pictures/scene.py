@@ -89,7 +89,14 @@ class PictureNote:
     text: str
     address: Address | None = None
     wrong: bool = False
-    """A value that is not allowed; otherwise one that is not set or inactive, or a remark."""
+    """A value that is not allowed; otherwise one that is not set or inactive."""
+    is_remark: bool = False
+    """Nothing is missing or wrong: what a drawing shows, and what it assumes."""
+
+    @property
+    def order(self) -> tuple[bool, bool]:
+        """What is wrong comes first, remarks come last."""
+        return not self.wrong, self.is_remark
 
 
 @dataclass(frozen=True)

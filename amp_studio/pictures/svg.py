@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from html import escape
 
 from .frame import BOTTOM, Placement
-from .scene import Dot, FilledArea, Point, Polyline, Scene, ShapeSort, Text
+from .scene import Dot, FilledArea, Point, Polyline, Scene, ShapeSort
 
 WIDTH, HEIGHT = 720.0, 480.0
 HEAD, NOTE = 34.0, 15.0
@@ -25,13 +25,15 @@ FILLS: dict[ShapeSort, str] = {
 }
 LETTER = 6.0
 """Width of a letter, about, in points."""
+LINE = 13.0
+"""Height of a line of text, in points."""
 WRAP = 118
 """Letters in a line of notes."""
 
 
 def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, notes: bool = True) -> str:
     """Return the SVG text of a scene in a width and, without title and notes, a height in points; ``notes`` are under it."""
-    shown = scene.notes if notes else ()
+    shown = sorted(scene.notes, key=lambda note: note.order) if notes else []
     lines = [line for note in shown for line in _wrapped(("! " if note.wrong else "") + note.text)]
     height = HEAD + drawn + NOTE * len(lines) + (8.0 if lines else 0.0)
     frame = Placement.within(scene, width, drawn)
@@ -50,7 +52,7 @@ def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, note
             for handle in scene.handles
             if handle.second and len(handle.drags) == 1
         ),
-        *(_text(frame, text) for text in scene.texts),
+        *_texts(frame, width),
         "</g>",
         *(
             f'<text x="16" y="{HEAD + drawn + NOTE * (n + 0.7):g}" fill="{INKS["error"] if line.startswith("! ") else DIM}">{escape(line.removeprefix("! "))}</text>'
@@ -70,8 +72,8 @@ def _opened(width: float, height: float) -> str:
 
 def _title(scene: Scene) -> str:
     return (
-        f'<text x="16" y="22" fill="{TEXT}" font-size="15" font-weight="600">{escape(scene.title)}'
-        f'<tspan fill="{DIM}" font-size="11" font-weight="400">\u2003{escape(scene.subtitle)}</tspan></text>'
+        f'<text x="16" y="22" fill="{TEXT}" font-size="15" font-weight="600">{escape(scene.title)} '
+        f'<tspan fill="{DIM}" font-size="11" font-weight="400">{escape(scene.subtitle)}</tspan></text>'
     )
 
 
@@ -176,11 +178,27 @@ ANCHORS = {
 """Anchor -> that of SVG, and how far a text lies from its point."""
 
 
-def _text(frame: Placement, text: Text) -> str:
-    x, y = frame.at(text.at)
-    anchor, dx, dy = ANCHORS[text.anchor]
-    if text.anchor == "above" and text.value:
-        anchor = "start"
-    value = f'<tspan fill="{DIM}" font-weight="400">\u2002{escape(text.value)}</tspan>' if text.value else ""
-    weight = ' font-weight="600"' if text.value else ""
-    return f'<text x="{x + dx:.1f}" y="{y + dy:.1f}" fill="{INKS[text.sort]}" text-anchor="{anchor}"{weight}>{escape(text.text)}{value}</text>'
+def _texts(frame: Placement, width: float) -> Iterator[str]:
+    """Yield the texts of a scene; one that would lie on another moves down by its height, a figure alone is left out."""
+    taken: list[tuple[float, float, float]] = []
+    for text in frame.scene.texts:
+        x, y = frame.at(text.at)
+        anchor, dx, dy = ANCHORS[text.anchor]
+        if text.anchor == "above" and text.value:
+            anchor = "start"
+        long = LETTER * (len(text.text) + len(text.value) + 1)
+        share = {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
+        left = x + dx - share * long
+        left, y = max(min(left, width - long), 2.0), y + dy
+        while any(abs(y - at) < LINE and left < right and left + long > start for start, right, at in taken):
+            y += LINE
+            if not text.value:
+                break
+        else:
+            taken.append((left, left + long, y))
+            value = (
+                f'<tspan fill="{DIM}" font-weight="400">{escape(text.value)}</tspan>' if text.value else ""
+            )
+            weight = ' font-weight="600"' if text.value else ""
+            at = left + share * long
+            yield f'<text x="{at:.1f}" y="{y:.1f}" fill="{INKS[text.sort]}" text-anchor="{anchor}"{weight}>{escape(text.text)} {value}</text>'

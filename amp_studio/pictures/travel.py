@@ -115,7 +115,7 @@ def _span(figures: ValueReader, span: SpanRole, axis: str) -> _Ends:
         none = (-math.inf, math.inf)[n]
         value = figures.file.get(figure.address) if figure else None
         if figure is not None and value is not None and span.none is not None and value.value == span.none[n]:
-            figures.note(f"{figure.label}: {figure.shown} is no limit", figure.address)
+            figures.note(f"{figure.label}: {figure.shown} is no limit", figure.address, is_remark=True)
             found[n] = None
             ends.append(none)
         else:
@@ -131,7 +131,7 @@ def _reach(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterF
     if found is None or found.number is None or not sign:
         return _Ends(-math.inf, math.inf)
     far = -sign * found.number
-    figures.note("Coordinates are counted from the home switch.")
+    figures.note("Coordinates are counted from the home switch.", is_remark=True)
     return _Ends(far, 0.0, (found, None), sign) if far <= 0.0 else _Ends(0.0, far, (None, found), sign)
 
 

@@ -136,7 +136,7 @@ class PictureCard(QFrame):
     def show_notes(self) -> None:
         """Show what is not drawn and why, what is wrong first; each leads to its parameter."""
         self.enlarge.setVisible(self.small)
-        notes = sorted(self.canvas.scene.notes, key=lambda note: not note.wrong)
+        notes = sorted(self.canvas.scene.notes, key=lambda note: note.order)
         most = MOST_NOTES[self.small]
         lines = []
         for note in notes[:most]:

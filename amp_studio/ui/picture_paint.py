@@ -28,6 +28,8 @@ TEXT_INKS: dict[ShapeSort, Token] = {
 }
 MOST_REASON = 380.0
 """Width of a reason in a tag, in logical pixels; the findings have the whole of it."""
+LEAST_ROW = 30.0
+"""Height of a row that has room for figures at its points; in lower ones only the first has them."""
 HANDLE = 9.0
 """Side of a handle in logical pixels."""
 
@@ -56,8 +58,11 @@ class ScenePainter:
             self._line(line)
         for dot in self._scene.dots:
             self._dot(dot)
+        rows = self._scene.y.rows
+        is_dense = len(rows) > 1 and self._place.height / len(rows) < LEAST_ROW
         for text in self._scene.texts:
-            self._text(text)
+            if not is_dense or (text.at[1] == rows[0][0] and text.anchor == "above"):
+                self._text(text)
 
     def _at(self, point: tuple[float, float]) -> QPointF:
         return QPointF(*self._place.at(point))
