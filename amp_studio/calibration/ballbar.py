@@ -18,7 +18,7 @@ from .measurement import MeasuredRun, Measurement
 TURNS = {"first": (0.0, 180.0), "second": (90.0, 270.0)}
 """Which axis of a circle -> the angles at which it turns round, in degrees."""
 NEAR, FAR = 2.0, 12.0
-"""Degrees on each side of a turn between which the radius is looked at."""
+"""Degrees on each side of a turn between which the lines are fitted."""
 _FEWEST = 3
 
 

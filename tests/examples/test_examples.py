@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -164,7 +165,31 @@ def test_it_can_be_printed(example: Path, tmp_path: Path) -> None:
 
 def test_nothing_but_the_file_its_project_and_its_readme_is_shipped(example: Path) -> None:
     shipped = {p.name for p in example.parent.iterdir() if not p.name.startswith(".")}  # not: open just now
-    assert shipped == {example.name, "project.yaml", "README.md"}
+    measured = {"laser-x.csv"} if example.name == "MILL_1394.amp" else set()
+    assert shipped == {example.name, "project.yaml", "README.md"} | measured
+
+
+def test_the_measured_points_of_the_mill_give_back_the_lost_motion_they_were_made_with(
+    example: Path, capsys
+) -> None:
+    points = example.parent / "laser-x.csv"
+    if not points.exists():
+        pytest.skip("only the mill has measured points")
+    line = [
+        "calibrate",
+        str(example),
+        "--axis",
+        "X",
+        "--from",
+        str(points),
+        "--sign",
+        "measured-target",
+        "--dry-run",
+    ]
+    assert run([*line, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["figures"]["mean_reversal"] == pytest.approx(-0.0042, abs=0.0001)
+    assert found["residual"]["after"] < 0.0005 < 0.015 < found["residual"]["before"]
 
 
 def test_the_press_runs_its_cam_without_a_fault(machine: Callable[[str], ParameterFile]) -> None:

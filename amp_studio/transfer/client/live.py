@@ -107,7 +107,11 @@ class LiveTuning:
             if error.at_control == "old" and not isinstance(error, ImageChangedError):
                 self.file = present
             raise
-        self.look(progress, cancel)
+        try:
+            self.look(progress, cancel)
+        except TransferError as error:
+            error.at_control, error.kept = outcome.at_control, outcome.kept
+            raise
         return outcome
 
     def _keep(self, content: bytes) -> str:
