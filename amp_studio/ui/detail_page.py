@@ -5,8 +5,6 @@ from __future__ import annotations
 import html
 from collections.abc import Callable, Iterable, Iterator
 
-from PySide6.QtCore import QCoreApplication
-
 from amp_studio.files import axis_letter
 from amp_studio.files.local_time import day_and_time, with_days_and_times
 from amp_studio.files.notes import group_note, value_note
@@ -14,6 +12,7 @@ from amp_studio.files.storage_text import storage_text
 from amp_studio.report import facts, formula_lines, help_parts, tables_of
 from amp_studio.report.wording import severity_name, state_name
 from amp_studio.schema import Address, Value, limits, real_value, same_value, show_value, shown
+from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET, Finding, rule_title
 
 from .pages import drawn, link
@@ -26,9 +25,13 @@ USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calcula
 show a message of the control."""
 
 
-def tr(text: str) -> str:
-    """Translate a text of the page."""
-    return QCoreApplication.translate("DetailPage", text)
+_RULES = 4
+"""Rules that are met and shown before somebody asks for all."""
+
+
+def hex_text(word: int) -> str:
+    """Return a word as the table has it beside the names of its bits."""
+    return f"0x{word:X}" if word >= 0 else str(word)
 
 
 class DetailPage(Translated):
@@ -52,19 +55,19 @@ class DetailPage(Translated):
             head = (
                 f'<p style="color:{dim}; margin-top:0; margin-bottom:2px"><b><small>{title}</small></b></p>'
             )
-            rule = f'<table width="100%" cellspacing="0" cellpadding="0"><tr><td style="background-color:{line}; font-size:1px">&nbsp;</td></tr></table>'
+            rule = f'<p style="font-size:4px; margin:0">&nbsp;</p><table width="100%" cellspacing="0" cellpadding="0"><tr><td style="background-color:{line}; font-size:1px">&nbsp;</td></tr></table>'
             parts.append(f"{rule}{head}{text}")
         return f"<html><style>a {{ color: {colour('sel').name()}; }} p {{ margin-top:0; margin-bottom:6px; }}</style>{''.join(parts)}</html>"
 
     def _sections(self, address: Address) -> Iterator[tuple[str, str]]:
         if notes := self._notes(address):
-            yield tr("Notes"), notes
+            yield self.tr("Notes"), notes
         if calculated := self._calculated(address):
-            yield tr("Calculated"), calculated
+            yield self.tr("Calculated"), calculated
         yield self._rules(address)
-        yield tr("Help"), self._help(address)
-        yield tr("Where else"), self._where_else(address)
-        yield tr("History"), self._history(address)
+        yield self.tr("Help"), self._help(address)
+        yield self.tr("Where else"), self._where_else(address)
+        yield self.tr("History"), self._history(address)
         yield self._facts(address)
 
     # -- the value -------------------------------------------------------------
@@ -73,6 +76,8 @@ class DetailPage(Translated):
         """Return a value; one in units whose size another parameter sets with its length or angle: 1000 BLU = 1 mm."""
         file = (workspace or self._workspace).file
         parameter = file.schema.parameters[address[0]]
+        if parameter.bits and value is not None and isinstance(value.value, int) and not parameter.secret:
+            return html.escape(f"{labels_of_word(parameter, value.value)} ({hex_text(value.value)})")
         text = show_value(parameter, value, secrets=self._workspace.secrets)
         real = None if parameter.secret else real_value(file.evaluation, address, value)
         return html.escape(f"{text} = {show_value(parameter, real)}" if real else text)
@@ -81,16 +86,16 @@ class DetailPage(Translated):
         file, lines = self._workspace.file, []
         if (used := self._workspace.effective().get(address)) is not None:
             lines.append(
-                f"<b>{self.shown(address, used)}</b> <small>{tr('effective value in the control')}</small>"
+                f"<b>{self.shown(address, used)}</b> <small>{self.tr('effective value in the control')}</small>"
             )
         if stored := storage_text(file, address):
-            lines.append(f"{html.escape(stored)} <small>{tr('as stored in the control')}</small>")
+            lines.append(f"{html.escape(stored)} <small>{self.tr('as stored in the control')}</small>")
         state = file.evaluation.state(address)
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
             lines.append(f"<i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i>")
         if allowed := self._allowed(address):
-            lines.append(f"{tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
+            lines.append(f"{self.tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
         return f"<p>{'<br>'.join(lines)}</p>" if lines else ""
 
     def _allowed(self, address: Address) -> str:
@@ -132,13 +137,13 @@ class DetailPage(Translated):
         for n, finding in enumerate(self.findings(address)):
             for setting in finding.fix:
                 if setting.address == address:
-                    use = f' <a href="{USE}{n}">{tr("Use")}</a>' if self._workspace.may_edit else ""
+                    use = f' <a href="{USE}{n}">{self.tr("Use")}</a>' if self._workspace.may_edit else ""
                     title = html.escape(rule_title(self._workspace.validator, finding))
                     lines.append(
                         f"<p><b>{self.shown(address, setting.value)}</b> <small>{title}</small>{use}</p>"
                     )
         if file.schema.parameters[address[0]].formulas:
-            lines.append(f'<p><a href="{CALCULATE}">{tr("Calculate…")}</a></p>')
+            lines.append(f'<p><a href="{CALCULATE}">{self.tr("Calculate…")}</a></p>')
         return "".join(lines)
 
     def _rules(self, address: Address) -> tuple[str, str]:
@@ -152,17 +157,21 @@ class DetailPage(Translated):
             lines.append(f"<p>{mark} {html.escape(finding.message)}{cited}</p>")
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}
-        for rule in rules:
-            if rule.id not in unmet:
-                page = f'<span style="color:{dim}">{html.escape(rule.cited)}</span>'
-                lines.append(f"<p>{icon_html('check', 'text')} {html.escape(rule.title)} {page}</p>")
-        title = tr("Rules")
+        met = [rule for rule in rules if rule.id not in unmet]
+        shown_rules = met if "rules" in self.opened or len(met) <= _RULES else met[:_RULES]
+        for rule in shown_rules:
+            page = f'<span style="color:{dim}">{html.escape(rule.cited)}</span>'
+            lines.append(f"<p>{icon_html('check', 'text')} {html.escape(rule.title)} {page}</p>")
+        if len(shown_rules) < len(met):
+            more = self.tr("{number} more are met").format(number=len(met) - len(shown_rules))
+            lines.append(f'<p><a href="{FOLD}rules">{more}</a></p>')
+        title = self.tr("Rules")
         if rules or broken:
-            count = tr("{unmet} of {number} not met").format(
+            count = self.tr("{unmet} of {number} not met").format(
                 unmet=len(unmet), number=len({r.id for r in rules} | unmet)
             )
             title += f" &nbsp; {count}"
-        return title, "".join(lines) or f"<p>{tr('No rule uses this parameter.')}</p>"
+        return title, "".join(lines) or f"<p>{self.tr('No rule uses this parameter.')}</p>"
 
     def _help(self, address: Address) -> str:
         schema = self._workspace.file.schema
@@ -174,10 +183,10 @@ class DetailPage(Translated):
             lines.append(f"<p><b>{title}</b><br>{body}</p>")
         if messages := schema.messages_of(parameter.id):
             names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
-            lines.append(f"<p><b>{tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
+            lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
         if formulas := formula_lines(schema, parameter):
             lines.append(
-                f"<p><b>{tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
+                f"<p><b>{self.tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
             )
         lines += [drawn(table) for table in tables_of(schema, parameter)]
         lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
@@ -186,19 +195,22 @@ class DetailPage(Translated):
     def _where_else(self, address: Address) -> str:
         """Return the value on disk, in the control, at the last download and in the other open files."""
         workspace, value = self._workspace, self._workspace.file.get(address)
-        rows: list[tuple[str, Value | None]] = [(tr("Saved"), workspace.document.saved.get(address))]
+        rows: list[tuple[str, Value | None]] = [(self.tr("Saved"), workspace.document.saved.get(address))]
         if workspace.control is not None:
             values, when = workspace.control
             rows.append(
-                (tr("In the control, {time}").format(time=with_days_and_times(when)), values.get(address))
+                (
+                    self.tr("In the control, {time}").format(time=with_days_and_times(when)),
+                    values.get(address),
+                )
             )
         if self.last_download is not None:
             rows.append(
-                (tr("Last download, {time}").format(time=self.last_download[0]), self.last_download[1])
+                (self.tr("Last download, {time}").format(time=self.last_download[0]), self.last_download[1])
             )
         cells = [(name, self._compared(address, each, value)) for name, each in rows]
         if self.may_have_download and self.last_download is None:
-            cells.append((tr("Last download"), f'<a href="{DOWNLOAD}">{tr("Show")}</a>'))
+            cells.append((self.tr("Last download"), f'<a href="{DOWNLOAD}">{self.tr("Show")}</a>'))
         found = ((html.escape(other.path.stem), self._in_other(other, address)) for other in self.others())
         cells += [(name, text) for name, text in found if text]
         dim = colour("dim").name()
@@ -233,7 +245,7 @@ class DetailPage(Translated):
             for entry in self._workspace.document.history(address)
         ]
         label = html.escape(self._workspace.file.machine_schema.label(address))
-        return "".join(lines) or f"<p>{tr('No saved changes of {name} yet.').format(name=label)}</p>"
+        return "".join(lines) or f"<p>{self.tr('No saved changes of {name} yet.').format(name=label)}</p>"
 
     def _facts(self, address: Address) -> tuple[str, str]:
         schema, machine = self._workspace.file.schema, self._workspace.file.machine
@@ -241,7 +253,9 @@ class DetailPage(Translated):
         is_open = "facts" in self.opened
         ink = colour("dim").name()
         arrow = icon_html("caret-down" if is_open else "caret-right", "dim")
-        title = f'<a href="{FOLD}facts" style="color:{ink}; text-decoration:none">{arrow} {tr("Facts")}</a>'
+        title = (
+            f'<a href="{FOLD}facts" style="color:{ink}; text-decoration:none">{arrow} {self.tr("Facts")}</a>'
+        )
         if not is_open:
             brief = ", ".join(text for name, text in found if name in ("Takes effect", "Access"))
             return title, f'<p style="color:{ink}">{html.escape(brief)}</p>'

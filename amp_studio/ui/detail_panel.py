@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt, QTimer, QUrl, Signal
-from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtGui import QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, real_path, shown_axes
 from amp_studio.schema import Address, Value, convert, limits
 from amp_studio.validate import NOT_SET, SEVERITIES
 
-from .detail_page import CALCULATE, DOWNLOAD, FOLD, MESSAGE, USE, DetailPage
+from .detail_page import CALCULATE, DOWNLOAD, FOLD, MESSAGE, USE, DetailPage, hex_text
 from .pages import LINK
 from .range_bar import RangeBar, ValueInRange
 from .segment import Segment
@@ -23,6 +23,8 @@ from .workspace import Workspace
 
 _MOST_AXES = 8
 """Axes that the segment has room for; the others are chosen in the table."""
+_TWO_COLUMNS, _SIDE_WIDTH = 600, 340
+"""Width from which the value is beside its page, below the table of a narrow window, and its width there."""
 _REST_MS = 150
 """Milliseconds that a selection must rest before the rules are asked which values they allow."""
 
@@ -64,16 +66,19 @@ class DetailPanel(QWidget):
         top.addWidget(self.axes)
         top.addStretch(1)
         top.addWidget(self.value)
-        split = QSplitter(Qt.Orientation.Vertical)
-        split.setChildrenCollapsible(False)
-        split.addWidget(self.word)
-        split.addWidget(self.page)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(GAP2)
-        layout.addLayout(top)
-        layout.addWidget(self.bar)
-        layout.addWidget(split, 1)
+        side = QVBoxLayout()
+        side.addLayout(top)
+        side.addWidget(self.bar)
+        side.addWidget(self.word)
+        side.addStretch()
+        self._side = QWidget()
+        side.setContentsMargins(0, 0, 0, 0)
+        self._side.setLayout(side)
+        self._rows = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        self._rows.setContentsMargins(0, 0, 0, 0)
+        self._rows.setSpacing(GAP2)
+        self._rows.addWidget(self._side)
+        self._rows.addWidget(self.page, 1)
         self.setFocusProxy(self.page)
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
@@ -111,6 +116,14 @@ class DetailPanel(QWidget):
         self.word.show_address(address)
         self._show()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        is_wide = event.size().width() >= _TWO_COLUMNS
+        self._rows.setDirection(
+            QBoxLayout.Direction.LeftToRight if is_wide else QBoxLayout.Direction.TopToBottom
+        )
+        self._side.setMaximumWidth(_SIDE_WIDTH if is_wide else 16_777_215)
+
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
         if self._is_stale:
@@ -136,7 +149,10 @@ class DetailPanel(QWidget):
         self.number.setVisible(bool(number))
         self.name.setText(file.schema.parameters[address[0]].name)
         self.name.setToolTip(file.machine_schema.label(address))
-        self.value.setText(self._writer.shown(address, file.get(address)))
+        value, has_boxes = file.get(address), bool(file.schema.parameters[address[0]].bits)
+        word = value.value if has_boxes and value is not None else None
+        # The names of the bits are on the check boxes below.
+        self.value.setText(hex_text(word) if isinstance(word, int) else self._writer.shown(address, value))
         self._show_axes(address)
         self.bar.show_range(self._in_range(address))
         if self.bar.isVisibleTo(self):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QFontMetrics
+from PySide6.QtCore import QSignalBlocker, QSize, Qt
+from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
@@ -24,14 +24,18 @@ from PySide6.QtWidgets import (
 from amp_studio.schema import Address, field_value
 from amp_studio.schema.model import Bit
 
+from .theme import GAP3, ROW
 from .workspace import Workspace
 
 _SHORT = 12
 """Labels up to this length are shown in several columns."""
 _ROWS = 9
 """Number of check boxes shown without scrolling."""
-_TICK = 40
+_TICK = 44
+"""Width in pixels of a check box with its margins."""
 _LEAST_LETTERS = 15
+_TALLEST = 260
+"""Height in pixels from which the boxes and fields are scrolled."""
 
 
 class WordPanel(QScrollArea):
@@ -161,9 +165,20 @@ class WordPanel(QScrollArea):
         several = short and count > _ROWS
         self.ticks.setFlow(QListView.Flow.LeftToRight if several else QListView.Flow.TopToBottom)
         self.ticks.setWrapping(several)
-        self.ticks.setGridSize(QSize(widest + _TICK, metrics.height() + 6) if several else QSize())
-        rows = -(-count // 3) if several else min(count, _ROWS)
-        self.ticks.setFixedHeight(rows * (metrics.height() + 7) + 8)
+        wide = widest + _TICK
+        self.ticks.setGridSize(QSize(wide, ROW) if several else QSize())
+        columns = max(1, (self.width() - 2 * GAP3) // wide)
+        rows = -(-count // columns) if several else min(count, _ROWS)
+        with QSignalBlocker(self.ticks):  # an item of another size is no tick of a person
+            for n in range(count):
+                self.ticks.item(n).setSizeHint(QSize(wide - 2, ROW - 2) if several else QSize())
+        self.ticks.setFixedHeight(rows * ROW + 8)
+        inside = self.widget()
+        self.setMinimumHeight(min(inside.sizeHint().height() if inside else 0, _TALLEST))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._arrange()
 
     # -- the value -------------------------------------------------------------
 
