@@ -45,6 +45,8 @@ class CellEditor(QLineEdit):
         self.keys: tuple[tuple[str, str], ...] = ()
         """Keys that help with a refused text, and what each does."""
         self._frame: RefusalFrame | None = None
+        self.is_gone = False
+        """Whether its view has given it up: it is still there until the event ends, and may still lose the focus."""
         self.bits: MaskList | None = None
         """The bits of a word, below its field."""
         self.textEdited.connect(self._look)

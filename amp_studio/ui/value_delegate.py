@@ -228,6 +228,15 @@ class ValueDelegate(QStyledItemDelegate):
         if isinstance(editor, ChoiceBox):
             if event.type() == QEvent.Type.FocusOut and editor.view().isVisible():
                 return False  # the open list takes the focus; the editor must stay
+            keys = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+            if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() in keys:
+                self.commitData.emit(
+                    editor
+                )  # Qt would do so after the event, when the list may have closed it
+                self._close(editor)
+                return True
+        elif isinstance(editor, CellEditor) and editor.is_gone:
+            return False
         elif isinstance(editor, CellEditor) and event.type() == QEvent.Type.KeyPress:
             assert isinstance(event, QKeyEvent)
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):

@@ -171,12 +171,22 @@ class ValueTable(QTableView):
         """Close an editor; one that lost the focus with a refused text opens again with it."""
         refusal, address = self._delegate.refusal, self.address()
         if isinstance(editor, CellEditor):
+            if editor.is_gone:
+                return
+            editor.is_gone = True
             if refusal is not None and hint == ValueDelegate.EndEditHint.NoHint and address is not None:
                 text = editor.text()
                 QTimer.singleShot(0, self, lambda: self._mend(address, text, refusal))
             editor.close_frame()
         self._delegate.refusal = None
         super().closeEditor(editor, hint)
+
+    def reset(self) -> None:
+        """Give up open editors: a value may change which rows there are while it is committed."""
+        for editor in self.viewport().findChildren(CellEditor):
+            editor.is_gone = True
+            editor.close_frame()
+        super().reset()
 
     def _mend(self, address: Address, text: str, refusal: Refusal) -> None:
         """Open the editor again with a refused text."""
