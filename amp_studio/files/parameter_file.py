@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import NamedTuple
 
 from amp_studio.schema import (
     Address,
     Evaluation,
     MachineSchema,
+    Parameter,
     Schema,
     Value,
     angular,
@@ -20,6 +22,7 @@ from amp_studio.schema import (
     read_value,
     same_value,
 )
+from amp_studio.schema.model import Default
 
 
 class Change(NamedTuple):
@@ -152,11 +155,12 @@ class ParameterFile:
         A secret of several instances does as a whole or not at all: which sign of a password is the printed one
         would give the rest of it away.
         """
-        parameter, own = self.schema.parameters[address[0]], [address]
-        if parameter.secret:
-            own += [
-                a for i in self.machine_schema.instances(parameter) if (a := (address[0], i)) in self.values
-            ]
+        parameter = self.schema.parameters[address[0]]
+        if not parameter.secret:
+            turns = self.evaluation.turns(address)
+            return _is_printed(self.schema, address[0], address[1], turns, self.values.get(address))
+        every = ((address[0], instance) for instance in self.machine_schema.instances(parameter))
+        own = [address, *(a for a in every if a in self.values)]
         return all(same_value(self.get(a), self.default(a)) for a in own)
 
     def read(self, address: Address, text: str) -> Value:
@@ -313,17 +317,27 @@ class ParameterFile:
 def default_value(schema: Schema, evaluation: Evaluation, address: Address) -> Value | None:
     """Return the printed default of an instance; None where the manual prints none."""
     parameter = schema.parameters[address[0]]
-    default = parameter.default
-    if default is None:
+    if parameter.default is None:
         return None
-    value = (default.instances or {}).get(address[1], default.value)
+    return _printed(parameter, parameter.default, address[1], turns=evaluation.turns(address))
+
+
+@lru_cache(maxsize=65_536)  # every view asks it of every value after every edit
+def _is_printed(schema: Schema, parameter_id: str, instance: str, turns: bool, value: Value | None) -> bool:
+    """Return whether a value is the printed default, on an axis that turns or does not; both may be none."""
+    parameter = schema.parameters[parameter_id]
+    if parameter.default is None:
+        return value is None
+    return same_value(value, _printed(parameter, parameter.default, instance, turns=turns))
+
+
+def _printed(parameter: Parameter, default: Default, instance: str, *, turns: bool) -> Value:
+    value = (default.instances or {}).get(instance, default.value)
     if parameter.type == "boolean":
         return Value(value in ("yes", True))
     if isinstance(value, (str, bool)) or parameter.type == "format":
         return Value(str(value))
-    unit = default.unit
-    if evaluation.turns(address):
-        unit = angular(unit)
+    unit = angular(default.unit) if turns else default.unit
     return Value(int(value) if parameter.type in ("integer", "bits") else float(value), unit)
 
 

@@ -210,7 +210,7 @@ class FindingsPanel(QWidget):
         """List the findings that there are now; the same row stays selected and open, or the one that took its place."""
         workspace = self._workspace
         waiting = [finding for finding in workspace.findings if self._held_back(finding)]
-        reached = [finding for finding in workspace.findings if finding not in waiting]
+        reached = [finding for finding in workspace.findings if not self._held_back(finding)]
         suppressed = workspace.validator.suppressed
         listed = [finding for finding in reached if self._is_listed(finding)]
         if self.suppressed.isChecked():

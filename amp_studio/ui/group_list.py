@@ -40,7 +40,14 @@ class GroupList(QWidget):
         self._fill()
         self.tree.currentItemChanged.connect(self.choose)
         self.tree.itemClicked.connect(self.choose)
+        self._follows = True
         workspace.changed.connect(self._follow)
+
+    def follow_edits(self, follows: bool) -> None:
+        """Keep the counts up to date, or leave them until somebody sees them."""
+        if follows and not self._follows:
+            self.update_counts()
+        self._follows = follows
 
     def _fill(self) -> None:
         schema = self._workspace.file.schema
@@ -133,7 +140,8 @@ class GroupList(QWidget):
         if self._workspace.file.machine != self._machine:  # another machine type has other groups
             self._machine = self._workspace.file.machine
             self._hide_empty()
-        self.update_counts()
+        if self._follows:
+            self.update_counts()
 
     # -- choosing --------------------------------------------------------------
 

@@ -84,6 +84,7 @@ class LeftPanel(QWidget):
         """Show steps, groups or the project; the table stays as it is."""
         self._stack.setCurrentWidget(self._sides[side])
         self.segment.show_choice(side)
+        self.groups.follow_edits(side == "groups")
         self.setFocusProxy(self._sides[side])
 
     def _turn(self, key: str) -> None:

@@ -68,6 +68,7 @@ class Workspace(QObject):
         self.findings: tuple[Finding, ...] = validator.findings() if validator else self.validator.run()
         self._progress: GuideProgress | None = None
         """How far commissioning is, until the findings change."""
+        self._deferred: tuple[GuideProgress, frozenset[int]] | None = None
         self.shows_later = False
         """Whether findings of steps that have not been reached are listed too."""
         self.as_entered = False
@@ -269,7 +270,11 @@ class Workspace(QObject):
 
     def is_deferred(self, finding: Finding) -> bool:
         """Return whether lists leave a present finding out: it is of a step that has not been reached, and nobody has asked for it."""
-        return not self.shows_later and any(finding is later for later in self.progress.deferred)
+        if self.shows_later:
+            return False
+        if self._deferred is None or self._deferred[0] is not self.progress:
+            self._deferred = self.progress, frozenset(map(id, self.progress.deferred))
+        return id(finding) in self._deferred[1]
 
     @property
     def listed(self) -> tuple[Finding, ...]:

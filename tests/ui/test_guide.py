@@ -226,6 +226,7 @@ def test_all_parameters_have_the_counts_of_every_group(fresh: MainWindow) -> Non
     missing = len(fresh.workspace.validator.not_set)
     assert (every.text(0), every.data(0, RIGHT)) == ("All parameters", str(missing))
     fresh.workspace.show_later(True)
+    fresh.page.left.show_side("groups")
     counts = dict(every.data(0, COUNTS))
     assert counts["error"] == fresh.workspace.count("error") > 10
 
