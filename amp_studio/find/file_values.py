@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -21,6 +22,8 @@ from amp_studio.schema import (
 from .entries import Entry
 from .words import words_of
 
+_HEX = re.compile("0[xX][0-9a-fA-F]{1,16}")
+
 
 class Number(NamedTuple):
     """A number as it is asked for; ``unit`` is None where none was written."""
@@ -30,7 +33,9 @@ class Number(NamedTuple):
 
 
 def asked_number(query: str) -> Number | None:
-    """Return the number that a question is: ``12.7``, ``12.7 mm``; None where it is something else."""
+    """Return the number that a question is: ``12.7``, ``12.7 mm``, ``0x0F``; None where it is something else."""
+    if _HEX.fullmatch(query.strip()):
+        return Number(int(query, 16), "")
     try:
         value, rest = read_number(query.strip())
         return Number(value, unit_named(rest) if rest.strip() else None)

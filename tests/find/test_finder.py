@@ -66,6 +66,14 @@ def test_a_choice_that_the_file_has_is_a_value_of_the_axes_that_have_it(finder: 
     ]
 
 
+def test_a_mask_is_found_by_its_hexadecimal_number() -> None:
+    num = open_file(EXAMPLES / "num-1060-mill" / "MILL_1060.amp").file
+    found = {
+        hit.key for hit in Finder(num.schema, num.machine, num).find("0x0000000F") if hit.kind == "value"
+    }
+    assert {"axes.measured", "axes.servoed"} <= found
+
+
 def test_the_choices_of_a_parameter_are_not_listed_for_its_name_alone(finder: Finder) -> None:
     assert [hit.kind for hit in finder.find("baud rate") if hit.kind in ("choice", "value")] == []
     assert any(hit.title == "2 MHz" for hit in finder.find("2 mhz"))
