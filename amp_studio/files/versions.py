@@ -32,7 +32,7 @@ def before_saves(file: ParameterFile, entries: Sequence[HistoryEntry]) -> Parame
     for entry in entries:
         address = read_address(entry.param)
         parameter = twin.schema.parameters.get(address[0])
-        if parameter is None or parameter.secret:
+        if parameter is None or parameter.secret or address not in twin.machine_schema.places:
             continue
         try:
             twin.set(address, read_stored(twin.schema, parameter, entry.old) if entry.old else None)

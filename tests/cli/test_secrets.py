@@ -67,6 +67,8 @@ def test_the_nine_pc_has_a_password_and_its_signature_is_what_it_was() -> None:
     ("diff", "FILE", "OTHER"), ("diff", "OTHER", "FILE", "--json"), ("diff", "FILE", "UNSET"),
     ("diff", "UNSET", "FILE", "--json"), ("diff", "FILE", "UNREADABLE"), ("get", "UNREADABLE"),
     ("set", "UNREADABLE", "NUMBER=66"), ("merge", "UNSET", "FILE", "OTHER", "-o", "NEW"),
+    ("merge", "UNSET", "FILE", "OTHER", "--dry-run", "--json"), ("diff", "FILE", "OTHER", "--base", "UNSET", "--json"),
+    ("diff", "FILE", "OTHER", "--base", "UNSET"), ("diff", "FILE", "--defaults"),
     ("set", "FILE", "NUMBER=66"), ("set", "FILE", "NUMBER=not-set"), ("set", "FILE", "NUMBER=1"),
     ("set", "FILE", "NUMBER=7654321x"), ("set", "OTHER", "NUMBER=7654321", "--force"),
 ], ids=" ".join)  # fmt: skip

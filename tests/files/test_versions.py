@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Document, compare, new_file
+from amp_studio.files import Document, HistoryEntry, compare, new_file
 from amp_studio.files.versions import before_saves, with_defaults
 from amp_studio.schema import Value, family_ids
 
@@ -46,6 +46,12 @@ def test_the_history_leads_back_to_what_a_file_was(document: Document) -> None:
     entries = document.history()
     assert before_saves(document.file, entries[:1]).get(CALIBRATION) == Value(1.0, "mm")
     assert before_saves(document.file, entries).get(CALIBRATION) == Value(0.0, "mm")
+
+
+@pytest.mark.parametrize("param", ["home.calibration@99", "no.such", "home.calibration@1@2", "\ud800", ""])
+def test_an_entry_of_the_history_that_means_nothing_changes_nothing(document: Document, param: str) -> None:
+    entry = HistoryEntry("2026-01-01T00:00:00+00:00", "J. Doe", "edit", param, "5 mm", "6 mm")
+    assert before_saves(document.file, [entry]).values == document.file.values
 
 
 @pytest.mark.parametrize("family", family_ids())

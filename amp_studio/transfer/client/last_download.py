@@ -8,10 +8,10 @@ from pathlib import Path
 
 from amp_studio.files import ParameterFile, real_path, secret_values, text_of_name
 from amp_studio.files.by_schema import by_schema
-from amp_studio.files.reading import ParameterFileError, read_stored
+from amp_studio.files.reading import read_stored
 from amp_studio.schema import InvalidValueError, read_address
 
-from .kept import CopyError, open_copy
+from .kept import open_copy
 from .record import Exchange, read_exchanges
 from .verification import completed
 
@@ -61,7 +61,7 @@ def _content(each: Exchange, wanted: str, file: ParameterFile, folder: Path) -> 
     path = path if path.is_file() else folder / path.name  # the folder may have been moved
     try:
         copy = open_copy(path)
-    except (CopyError, ParameterFileError, OSError):
+    except (OSError, ValueError):
         return None
     if copy.file is None or copy.file.schema.family.family != file.schema.family.family:
         return None
@@ -80,7 +80,7 @@ def _changed(held: ParameterFile, each: Exchange, file: ParameterFile) -> Parame
     for entry, _, text in each.changes:
         address = read_address(entry)
         parameter = found.schema.parameters.get(address[0])
-        if parameter is None or parameter.secret:
+        if parameter is None or parameter.secret or address not in found.machine_schema.places:
             continue
         try:
             found.set(address, read_stored(found.schema, parameter, text) if text else None)

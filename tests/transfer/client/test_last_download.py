@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from pathlib import Path
 
 import pytest
@@ -72,3 +73,22 @@ def test_without_a_record_or_without_the_kept_copy_it_says_so(path: Path) -> Non
     kept.unlink()
     with pytest.raises(NoDownloadError, match="the copy that was kept before it is not in"):
         last_download(mill(9.0), path)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        {"kept": "/dev/zero"}, {"kept": "\0"}, {"kept": "\ud800.img"}, {"kept": ""}, {"kept": ".."},
+        {"changes": [["home.calibration@99", "", "1 mm"], ["no.such", "", "1"], ["home.calibration@1", "", "much"]]},
+        {"after": "0" * 64},
+    ],
+)  # fmt: skip
+def test_a_damaged_record_is_no_more_than_no_download(path: Path, line: dict[str, object]) -> None:
+    record(path, mill(0.0), mill(1.0))
+    place = path.with_name("exchanges.jsonl")
+    place.write_text(json.dumps(json.loads(place.read_text()) | line) + "\n")
+    try:
+        found = last_download(mill(9.0), path)
+    except NoDownloadError:
+        return
+    assert set(found.file.values) == set(mill(9.0).values)
