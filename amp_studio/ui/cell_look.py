@@ -52,8 +52,9 @@ class CellLook:
     has_note: bool = False
 
 
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("ParameterTable", text)
+def tr(text: str) -> str:
+    """Return a text in the language of the window."""
+    return QCoreApplication.translate("ShownValues", text)
 
 
 @lru_cache(maxsize=2_000)
@@ -149,7 +150,7 @@ class ShownValues(Translated):
         """Return what a cell means beyond its value: findings, why it is inactive, what the control uses instead."""
         file = self.workspace.file
         if not self.exists(address):
-            return _tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
+            return tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
         state = file.evaluation.state(address)
         lines = [self.text(address, file.get(address))]
         lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
@@ -158,17 +159,17 @@ class ShownValues(Translated):
             lines.append(f"{state_name(state.state).capitalize()}: {state.why}{page}")
         if address in self.effective:
             used = self.text(address, self.effective[address])
-            lines.append(_tr("Effective value in the control: {value}").format(value=used))
+            lines.append(tr("Effective value in the control: {value}").format(value=used))
         if address in file.forced:
-            lines.append(_tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
+            lines.append(tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
         if note := value_note(file, address):
-            lines.append(_tr("Note: {text}").format(text=note))
+            lines.append(tr("Note: {text}").format(text=note))
         value, saved = file.get(address), self.workspace.document.saved.get(address)
         if value != saved:
-            lines.append(_tr("Saved: {value}").format(value=self.text(address, saved)))
+            lines.append(tr("Saved: {value}").format(value=self.text(address, saved)))
         if value is not None and self.in_units(address, value) != value:
             entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
-            lines.append(_tr("Entered as {value}").format(value=entered))
+            lines.append(tr("Entered as {value}").format(value=entered))
         return "\n".join(lines)
 
     # -- looks -----------------------------------------------------------------

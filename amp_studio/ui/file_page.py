@@ -196,6 +196,12 @@ class FilePage(QWidget):
         ]
         numbers = [v.value for v in values if not isinstance(v.value, (str, bool))]
         parts = [self.tr("%n cells", "", len(chosen))]
+        if len({a[0] for a in chosen}) == 1:
+            ends = [axis_letter(self.workspace.file, a[1]) for a in (chosen[0], chosen[-1])]
+            name = describe(self.workspace.file, chosen[0])
+            span = self.tr("{first} to {last}").format(first=ends[0], last=ends[1]) if all(ends) else ""
+            of = ", ".join(filter(None, (name, span)))
+            parts = [self.tr("%n cells of {name}", "", len(chosen)).format(name=of)]
         if numbers and len(numbers) == len(values) and len({v.unit for v in values}) == 1:
             unit = f" {shown(values[0].unit)}" if values[0].unit else ""
             parts.append(self.tr("min {number}").format(number=f"{write_figure(min(numbers))}{unit}"))

@@ -53,7 +53,7 @@ def test_shift_and_arrows_select_a_range_and_the_status_bar_sums_it_up(window: M
     for _ in range(2):
         QTest.keyClick(window.table_view, KEY.Key_Right, SHIFT)
     assert window.table_view.cells.addresses() == [(EXCESS, axis) for axis in "123"]
-    assert window.page.address_text() == "3 cells   min 11 mm   max 11 mm"
+    assert window.page.address_text() == "3 cells of 1750 Excess Error, X to Z   min 11 mm   max 11 mm"
 
 
 def test_keys_pass_over_what_does_not_exist(window: MainWindow, file: ParameterFile) -> None:
