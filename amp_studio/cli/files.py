@@ -161,7 +161,7 @@ def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
             "forced": address in file.forced}  # fmt: skip
 
 
-def _row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
+def value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
     """Return a value as ``get --json`` gives it; a secret that is set has neither value nor raw unless asked for."""
     parameter, value = file.schema.parameters[address[0]], file.get(address)
     masked = parameter.secret and not secrets
@@ -193,7 +193,7 @@ def _print_not_set(options: argparse.Namespace, file: ParameterFile, only: set[A
     validator, rows = Validator(file, rules_beside(options.path, file.schema)), []
     for each in progress(validator, validator.run()).steps:
         found = [address for address in each.open if only is None or address in only]
-        rows += [_row(file, address, options.secrets) | {"step": each.step.number} for address in found]
+        rows += [value_row(file, address, options.secrets) | {"step": each.step.number} for address in found]
         if found and not options.json:
             print(f"Step {each.step.number}: {each.step.title}")
             for address in found:
@@ -231,7 +231,7 @@ def get_verb(options: argparse.Namespace) -> int:
                 shown = "not set" if rows[-1]["value"] is None else rows[-1]["value"]
                 print(f"{rows[-1]['param']} {rows[-1]['label']:40} {shown}")
             continue
-        rows.append(_row(file, address, options.secrets))
+        rows.append(value_row(file, address, options.secrets))
         if not options.json:
             mark = "" if rows[-1]["default"] else " *"
             state = (

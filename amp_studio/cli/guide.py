@@ -31,6 +31,7 @@ from amp_studio.validate import SEVERITIES, Validator, rules_beside
 
 from .console import family, note, print_json
 from .errors import UsageError
+from .files import value_row
 from .output import check_replaced, note_all
 
 _MARKS = {"not begun": " ", "begun": "~", "done": "x", "not needed": "-"}
@@ -239,8 +240,18 @@ def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupSt
         "current": come.current.step.id if come.current else None,
         "next": None if following is None else _open_json(file, following),
         "later": {f"{key}s" if key != "advice" else key: sum(f.severity == key for f in come.deferred) for key in SEVERITIES},
-        "steps": [_step_json(file, each) for each in come.steps if only in (None, each.step)],
+        "steps": [
+            _step_json(file, each) | ({} if only is None else {"values": _values_json(file, each)})
+            for each in come.steps if only in (None, each.step)
+        ],
     }  # fmt: skip
+
+
+def _values_json(file: ParameterFile, each: StepProgress) -> list[dict[str, Any]]:
+    """Return every active value of a step, set or not, in the form of ``get --json``."""
+    instances = ((p.id, file.machine_schema.instances(p)) for p in each.step.parameters)
+    every = [(name, instance) for name, places in instances for instance in places]
+    return [value_row(file, a, secrets=False) for a in every if file.evaluation.state(a).is_active]
 
 
 def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:

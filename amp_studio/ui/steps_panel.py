@@ -188,7 +188,8 @@ class StepsPanel(QWidget):
 
     def _follow(self, _: object) -> None:
         """Show the progress after the present edit, and only where somebody sees it."""
-        self._later.start(0)
+        if self.isVisible():
+            self._later.start(0)
 
     def showEvent(self, event: object) -> None:
         self.show_progress()

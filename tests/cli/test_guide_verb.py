@@ -62,6 +62,9 @@ def test_a_step_is_shown_by_number_and_by_id(amp, fresh: Path) -> None:
     assert "1010 G28 Direction to Home                           not set  plus / minus" in said
     only = amp("guide", fresh, "home", "--json").json["steps"]
     assert [step["id"] for step in only] == ["home"]
+    values = {value["param"]: value["value"] for value in only[0]["values"]}
+    assert values["1300"] == 0.0
+    assert values["1010"] is None
 
 
 def test_the_next_value_comes_with_its_help_and_the_one_after_it_on_request(amp, fresh: Path) -> None:
