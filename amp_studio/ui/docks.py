@@ -71,7 +71,7 @@ class Docks(Translated):
 
     def _share_the_bottom(self) -> None:
         """Make room for the parameter in the dock of the findings, with a segment that chooses between them."""
-        below = self._dock(self.tr("Findings"))
+        below = self._dock("Findings")
         self._bottom = QStackedWidget()
         self._bottom.addWidget(self._stacks["Findings"])
         below.setWidget(self._bottom)
@@ -80,8 +80,7 @@ class Docks(Translated):
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
         self.chooser = Segment(
-            _name(self.tr("Panel")),
-            [(title, _name(title), "") for title in (self.tr("Findings"), self.tr("Parameter"))],
+            self.tr("Panel"), [(title, _name(title), "") for title in ("Findings", "Parameter")]
         )
         self.chooser.layout().setContentsMargins(GAP2, 0, GAP2, 0)
         self.chooser.chosen.connect(self._turn_bottom)
@@ -169,8 +168,8 @@ class Docks(Translated):
         self._size = size
         if self._is_first or self._arranged is not None:
             return
-        self._take(self.tr("Parameter"), size.width() < WIDE)
-        self._take(self.tr("Groups"), size.width() < LEFT_WIDE)
+        self._take("Parameter", size.width() < WIDE)
+        self._take("Groups", size.width() < LEFT_WIDE)
         self._fold(size.height() < LOW)
 
     def show(self, title: str) -> None:
@@ -179,7 +178,7 @@ class Docks(Translated):
         if title == "Parameter" and title in self._taken:
             self.chooser.show_choice(title)
             self._turn_bottom(title)
-            dock = self._dock(self.tr("Findings"))
+            dock = self._dock("Findings")
         elif title == "Findings":
             self.chooser.show_choice(title)
             self._turn_bottom(title)
@@ -209,7 +208,7 @@ class Docks(Translated):
         stack, head, dock = (
             self._stacks["Parameter"],
             self._heads["Parameter"],
-            self._dock(self.tr("Parameter")),
+            self._dock("Parameter"),
         )
         if into is not None and heads is not None:
             into.addWidget(stack)
@@ -224,8 +223,8 @@ class Docks(Translated):
         self.chooser.setVisible(into is not None)
         for title in self._heads["Findings"].findChildren(QLabel, "title"):
             title.setVisible(into is None)  # the chooser has the word
-        self.chooser.show_choice(self.tr("Findings"))
-        self._turn_bottom(self.tr("Findings"))
+        self.chooser.show_choice("Findings")
+        self._turn_bottom("Findings")
 
     def _turn_bottom(self, title: str) -> None:
         if self._bottom.indexOf(self._stacks[title]) >= 0:
@@ -237,7 +236,7 @@ class Docks(Translated):
     def _fold(self, is_low: bool) -> None:
         """Show the head of the findings alone, or all of them."""
         self._bottom.setVisible(not is_low)
-        self._dock(self.tr("Findings")).setMaximumHeight(HEAD if is_low else 16_777_215)
+        self._dock("Findings").setMaximumHeight(HEAD if is_low else 16_777_215)
 
     def _widen(self) -> None:
         """Put back what a small window has taken away, so that an arrangement is that of a large one."""
@@ -247,7 +246,14 @@ class Docks(Translated):
 
 
 def _name(title: str) -> str:
-    return QCoreApplication.translate("Docks", title)
+    """Return the name of a dock for a person; its key stays the same in every language."""
+    translate = QCoreApplication.translate
+    names = {
+        "Groups": translate("Docks", "Groups"),
+        "Parameter": translate("Docks", "Parameter"),
+        "Findings": translate("Docks", "Findings"),
+    }
+    return names[title]
 
 
 def _head_of(panel: QWidget, title: str) -> QWidget:

@@ -224,4 +224,4 @@ class StudioWindow(QMainWindow):
             self.tr("&Discard"),
             self.tr("Cancel"),
         )
-        return self.save(page) if answer == self.tr("&Save") else answer == "&Discard"
+        return self.save(page) if answer == self.tr("&Save") else answer == self.tr("&Discard")

@@ -57,13 +57,13 @@ class ViewActions(Translated):
         self.panels = panels = menu.addMenu(self.tr("&Go To"))
         for n, (title, panel) in enumerate(
             (
-                (self.tr("&Groups"), self.tr("Groups")),
-                (self.tr("&Parameter Help"), self.tr("Parameter")),
-                (self.tr("&Findings"), self.tr("Findings")),
+                (self.tr("&Groups"), "Groups"),
+                (self.tr("&Parameter Help"), "Parameter"),
+                (self.tr("&Findings"), "Findings"),
             ),
             2,
         ):
-            panels.addAction(act(title, partial(window.show_panel, panel), self.tr("Ctrl+{n}").format(n=n)))
+            panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
         panels.insertAction(panels.actions()[0], act(self.tr("&Table"), self._to_table, self.tr("Ctrl+1")))
         menu.addSeparator()
         tabs = window.tabs
