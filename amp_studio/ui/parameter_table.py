@@ -62,6 +62,8 @@ class ParameterTable(QAbstractTableModel):
         self.outline_severity = ""
         self.values = ShownValues(workspace)
         self._filter: RowFilter | None = None
+        self._unfiltered: list[list[Address]] | None = None
+        """What ``unfiltered`` returns, until rows or columns may be others."""
         self._shows_commands = False
         self._heads: dict[int, str] = {}
         """TableRow -> its head, for the rows that are shown."""
@@ -101,10 +103,12 @@ class ParameterTable(QAbstractTableModel):
 
     def unfiltered(self) -> list[list[Address]]:
         """Return the values of each row that the list has without the filter, in the columns that are shown."""
-        here, exists = set(self.columns), self.values.exists
-        rows = (row for p in self.asked for row in self._layout(p))
-        cells = ([a for c, a in row.cells.items() if c in here and exists(a)] for row in rows)
-        return [addresses for addresses in cells if addresses]
+        if self._unfiltered is None:
+            here, exists = set(self.columns), self.values.exists
+            rows = (row for p in self.asked for row in self._layout(p))
+            cells = ([a for c, a in row.cells.items() if c in here and exists(a)] for row in rows)
+            self._unfiltered = [addresses for addresses in cells if addresses]
+        return self._unfiltered
 
     def outline(self, addresses: frozenset[Address], severity: str) -> None:
         """Outline the cells of the selected finding, in the colour of its severity."""
@@ -158,6 +162,7 @@ class ParameterTable(QAbstractTableModel):
 
     def _rows(self, columns: list[str]) -> list[TableRow]:
         """Return the rows with at least one value that is not hidden, each group under its name."""
+        self._unfiltered = None
         known = [row for p in self.asked for row in self._layout(p)]
         exists, here = self.values.exists, set(columns)
         shown = known
