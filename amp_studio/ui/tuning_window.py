@@ -70,7 +70,7 @@ class TuningWindow(QWidget):
         self.send = self._button(self.tr("Do&wnload Values"), self._send, "arrow-line-down")
         self.look = self._button(self.tr("Read A&gain"), self._look, "arrow-line-up")
         self.put_back = self._button(self.tr("Put Old Values &Back"), self._put_back, "arrow-u-up-left")
-        self.take = self._button(self.tr("Take Into F&ile"), self._take, "floppy-disk")
+        self.take = self._button(self.tr("Take Into Fil&e"), self._take, "floppy-disk")
         self.pages, self.stack = QListWidget(), QStackedWidget()
         self.pages.setAccessibleName(self.tr("Pages"))
         self.answer: StepAnswer | None = None

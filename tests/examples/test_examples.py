@@ -170,11 +170,10 @@ def test_nothing_but_the_file_its_project_and_its_readme_is_shipped(example: Pat
 
 
 def test_the_measured_points_of_the_mill_give_back_the_lost_motion_they_were_made_with(
-    example: Path, capsys
+    checkout: Path, capsys
 ) -> None:
+    example = checkout / "examples" / "mill-1394" / "MILL_1394.amp"
     points = example.parent / "laser-x.csv"
-    if not points.exists():
-        pytest.skip("only the mill has measured points")
     line = [
         "calibrate",
         str(example),

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, new_file, open_file
@@ -324,18 +324,29 @@ def start_house(tmp_path: Path, path: Path) -> Callable[[], LiveTuning]:
 # -- manners --------------------------------------------------------------------------------------
 
 
-def test_every_view_has_a_name_and_no_two_buttons_of_a_page_share_a_letter(tuning: TuningWindow) -> None:
-    for n in range(tuning.stack.count()):
+def demand_manners(tuning: TuningWindow) -> None:
+    """Every view of every page has a name, and no letter of Alt means two things."""
+    for n in range(tuning.pages.count()):
         tuning.pages.setCurrentRow(n)
-        letters = [
-            text[text.index("&") + 1].upper()
-            for button in tuning.findChildren(QAbstractButton)
-            if button.isVisible() and "&" in (text := button.text())
+        QApplication.processEvents()
+        texts = [
+            w.text()
+            for w in (*tuning.findChildren(QAbstractButton), *tuning.findChildren(QLabel))
+            if w.isVisible()
         ]
+        letters = [text[text.index("&") + 1].upper() for text in texts if "&" in text]
         assert len(set(letters)) == len(letters), (tuning.pages.item(n).text(), letters)
         for view in tuning.stack.widget(n).findChildren(QWidget):
             if view.isVisible() and view.metaObject().className() in ("QTableWidget", "QComboBox"):
                 assert view.accessibleName(), view
+
+
+def test_every_view_has_a_name_and_no_two_texts_of_a_page_share_a_letter(tuning: TuningWindow) -> None:
+    demand_manners(tuning)
+
+
+def test_the_same_is_true_with_a_control(live) -> None:
+    demand_manners(live[0])
 
 
 def test_a_family_whose_manual_tunes_nothing_names_that(open_window, person: Person, tmp_path: Path) -> None:
