@@ -38,6 +38,7 @@ from .model import (
 )
 from .model_errors import Slip, slips
 from .nearest import unknown_name
+from .picture_faults import faults_of_pictures
 from .quoting import LONGEST, quoted, short
 from .registration import added_facts
 from .units import UNITS_FILE
@@ -128,9 +129,8 @@ def compile_family(folder: Path) -> Compiled:
         raise DatabaseError(order, _parsed(order).line(wrong[0]), wrong[1])
     drawn = folder / "pictures.yaml"
     pictures = _read(drawn, PictureRoles) if drawn.exists() else PictureRoles()
-    ids = {p.id for group in groups for p in group.parameters}
-    if missing := next((each for each in pictures.params if each not in ids), None):
-        raise DatabaseError(drawn, 1, f"there is no parameter {quoted(missing)}")
+    if wrong := next(iter(faults_of_pictures(pictures, groups)), None):
+        raise DatabaseError(drawn, _parsed(drawn).line(wrong[0]), wrong[1])
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")

@@ -87,6 +87,8 @@ class PictureActions(QObject):
         assert page is not None
         self.show(page, True)
         card = self.pages(page).chosen_card
+        if card is None:
+            return
         own = page.workspace.path
         name = own.with_name(f"{own.stem}-{card.picture.name}.svg")
         text, _ = QFileDialog.getSaveFileName(self.window, self.tr("Save Picture"), str(name), "SVG (*.svg)")

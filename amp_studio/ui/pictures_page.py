@@ -100,6 +100,10 @@ class PicturesPage(QWidget):
     def _build(self) -> None:
         options = [(name, picture.title, "") for name, picture in self._pictures.items()]
         self.names.offer([(ALL, self.tr("All"), ""), *options])
+        if not self._pictures:
+            nothing = QLabel(self.tr("This family has no pictures."))
+            nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+            self.grid.addWidget(nothing, 0, 0)
         self.show_picture(ALL)
 
     def card(self, name: str) -> PictureCard:
@@ -115,9 +119,9 @@ class PicturesPage(QWidget):
         return self.cards[name]
 
     @property
-    def chosen_card(self) -> PictureCard:
-        """The picture of the chosen handle, or the first one that is seen."""
-        return self._active if self._active in self._seen and self._active else self._seen[0]
+    def chosen_card(self) -> PictureCard | None:
+        """The picture of the chosen handle, or the first one that is seen; None where the family has none."""
+        return self._active if self._active in self._seen else next(iter(self._seen), None)
 
     @property
     def shown(self) -> str:

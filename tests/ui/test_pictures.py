@@ -9,6 +9,7 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel
 
 from amp_studio.schema import Value
 from amp_studio.ui.pictures_page import PicturesPage
@@ -290,6 +291,15 @@ def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_pan
     card.canvas.choose(0)
     wanted = card.canvas.handle.drags[0].address
     qtbot.waitUntil(lambda: window.page.detail._address == wanted)
+
+
+def test_a_family_without_pictures_says_so(qtbot, workspace, monkeypatch):
+    monkeypatch.setattr("amp_studio.ui.pictures_page.pictures_of", lambda _: ())
+    page = PicturesPage(workspace)
+    qtbot.addWidget(page)
+    page.show()
+    assert page.chosen_card is None
+    assert "This family has no pictures." in {label.text() for label in page.findChildren(QLabel)}
 
 
 def test_a_value_without_a_handle_opens_all_pictures(window):

@@ -1,5 +1,6 @@
 """Which parameters a picture is drawn from: their roles in it. No drawing knows a family; it knows these roles."""
 
+from collections.abc import Iterator
 from typing import Literal, Self
 
 from pydantic import model_validator
@@ -216,7 +217,7 @@ class PictureRoles(Model):
     @property
     def params(self) -> tuple[ParameterId, ...]:
         """Every parameter that has a role."""
-        return tuple(dict.fromkeys(_named(self)))
+        return tuple(dict.fromkeys(named for _, named in parameters_named(self)))
 
 
 _NO_PARAMETERS = {
@@ -237,14 +238,16 @@ _NO_PARAMETERS = {
 """Fields with texts that name no parameter."""
 
 
-def _named(model: Model) -> list[ParameterId]:
-    """Return the parameters that a record names, in the order of its fields."""
-    found: list[ParameterId] = []
+def parameters_named(
+    model: Model, place: tuple[str | int, ...] = ()
+) -> Iterator[tuple[tuple[str | int, ...], ParameterId]]:
+    """Yield the parameters that a record names, each with its place in the file."""
     for name in type(model).model_fields:
         value = getattr(model, name)
-        for entry in value if isinstance(value, tuple) else (value,):
+        several = isinstance(value, tuple)
+        for n, entry in enumerate(value if several else (value,)):
+            here = (*place, name, n) if several else (*place, name)
             if isinstance(entry, Model):
-                found += _named(entry)
+                yield from parameters_named(entry, here)
             elif isinstance(entry, str) and name not in _NO_PARAMETERS:
-                found.append(entry)
-    return found
+                yield here, entry
