@@ -24,8 +24,8 @@ KINDS: dict[HitKind, float] = {
 """What a kind is worth among others whose words match as well: the parameter before its choice, that before its group."""
 
 
-_ESTOP = "E-Stop estop emergency stop held"
-"""How people call what a message is that holds the control in E-Stop."""
+_ESTOP = "E-Stop estop emergency stop"
+"""What people call the reaction of a control to such a message."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,9 @@ from collections.abc import Iterable
 _WORD = re.compile(r"\d+(?:\.\d+)+|[^\W_]+")
 _PARTS = re.compile(r"\d+|[^\W\d]+")
 _COMMON = frozenset(
-    ("a", "an", "and", "are", "as", "at", "be", "by", "do", "does", "for", "from", "how", "i", "in", "is", "it", "my",
-     "of", "on", "or", "per", "the", "to", "what", "when", "why", "with")
+    ("a", "an", "and", "are", "as", "at", "be", "by", "come", "comes", "do", "does", "for", "from", "goes", "how", "i",
+     "in", "into", "is", "it", "my", "of", "on", "or", "per", "shows", "that", "the", "there", "this", "to", "what", "when",
+     "where", "which", "why", "with")
 )  # fmt: skip
 """Words that decide nothing in a question; they count where they are all that is asked."""
 _SHORTEST = 4

@@ -132,7 +132,7 @@ def test_the_number_of_an_error_says_which_axis_it_means() -> None:
     assert "following-error-too-large" not in {hit.key for hit in of_family("num").find("error 72")}
 
 
-@pytest.mark.parametrize("query", ["estop", "held in e-stop", "why emergency stop"])
+@pytest.mark.parametrize("query", ["estop", "goes into e-stop", "why emergency stop"])
 def test_the_reasons_of_an_e_stop_are_found_by_it(query: str) -> None:
     finder = of_family("9pc")
     found = {hit.key for hit in finder.find(query) if hit.kind == "message"}
