@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
@@ -90,6 +91,9 @@ class MergeWindow(QDialog):
         layout.setStretchFactor(self.tree, 1)
         self.tree.setStyleSheet("QTreeView { border: 0 }")
         self.tree.setFocus()
+        order = (self.view.next, *self.head.buttons.values(), self.tree, self.detail.buttons["base"])
+        for first, second in pairwise(order):
+            self.setTabOrder(first, second)
 
     def _connect(self, save_result: SaveResult) -> None:
         view, tree, sources = self.view, self.tree, self.sources

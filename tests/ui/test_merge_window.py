@@ -20,6 +20,7 @@ from amp_studio.ui.merge_sources import MergeSource
 from amp_studio.ui.merge_window import MergeWindow
 
 from .conftest import WAIT_MS, Person, action, on_disk
+from .test_accessible import nameless
 
 EXCESS = ("servo.excess_error", "1")
 CALIBRATION = ("home.calibration", "1")
@@ -533,3 +534,22 @@ def test_a_screen_reader_is_told_whose_value_it_is_and_whether_the_result_takes_
     assert said == ["A: 1 mm, taken", "B: 0 mm", "Result: 1 mm"]
     for widget in (three.tree, three.view.search, three.head.buttons[A], three.findings, three.view.swap):
         assert QAccessible.queryAccessibleInterface(widget).text(QAccessible.Text.Name)
+
+
+def test_every_part_of_the_window_has_a_name(three: MergeWindow) -> None:
+    show(three, EXCESS)
+    three.outcome.found.setChecked(True)
+    assert nameless(three) == []
+
+
+def test_tab_goes_from_the_filter_over_the_sources_to_the_rows_and_on_to_the_choices(
+    three: MergeWindow,
+) -> None:
+    show(three, EXCESS)
+    three.view.search.setFocus()
+    seen = []
+    for _ in range(12):
+        QTest.keyClick(three.focusWidget(), Qt.Key.Key_Tab)
+        seen.append(three.focusWidget())
+    order = [three.view.next, three.head.buttons[A], three.tree, three.detail.other, three.outcome.report]
+    assert [each for each in seen if each in order] == order
