@@ -313,6 +313,14 @@ class FindingsPanel(QWidget):
                 own = self.model.index(group.findings.index(finding), 0, rule)
                 self.view.setCurrentIndex(own if len(group.findings) > 1 else rule)
 
+    def step(self, by: int) -> None:
+        """Go to the next rule that is not met, or to the one before, and to the value that causes it."""
+        current = self.view.currentIndex()
+        row = (current.parent() if current.parent().isValid() else current).row()
+        if self.model.groups:
+            self.view.setCurrentIndex(self.model.index((row + by) % len(self.model.groups), 0))
+            self._activate()
+
     def fix(self) -> None:
         """Ask to apply the suggested fixes of the selected row."""
         able = tuple(finding for finding in self.current_findings() if finding.fix)

@@ -74,7 +74,11 @@ class MainWindow(StudioWindow):
         )
         self._help_menu()
         self._toolbar()
-        self.view.panels.addAction(self.action(self.tr("&Reset Layout"), self.docks.reset))
+        self.view.panels.addActions([
+            self.action(self.tr("&Next Finding"), partial(self._step_findings, 1), "Alt+Down"),
+            self.action(self.tr("Pre&vious Finding"), partial(self._step_findings, -1), "Alt+Up"),
+            self.action(self.tr("&Reset Layout"), self.docks.reset),
+        ])  # fmt: skip
         self.welcome = WelcomePage(self, self.files, self.projects.open)
         self.centre = QStackedWidget()
         self.centre.addWidget(self.welcome)
@@ -162,6 +166,10 @@ class MainWindow(StudioWindow):
 
     def _fill_cells(self, pairs: dict[Address, Address]) -> None:
         self.guarded(lambda: self.edits.range.fill_from(pairs), self.tr("Fill"))
+
+    def _step_findings(self, by: int) -> None:
+        if self.findings is not None:
+            self.findings.step(by)
 
     def _why(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.why(finding), self.tr("Explain"))

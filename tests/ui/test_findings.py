@@ -17,6 +17,8 @@ from amp_studio.ui.findings_panel import FindingsPanel
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.workspace import Workspace
 
+from .conftest import action
+
 EXCESS = ("servo.excess_error", "1")
 
 
@@ -313,3 +315,16 @@ def test_what_the_control_uses_instead_stands_behind_an_arrow(path, open_window)
     window.go_to(EXCESS)
     assert window.table.cell_text(EXCESS).endswith(" → 1 mm")
     assert "1 mm effective value in the control" in window.detail.page.toPlainText()
+
+
+def test_keys_go_from_finding_to_finding_and_their_values(path, bare: bytes, open_window) -> None:
+    path.write_bytes(bare)
+    window = open_window(path)
+    window.findings.show_all()
+    groups = window.findings.model.groups
+    window.findings.view.setCurrentIndex(window.findings.model.index(0, 0))
+    action(window, "Next Finding").trigger()
+    assert window.selected() == groups[1].findings[0].addresses[0]
+    for _ in range(2):
+        action(window, "Previous Finding").trigger()
+    assert window.findings.view.currentIndex().row() == len(groups) - 1
