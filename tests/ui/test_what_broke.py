@@ -89,12 +89,12 @@ def test_only_the_cell_that_caused_a_finding_is_tinted(window: MainWindow) -> No
     assert tinted == causes
 
 
-def test_an_answer_of_the_find_box_moves_the_left_panel_too(window: MainWindow) -> None:
+def test_an_answer_of_the_find_box_moves_the_left_panel_too(window: MainWindow, qtbot: QtBot) -> None:
     window.page.left.show_side("groups")
     box = window.finder.box
     box.begin("")
-    box.setText("1300")
-    box.search()
+    qtbot.waitUntil(lambda: window.finder._finder() is not None, timeout=WAIT_MS)
+    QTest.keyClicks(box, "1300")
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert window.selected()[0] == "home.calibration"
     item = window.page.groups.tree.currentItem()
