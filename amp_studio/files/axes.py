@@ -62,6 +62,8 @@ def axis_kind(file: ParameterFile, axis: str) -> str:
     """Return how an axis moves, as its head shows it: its type, ``linear`` or ``rotary``; "" where the family has no such fact."""
     if file.schema.family.axes:
         return axis_type(file, axis)
+    if use := other_use(file, axis):
+        return use
     if file.schema.family.angular_when is None or not is_fitted(file.evaluation, axis):
         return ""
     return "rotary" if axis_turns(file, axis) else "linear"
@@ -107,7 +109,7 @@ def axis_head(file: ParameterFile, axis: str) -> tuple[str, str]:
     letter = axis_letter(file, axis)
     if letter.startswith("raw:") or letter.casefold() == "none":
         letter = ""
-    kind = other_use(file, axis) or axis_kind(file, axis)
+    kind = axis_kind(file, axis)
     if not letter:
         return "", f"{labelled(file.schema.family.scopes['axis'].label, axis)} {kind}".rstrip()
     return letter, " ".join(filter(None, ("" if letter == axis else axis, kind))) + _of_group(file, axis)
