@@ -132,6 +132,7 @@ class MeasuredDialog(QDialog):
             self.sign,
             self.decimal,
             self.was_on,
+            self.circle,
             self.input,
             self.start,
         ):

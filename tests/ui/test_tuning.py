@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -202,6 +203,23 @@ def test_a_file_that_is_no_measurement_is_named_in_the_dialog(
     assert not dialog.set_button.isEnabled()
     dialog.decimal.setCurrentIndex(1)
     assert "does not name" in dialog.missing.text()
+
+
+def test_a_circle_of_a_ball_bar_asks_which_axis_it_is(workspace, tmp_path: Path, qtbot: QtBot) -> None:
+    path = tmp_path / "ballbar.csv"
+    rows = [(n, (2.5 if 0 < n % 360 < 180 else -2.5) * math.cos(math.radians(n))) for n in range(-20, 200)]
+    path.write_text("angle [deg],deviation [um]\n" + "".join(f"{n},{by:.4f}\n" for n, by in rows))
+    dialog = MeasuredDialog(workspace.file, "1", path)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    dialog.sign.setCurrentIndex(1)
+    assert "first or the second" in dialog.missing.text()
+    assert dialog.circle.isVisible()
+    dialog.circle.setCurrentIndex(1)
+    assert dialog.missing.text() == ""
+    assert dialog.proposal is not None
+    assert list(dialog.proposal.settings) == [REVERSAL]
+    assert dialog.set_button.isEnabled()
 
 
 # -- a control ------------------------------------------------------------------------------------
