@@ -157,6 +157,7 @@ class ProjectTree(QWidget):
         if file.exchange is not None:
             text = self.tr("Last {verb}: {control}, {when}")
             when = _words(datetime.fromisoformat(file.exchange.when)) if file.exchange.when else "?"
+            item.setData(0, RIGHT, file.exchange.control.rpartition("//")[2])
             item.setToolTip(0, text.format(verb=file.exchange.verb, control=file.exchange.control, when=when))
         if file.backup:
             backup = self._item(item, ("backup", file.backup), self.tr("Backup"), "clock-counter-clockwise")

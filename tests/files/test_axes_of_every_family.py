@@ -10,6 +10,7 @@ from amp_studio.files import (
     add_axis,
     alike_axes,
     axis_head,
+    axis_kind,
     axis_letter,
     axis_title,
     compare_axes,
@@ -130,6 +131,7 @@ def test_the_input_of_a_spindle_is_shown_and_is_no_axis() -> None:
         "24 spindle",
         "28 handwheel",
     ]
+    assert axis_kind(file, "24") == "spindle"
 
 
 def test_where_nothing_is_known_every_axis_is_there() -> None:

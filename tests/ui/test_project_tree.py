@@ -69,6 +69,7 @@ def test_it_has_everything_that_belongs_to_the_project(tree: ProjectTree, qtbot:
         "Control before the download",
     ]
     assert "download: tcp://10.0.0.1:9600, today" in mill.toolTip(0)
+    assert mill.data(0, RIGHT) == "10.0.0.1:9600"
     assert tree.tree.currentItem() is mill
 
 
