@@ -85,7 +85,9 @@ class FileTarget(TuningTarget):
         return self._workspace.may_edit
 
     def set(self, text: str, values: Mapping[Address, Value | None]) -> None:
-        """Change values of the file as one undoable step."""
+        """Change values of the file as one undoable step; raises ValueError where another program has it."""
+        if not self.may_edit:
+            raise ValueError(self.tr("The file is read-only: another program has it open."))
         self._workspace.edit(text, with_followers(self.file, values))
 
     def undo(self) -> None:

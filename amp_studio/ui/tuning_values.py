@@ -294,6 +294,10 @@ class ValuesPage(QWidget):
 
     def _set(self, address: Address, value: Value, what: str) -> None:
         assert self.target is not None
+        state = self.target.file.evaluation.state(address)
+        if not state.is_active:
+            label = self.target.file.machine_schema.label(address)
+            raise CalibrationError(self.tr("{name} is not used: {why}.").format(name=label, why=state.why))
         self.target.set(f"{what} {self.target.file.machine_schema.label(address)}", {address: value})
 
 

@@ -96,6 +96,30 @@ def test_a_value_stops_at_the_end_of_its_range(tuning: TuningWindow, workspace) 
     assert workspace.file.get(REVERSAL) == Value(9.999, "mm")
 
 
+def test_a_file_that_another_program_has_is_not_changed_by_keys_either(
+    qtbot, person: Person, path: Path, qapp
+) -> None:
+    first = Document.open(path)
+    second = Workspace(Document.view(path))
+    tuning = shown(TuningWindow(second, lambda: None), qtbot)
+    values = page(tuning, "reversal")
+    put_cursor(values, REVERSAL)
+    QTest.keyClicks(values.table, "+")
+    assert "read-only" in tuning.message.text.text()
+    assert second.file.get(REVERSAL) == Value(0.0, "mm")
+    second.close()
+    first.close()
+
+
+def test_a_value_that_is_not_used_is_not_changed(tuning: TuningWindow, workspace) -> None:
+    workspace.edit("set", {("servo.position_feedback_type", "1"): Value("aqb-no-marker")}, force="test")
+    values = page(tuning, "reversal")
+    put_cursor(values, REVERSAL)
+    QTest.keyClicks(values.table, "+")
+    assert "is not used" in tuning.message.text.text()
+    assert workspace.file.get(REVERSAL) == Value(0.0, "mm")
+
+
 def test_a_typed_value_replaces_and_one_out_of_range_is_refused_in_the_bar(
     tuning: TuningWindow, workspace
 ) -> None:
