@@ -53,7 +53,7 @@ class DetailPage(Translated):
         parts = [self._value(address)]
         for title, text in self._sections(address):
             head = (
-                f'<p style="color:{dim}; margin-top:0; margin-bottom:2px"><b><small>{title}</small></b></p>'
+                f'<p style="color:{dim}; margin-top:4px; margin-bottom:3px"><b><small>{title}</small></b></p>'
             )
             rule = f'<p style="font-size:4px; margin:0">&nbsp;</p><table width="100%" cellspacing="0" cellpadding="0"><tr><td style="background-color:{line}; font-size:1px">&nbsp;</td></tr></table>'
             parts.append(f"{rule}{head}{text}")

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolBar, QToolButton, Q
 from .docks import WIDE
 from .segment import Segment
 from .studio_window import StudioWindow
-from .theme import ICON
+from .theme import GAP4, ICON
 
-_FIND_WIDTH = 440
-"""Most that the find box takes, in logical pixels."""
+_FIND_WIDTH, _FIND_LEAST = 440, 160
+"""Most that the find box takes, in logical pixels, and what it needs."""
 _SYSTEMS = {"metric": "mm"}
 """Unit system -> the text of its button, if not its name."""
 
@@ -63,9 +63,22 @@ class MainToolBar(QToolBar):
     def fit(self, width: int) -> None:
         """Show words where the window has room for them."""
         style = Qt.ToolButtonStyle
-        self.setToolButtonStyle(style.ToolButtonTextBesideIcon if width >= WIDE else style.ToolButtonIconOnly)
+        self._show_words(style.ToolButtonTextBesideIcon if width >= WIDE else style.ToolButtonIconOnly)
+        if width >= WIDE and self._needed() > width:  # the words of a longer language
+            self._show_words(style.ToolButtonIconOnly)
+
+    def _needed(self) -> int:
+        """Return the width at which everything is seen."""
+        parts = [self.widgetForAction(action) for action in self.actions()]
+        spacing = self.layout().spacing() * len(parts) + 2 * GAP4
+        return (
+            sum(part.sizeHint().width() for part in parts if part is not self._slot) + _FIND_LEAST + spacing
+        )
+
+    def _show_words(self, style: Qt.ToolButtonStyle) -> None:
+        self.setToolButtonStyle(style)
         for button in self._bare:
-            button.setToolButtonStyle(style.ToolButtonIconOnly)
+            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
 
     def show_units(self) -> None:
         """Show the unit systems of the file in front, and which one it is shown in; none is pressed for values as entered."""

@@ -134,3 +134,12 @@ def test_a_segment_speaks_only_when_a_person_presses(qtbot: QtBot) -> None:
     assert (segment.choice, heard) == ("a", ["a"])
     segment.buttons["a"].click()
     assert segment.choice == "a"
+
+
+def test_words_that_need_more_than_the_window_has_leave_the_tool_bar(window: MainWindow) -> None:
+    """A longer language: no tool falls off the end."""
+    window.control.toolbar[0].setIconText("Übertragung zur Steuerung starten und prüfen")
+    shown(window, 1210, 700)
+    assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly
+    shown(window, 1900, 700)
+    assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonTextBesideIcon
