@@ -142,7 +142,8 @@ def _print(merge: Merge, options: argparse.Namespace) -> None:
                 shown(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b)
             )
             print(f"conflict at {named(merge.a, row)}: base {was}, ours {mine}, theirs {wanted}; {took}")
-    where = "nothing written" if options.dry_run else options.output
+    written = merge.a.header.name if options.git else ""  # git calls its files .merge_file_a7xQ2b
+    where = "nothing written" if options.dry_run else written or options.output
     print(f"{where}: {counted(len(merge.open_conflicts), 'conflict')}")
 
 

@@ -157,6 +157,7 @@ def test_git_is_told_of_a_conflict_and_the_file_stays_readable(amp, git, mill: P
     said = git("merge", "spindle")
     assert said.returncode == 1
     assert "conflict at 1300 Home Calibration: base 0 mm, ours 2 mm, theirs 1 mm; ours is kept" in said.stdout
+    assert "mill: 1 conflict\n" in said.stdout, "not the name that git gives its copy"
     assert git("status", "--porcelain").stdout == "UU mill.amp\n"
     assert open_file(mill).file.get(CALIBRATION) == Value(2.0, "mm")
 
