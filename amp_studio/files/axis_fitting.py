@@ -6,7 +6,7 @@ to undo. An error changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from amp_studio.schema import (
     Address,
@@ -18,9 +18,10 @@ from amp_studio.schema import (
     with_field,
 )
 from amp_studio.schema.model import AxisDeclaration, AxisField, AxisProfile
+from amp_studio.schema.quoting import quoted
 
 from .axes import AxisError, axis_instances, axis_letter, axis_profile, fitted_axes, known_axis, shown_axes
-from .axis_abilities import parameters_of_axes, why_axes_are_fixed, why_letters_are_fixed
+from .axis_abilities import letters_offered, parameters_of_axes, why_axes_are_fixed, why_letters_are_fixed
 from .axis_values import axis_addresses, bits_of_axes, moved
 from .parameter_file import Change, ParameterFile, fill_defaults
 
@@ -63,7 +64,7 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     )
     with file.step() as changes:
         file.set_many(wanted)
-        _each_name_once(file)
+        _each_name_once(file, instances[: len(names)])
         _declare_groups(file, declared)
     return changes
 
@@ -124,7 +125,7 @@ def rename_axis(file: ParameterFile, axis: str, name: str) -> list[Change]:
     with file.step() as changes:
         if declared is not None:
             file.set_many(_named(file, declared, axis, name))
-            _each_name_once(file)
+            _each_name_once(file, [axis])
         else:
             address = (axis_profile(file).name, axis)
             try:
@@ -205,7 +206,7 @@ def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: 
     if place in taken:
         raise AxisError(f"the input {place} serves a spindle or a handwheel")
     file.set_many({**_named(file, declared, place, name), **_flagged(file, declared, {place: True})})
-    _each_name_once(file)
+    _each_name_once(file, [place])
     return place
 
 
@@ -218,7 +219,7 @@ def _add_last(file: ParameterFile, declared: AxisDeclaration, name: str, at: str
         file.set_many(_compiled_in(file, declared, [*fitted, name.upper()]))
         return place
     file.set_many({**_named(file, declared, place, name), (str(declared.count), ""): Value(len(fitted) + 1)})
-    _each_name_once(file)
+    _each_name_once(file, [place])
     return place
 
 
@@ -284,11 +285,12 @@ def _named(
     file: ParameterFile, declared: AxisDeclaration, axis: str, name: str
 ) -> dict[Address, Value | None]:
     """Return what gives an axis a letter and, for ``X.2``, a group; raises AxisError for one that is not offered."""
-    letter, _, group = name.strip().partition(".")
-    if declared.name is None or letter.casefold() == "none":
-        raise AxisError(f"'{name}' is no name for an axis")
+    letter, point, group = name.strip().partition(".")
+    offered = letters_offered(file.schema)
+    if declared.name is None or letter.upper() not in offered or bool(point) != bool(group):
+        raise AxisError(f"{quoted(name)} is no name for an axis: {', '.join(offered)}")
     if group and declared.group is None:
-        raise AxisError(f"'{name}': {file.schema.family.name} has no groups of axes")
+        raise AxisError(f"{quoted(name)}: {file.schema.family.name} has no groups of axes")
     try:
         if declared.name.bit is None:
             return {(declared.name.param, axis): file.read((declared.name.param, axis), letter)}
@@ -334,15 +336,16 @@ def _flagged(
     return {a: v for a, v in bits_of_axes(file, fitted).items() if a[0] in declared.flags}
 
 
-def _each_name_once(file: ParameterFile) -> None:
-    """Raise AxisError where two axes of a group have one letter."""
-    seen: dict[tuple[str, str], str] = {}
-    for axis in fitted_axes(file):
-        letter, group = axis_letter(file, axis), axis_group(file.evaluation, axis)
-        first = seen.setdefault((letter, group), axis)
-        if letter and first != axis:
+def _each_name_once(file: ParameterFile, named: Iterable[str]) -> None:
+    """Raise AxisError where one of these axes has the letter of another axis of its group."""
+    axes = {a: (axis_letter(file, a), axis_group(file.evaluation, a)) for a in fitted_axes(file)}
+    for axis in named:
+        letter, group = axes.get(axis, ("", ""))
+        others = [a for a in axes if a != axis and letter and axes[a] == (letter, group)]
+        if others:
+            first, second = sorted((axis, others[0]), key=list(axes).index)
             of_group = f" of {group}" if group else ""
-            raise AxisError(f"the axes {first} and {axis}{of_group} would both be named {letter}")
+            raise AxisError(f"the axes {first} and {second}{of_group} would both be named {letter}")
 
 
 def _declare_groups(file: ParameterFile, declared: AxisDeclaration) -> None:

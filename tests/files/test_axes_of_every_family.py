@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+from pathlib import Path
+
 import pytest
 
 from amp_studio.files import (
@@ -17,12 +20,17 @@ from amp_studio.files import (
     copy_axis,
     delete_axis,
     fitted_axes,
+    letters_offered,
     new_file,
+    open_file,
+    places_offered,
     rename_axis,
     shown_axes,
     swap_axes,
+    why_axes_are_fixed,
 )
 from amp_studio.files.axis_values import words_of_axes
+from amp_studio.files.examples import examples
 from amp_studio.schema import Value, load_schema
 
 
@@ -92,8 +100,13 @@ def test_every_other_family_takes_axes_too(family: str, axes: list[str], heads: 
 @pytest.mark.parametrize(
     ("family", "axes", "said"),
     [
-        ("num", ["X", "S"], "'S' is not a choice of Axis name: X, Y, Z, U, V, W, A, B, C"),
+        ("num", ["X", "S"], "'S' is no name for an axis: X, Y, Z, U, V, W, A, B, C"),
         ("num", ["X", "none"], "'none' is no name for an axis"),
+        ("num", ["5"], "'5' is no name for an axis"),
+        ("num", ["X", ""], "'' is no name for an axis"),
+        ("num", ["X", "Y."], "'Y.' is no name for an axis"),
+        ("num", ["X", "Y.none"], "'Group none' is not a choice of Axis group"),
+        ("acromill", ["X", "raw:1"], "'raw:1' is no name for an axis"),
         ("num", ["X", "X"], "the axes 0 and 1 of Group 1 would both be named X"),
         ("num", ["X", "Y.9"], "'Group 9' is not a choice of Axis group"),
         ("acromill", ["X"], "has 2 or more axes"),
@@ -232,6 +245,15 @@ def test_a_syntec_axis_that_is_added_waits_for_its_port() -> None:
     assert titles(file) == ["1 X linear", "2 Y linear"]
 
 
+def test_axes_that_are_named_alike_already_do_not_keep_another_from_its_letter() -> None:
+    file = new_file("num", None, ["X", "Y", "Z"])
+    file.set(("axes.assignment", "1"), Value(0))
+    rename_axis(file, "2", "W")
+    assert [axis_letter(file, a) for a in fitted_axes(file)] == ["X", "X", "W"]
+    with pytest.raises(AxisError, match="the axes 0 and 2 of Group 1 would both be named X"):
+        rename_axis(file, "2", "X")
+
+
 def test_a_letter_is_changed_and_the_group_stays() -> None:
     file = new_file("num", None, ["X", "X.2"])
     rename_axis(file, "1", "U")
@@ -298,3 +320,36 @@ def test_axes_that_move_alike_are_alike() -> None:
     file = new_file("num", None, ["X", "Y", "B"])
     assert alike_axes(file, "0") == ("0", "1")
     assert alike_axes(new_file("acromill", None, ["X", "Y"]), "Y") == ("X", "Y")
+
+
+@pytest.mark.parametrize("path", [e.path for e in examples()], ids=lambda path: path.stem)
+def test_on_every_example_a_copy_leaves_no_difference_and_a_second_swap_none_either(path: Path) -> None:
+    file = open_file(path).file
+    before = dict(file.values)
+    axes = fitted_axes(file)
+    for first, second in combinations(axes, 2):
+        if second not in alike_axes(file, first):
+            continue
+        changes = copy_axis(file, first, second)
+        assert compare_axes(file, first, second) == []
+        assert taken_back(file, changes) == before
+        swap_axes(file, first, second)
+        swap_axes(file, first, second)
+        assert file.values == before
+
+
+@pytest.mark.parametrize("path", [e.path for e in examples()], ids=lambda path: path.stem)
+def test_on_every_example_an_axis_that_is_added_or_deleted_is_taken_back_whole(path: Path) -> None:
+    file = open_file(path).file
+    before = dict(file.values)
+    for place in places_offered(file)[:3]:
+        letters = letters_offered(file.schema) or (place,)
+        free = next(n for n in letters if n not in {axis_letter(file, a) for a in fitted_axes(file)})
+        changes = add_axis(file, free, place)
+        assert free in {axis_letter(file, a) for a in fitted_axes(file)}
+        assert taken_back(file, changes) == before
+    if not why_axes_are_fixed(file.schema) and len(fitted_axes(file)) > 3:
+        last = fitted_axes(file)[-1]
+        changes = delete_axis(file, last)
+        assert last not in fitted_axes(file)
+        assert taken_back(file, changes) == before
