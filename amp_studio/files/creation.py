@@ -122,11 +122,9 @@ def _with_axes(
     matched = matched_by_letter(source, made).file
     taken = {axis for axis, letter in axis_letters(made).items() if letter in letters}
     here = made.machine_schema
-    for address, value in matched.values.items():
-        if address not in here.places:
-            continue
+    for address in here.places:
         if not here.kin(here.scopes[address[0]], "axis") or whole_of(address[1]) in taken:
-            made.set(address, value)
+            made.set(address, matched.get(address))
     made.unknown.update(source.unknown)
     return MadeLike(
         made,

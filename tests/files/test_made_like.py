@@ -61,6 +61,8 @@ def test_an_axis_brings_its_values_to_the_place_of_its_letter() -> None:
     of_c = [a for a in made.file.values if a[1] == "3" and made.file.machine_schema.scopes[a[0]] == "axis"]
     assert of_c
     assert {a: made.file.get(a) for a in of_c} == {a: plain.get(a) for a in of_c}
+    assert source.get(("servo.feed_forward", "3")) is None
+    assert made.file.get(("servo.feed_forward", "1")) is None  # not set there, not set here
     assert made.file.get(("control.retrace_limit", "")) == source.get(("control.retrace_limit", ""))
 
 
