@@ -50,6 +50,8 @@ class PictureCanvas(QWidget):
         self._active: int | None = None
         self._drag: ValueDrag | None = None
         self._start: Scene | None = None
+        self._held: Handle | None = None
+        """The handle that is dragged, as it was when the drag began."""
         self._offset = QPointF(0, 0)
         self._again = self._moved = False
         """Whether the pressed handle was chosen already, and whether it has been dragged since."""
@@ -88,11 +90,22 @@ class PictureCanvas(QWidget):
 
     def draw_again(self) -> None:
         """Follow the file."""
+        chosen = self._held or self.handle
         self.scene = self._drawn(self._start)
+        if chosen is not None:
+            self._active = self._place_of(chosen)
         self._arrange()
         if self._drag is None:
             self.mark_findings()
         self.update()
+
+    def _place_of(self, handle: Handle) -> int | None:
+        """Return where a handle is among those of the scene; None where its value leaves it no place."""
+        moved = [[drag.address for drag in each.drags] for each in self.scene.handles]
+        own, before = [drag.address for drag in handle.drags], self._active
+        if before is not None and before < len(moved) and moved[before] == own:
+            return before  # the points of a table move one value
+        return moved.index(own) if own in moved else None
 
     def mark_findings(self) -> None:
         """Follow the findings, worst first."""
@@ -116,8 +129,6 @@ class PictureCanvas(QWidget):
             self._spots.pop().deleteLater()
         while len(self._spots) < len(handles):
             self._spots.append(self._new_spot(len(self._spots)))
-        if self._active is not None and self._active >= len(handles):
-            self._active = None
         for spot, handle in zip(self._spots, handles, strict=True):
             x, y = self.place.at(handle.at)
             spot.move(int(x - REACH), int(y - REACH))
@@ -170,8 +181,8 @@ class PictureCanvas(QWidget):
     def tag(self, handle: Handle) -> Tag:
         """Return what is shown beside a handle: its value, and while it is dragged the old one and what is wrong."""
         finding, old = self._finding(handle, self._about), ""
-        if self._drag is not None and self._start is not None and self._active is not None:
-            before = self._start.handles[self._active].value
+        if self._held is not None:
+            before = self._held.value
             old = "" if before == handle.value else self.tr("was {value}").format(value=before)
         reason = self._refused or (finding.message if finding else "")
         severity = "error" if self._refused else finding.severity if finding else ""
@@ -285,7 +296,7 @@ class PictureCanvas(QWidget):
             self._refused = self.tr("The file is read-only")
             self.update()
             return
-        self._start = self.scene
+        self._start, self._held = self.scene, handle
         self._offset = QPointF(*self.place.at(handle.at)) - event.position()
         self._drag = ValueDrag(self._workspace, tuple(drag.address for drag in handle.drags))
         self.grabKeyboard()
@@ -303,11 +314,11 @@ class PictureCanvas(QWidget):
 
     def drag_to(self, at: QPointF) -> None:
         """Let the dragged handle follow to a place."""
-        if self._drag is None or self._start is None or self._active is None:
+        if self._drag is None or self._held is None:
             return
         # The functions of the scene in which the drag began: they know what stays the same.
         try:
-            wanted = dragged(self._start.handles[self._active], self.place.world(at.x(), at.y()))
+            wanted = dragged(self._held, self.place.world(at.x(), at.y()))
         except ValueError as error:  # a table does not take the point
             self._refuse(str(error))
             return
@@ -343,16 +354,16 @@ class PictureCanvas(QWidget):
 
     def end_drag(self, *, cancel: bool = False) -> None:
         """Drop the dragged values as one undo step, or give the old ones back."""
-        drag, start, active = self._drag, self._start, self._active
-        if drag is None:
+        drag, held = self._drag, self._held
+        if drag is None or held is None:
             return
-        self._drag = self._start = None
+        self._drag = self._start = self._held = None
         self.releaseKeyboard()
         if cancel:
             self._refused = ""
             drag.cancel()
-        elif start is not None and active is not None:
-            drag.drop(self.tr("Drag {name}").format(name=start.handles[active].label))
+        else:
+            drag.drop(self.tr("Drag {name}").format(name=held.label))
         self.draw_again()
         self.handle_chosen.emit(self.handle)
 

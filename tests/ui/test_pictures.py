@@ -100,6 +100,29 @@ def test_esc_during_a_drag_gives_the_old_value_back(window, pictures, file, whol
     assert whole() == before
 
 
+def test_a_handle_that_loses_its_place_is_still_one_step(
+    open_window: Callable, checkout: Path, tmp_path: Path
+):
+    """Pr461 has no printed range: a feedrate below nothing leaves no ramp to draw, and the step is there."""
+    path = tmp_path / "file.amp"
+    path.write_bytes((checkout / "examples" / "syntec-mill" / "SYNTEC_MILL.amp").read_bytes())
+    window = open_window(path)
+    action(window, "Pictures").trigger()
+    pictures, rapid = window.page.pictures, ("feed.rapid", "1")
+    pictures.show_picture("ramps")
+    pictures.grab()
+    file, canvas = window.workspace.file, pictures.chosen_card.canvas
+    before = file.get(rapid)
+    low = QPoint(press(canvas, rapid).x(), canvas.height() - 2)
+    QTest.mouseMove(canvas, low)
+    assert file.get(rapid).value < 0
+    assert canvas.scene.handles == ()
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=low)
+    assert window.workspace.undo_stack.count() == 1
+    window.workspace.undo_stack.undo()
+    assert file.get(rapid) == before
+
+
 def test_clicks_go_round_the_handles_that_lie_on_each_other(window, pictures, file):
     """Limit 2 at the place of the overtravel: each of both edges can be taken."""
     low = ("zone.overtravel_negative", "1")
