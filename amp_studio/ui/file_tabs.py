@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 
 from PySide6.QtCore import QPoint, Qt, Signal
@@ -49,6 +49,14 @@ class FileTabs(QSplitter):
         side.currentChanged.connect(partial(self._turn, side))
         self.addWidget(side)
         return side
+
+    def take_corner(self, corner: QWidget) -> None:
+        """Show buttons at the end of the tabs of the first side."""
+        self.sides[0].setCornerWidget(corner, Qt.Corner.TopRightCorner)
+
+    def to_choose(self) -> list[tuple[str, Callable[[], object]]]:
+        """Return the name of each open file, and what brings it to the front."""
+        return [(page.title, partial(self.bring, page)) for page in self.pages()]
 
     # -- pages -----------------------------------------------------------------
 

@@ -31,6 +31,7 @@ from .project_tree import ProjectTree
 from .questions import show_message
 from .status_line import StatusLine
 from .studio_window import StudioWindow
+from .tab_corner import TabCorner
 from .task import Task
 from .theme import wear
 from .theme_actions import ThemeActions
@@ -74,6 +75,7 @@ class MainWindow(StudioWindow):
         )
         self._help_menu()
         self._toolbar()
+        self.tabs.take_corner(TabCorner(self.files.toolbar[0], self.view.beside, self.tabs.to_choose))
         self.view.panels.addActions([
             self.action(self.tr("&Next Finding"), partial(self._step_findings, 1), "Alt+Down"),
             self.action(self.tr("Pre&vious Finding"), partial(self._step_findings, -1), "Alt+Up"),

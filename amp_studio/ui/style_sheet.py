@@ -48,6 +48,7 @@ QToolButton:focus { border-color: $sel; }
 QToolButton:disabled { color: $off; }
 QToolButton:checked { background: $selbg; }
 QToolButton[popupMode="1"] { padding-right: 14px; }
+QToolButton::menu-indicator { image: none; }
 QToolButton[segment="first"], QToolButton[segment="middle"], QToolButton[segment="last"], QToolButton[segment="only"] {
   background: $raised; border: 1px solid $line2; border-radius: 0; padding: 3px 9px; }
 QToolButton[segment="first"] { border-top-left-radius: 4px; border-bottom-left-radius: 4px; }

@@ -67,10 +67,11 @@ class ViewActions(Translated):
         panels.insertAction(panels.actions()[0], act(self.tr("&Table"), self._to_table, self.tr("Ctrl+1")))
         menu.addSeparator()
         tabs = window.tabs
+        self.beside = act(self.tr("Show File &Beside"), tabs.move_across, self.tr("Ctrl+\\"))
         menu.addActions([
             act(self.tr("Ne&xt File"), partial(tabs.turn, 1), self.tr("Ctrl+Tab")),
             act(self.tr("Pre&vious File"), partial(tabs.turn, -1), self.tr("Ctrl+Shift+Tab")),
-            act(self.tr("Show File &Beside"), tabs.move_across, self.tr("Ctrl+\\")),
+            self.beside,
         ])  # fmt: skip
         menu.addSeparator()
         menu.addAction(self.motion_action)

@@ -143,3 +143,14 @@ def test_words_that_need_more_than_the_window_has_leave_the_tool_bar(window: Mai
     assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly
     shown(window, 1900, 700)
     assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+
+
+def test_the_end_of_the_tabs_lists_every_open_file(window: MainWindow, path: Path) -> None:
+    other = path.with_name("other.amp")
+    other.write_bytes(path.read_bytes())
+    window.files.open_path(other)
+    corner = window.tabs.sides[0].cornerWidget(Qt.Corner.TopRightCorner)
+    corner.menu.aboutToShow.emit()
+    assert [entry.text() for entry in corner.menu.actions()] == ["mill.amp", "other.amp"]
+    corner.menu.actions()[0].trigger()
+    assert window.workspace.path == path
