@@ -23,6 +23,8 @@ from .translated import Translated
 
 _SOON_MS = 1_000
 """Milliseconds after a file was opened until its family is indexed, so that it is painted first."""
+_VALUE_LENGTH = 40
+"""Characters of a value beside its parameter."""
 _MOST = 30
 """Hits in the file that are worth showing."""
 _COMMAND = 0.8
@@ -111,7 +113,8 @@ class FindActions(Translated):
             found = self._messages(own) + self._among(own)
             return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing("")
         finder = self._finder()
-        found = finder.find(own, _MOST) if finder is not None else []
+        hits = finder.find(own, _MOST) if finder is not None else []
+        found = [self._with_value(hit, self.window.page) for hit in hits]
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
             return rows_of(found, self._commands) + self._every(found)
@@ -122,6 +125,19 @@ class FindActions(Translated):
         finder = self._finders.get(self.window.page) if self.window.page is not None else None
         is_ready = finder is not None and (id(finder.schema), finder.machine) in self._indexed
         return finder if is_ready else None
+
+    @staticmethod
+    def _with_value(hit: Hit, page: FilePage) -> Hit:
+        """Return a parameter that was found with its value, in the current axis where it has one there."""
+        if hit.kind != "parameter":
+            return hit
+        file, here = page.workspace.file, page.table_view.address()
+        instances = file.machine_schema.instances(file.schema.parameters[hit.key])
+        instance = here[1] if here is not None and here[1] in instances else instances[0]
+        address = hit.address or (hit.key, instance)
+        value = " ".join(page.table.values.text(address, file.get(address)).split())
+        value = f"{value[:_VALUE_LENGTH]}…" if len(value) > _VALUE_LENGTH else value
+        return replace(hit, detail=f"{value}   {hit.detail}")
 
     def _messages(self, query: str) -> list[Hit]:
         """Return messages of the controls of every family, for who has no file open; loaded in a thread at the first question."""

@@ -72,6 +72,14 @@ def test_a_group_is_shown_on_the_left_with_its_parameters(window: MainWindow, bo
     assert window.focusWidget() is window.table_view
 
 
+def test_a_parameter_is_listed_with_its_value_in_the_current_axis(window: MainWindow, box: FindBox) -> None:
+    window.go_to(("home.calibration", "4"))
+    typed(box, "excess error")
+    assert box.model.rows[1].detail.startswith("3.96°   Servo Parameters")
+    typed(box, "1750")
+    assert box.model.rows[1].detail.startswith("11 mm   ")
+
+
 def test_heads_are_passed_by_the_keys_and_the_ends_join(box: FindBox) -> None:
     typed(box, "closed loop")
     rows = box.model.rows
