@@ -155,7 +155,7 @@ def _write(options: argparse.Namespace, file: ParameterFile, come: GuideProgress
 def _next(
     options: argparse.Namespace, file: ParameterFile, come: GuideProgress, only: SetupStep | None
 ) -> int:
-    """Print the next open value, of one step where that is asked for, and what is known about it."""
+    """Print the next open value, of the file or of one step, and what is known about it."""
     behind = addresses_meant(file.evaluation, options.after)[-1] if options.after else None
     if only is not None:
         come = replace(come, steps=tuple(each for each in come.steps if each.step is only))
