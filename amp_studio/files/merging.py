@@ -202,14 +202,18 @@ class Merge:
         """The conflicts that nobody has settled."""
         return [row for row in self.conflicts if row.id not in self._choices]
 
-    def keep_choices(self, before: Merge, *, swapped: bool = False) -> None:
-        """Take over what was chosen in an earlier merge, for the rows that still differ; with ``swapped`` sides."""
+    def keep_choices(self, before: Merge, *, swapped: bool = False, without: Side | None = None) -> None:
+        """Take over what was chosen in an earlier merge, for the rows that still differ.
+
+        With ``swapped`` sides A is B now. ``without`` is the side whose source is another one now: nobody has chosen
+        its values.
+        """
         other: dict[Side, Side] = {"a": "b", "b": "a", "base": "base"}
         rows = {row.id for row in self.differing}
         for row_id, choice in before._choices.items():  # a merge of the same class
-            if row_id in rows:
-                turned = swapped and not isinstance(choice, Typed)
-                self._choices[row_id] = other[choice] if turned else choice  # type: ignore[index]  # a side
+            if row_id not in rows or choice == without or (choice == "base" and self.base is None):
+                continue
+            self._choices[row_id] = choice if isinstance(choice, Typed) or not swapped else other[choice]
 
     def result(self) -> ParameterFile:
         """Return A with what the result takes from elsewhere."""

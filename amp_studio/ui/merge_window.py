@@ -18,7 +18,7 @@ from .merge_bars import FindingList, ReadingBar, ResultBar, ViewBar
 from .merge_check import MergeCheck
 from .merge_detail import MergeDetail
 from .merge_header import MergeHeader
-from .merge_model import BASE, A, B, Filter, MergeModel
+from .merge_model import BASE, SIDES, A, B, Filter, MergeModel
 from .merge_report import save_merge_report
 from .merge_sources import MergeSource, MergeSources, Offer, ReadSource, is_same_content
 from .merge_tree import MergeTree
@@ -200,24 +200,29 @@ class MergeWindow(QDialog):
 
     def use(self, column: int, source: MergeSource) -> None:
         """Compare with a source that has been read."""
-        self.show_merge({**self.chosen, column: source})
+        self.show_merge({**self.chosen, column: source}, replaced=SIDES[column])
         if source.remark:
             self.message.say(source.remark, "information")
 
     def use_base(self, source: MergeSource | None) -> None:
         """Compare three sources; None goes back to two."""
         chosen = {column: each for column, each in self.chosen.items() if column != BASE}
-        self.show_merge(chosen if source is None else {**chosen, BASE: source})
+        self.show_merge(chosen if source is None else {**chosen, BASE: source}, replaced="base")
 
-    def show_merge(self, chosen: dict[int, MergeSource], *, swapped: bool = False) -> None:
-        """Show sources; what was chosen stays where rows still differ. A source of another family is refused."""
+    def show_merge(
+        self, chosen: dict[int, MergeSource], *, swapped: bool = False, replaced: Side | None = None
+    ) -> None:
+        """Show sources; what was chosen stays where rows still differ, but for what was taken from a side that is ``replaced``.
+
+        A source of another family is refused.
+        """
         base = chosen.get(BASE)
         try:
             merge = Merge(chosen[A].file, chosen[B].file, base.file if base else None)
         except ValueError as error:
             self.message.say(str(error), "error")
             return
-        merge.keep_choices(self.merge, swapped=swapped)
+        merge.keep_choices(self.merge, swapped=swapped, without=replaced)
         here = self.tree.row()
         self.chosen = chosen
         self.model.set_merge(merge)

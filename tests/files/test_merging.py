@@ -170,6 +170,19 @@ def test_choices_stay_when_a_source_is_read_again_and_follow_their_side_when_sid
     assert again.result().get(CALIBRATION) == swapped.result().get(CALIBRATION) == Value(3.0, "mm")
 
 
+def test_what_was_taken_from_a_source_is_forgotten_with_it() -> None:
+    first, again = Merge(mm(2.0), mm(3.0), mm(1.0)), Merge(mm(2.0), mm(4.0), mm(1.0))
+    first.choose(first.conflicts[0], "b")
+    again.keep_choices(first, without="b")
+    assert len(again.open_conflicts) == 1
+    first.choose(first.conflicts[0], "base")
+    two = Merge(mm(2.0), mm(3.0))
+    two.keep_choices(first)
+    assert two.result().get(CALIBRATION) == Value(2.0, "mm"), (
+        "and not cleared, as a base that is not there has none"
+    )
+
+
 def test_the_machine_type_of_the_header_is_a_row_and_empty_means_the_usual_one() -> None:
     a, b = new_file("num"), new_file("num")
     a.header.machine = ""

@@ -509,6 +509,15 @@ def test_a_file_without_unsaved_work_is_compared_with_its_backup_first(window: M
     assert [row.address for row in shown.merge.differing] == [EXCESS]
 
 
+def test_what_was_taken_from_a_source_is_not_taken_from_the_next_one(three: MergeWindow) -> None:
+    show(three, EXCESS)
+    press(three, "b")
+    other = three.merge.b.copy()
+    other.set(EXCESS, Value(2.0, "mm"))
+    three.use(B, MergeSource("other.amp", "", other))
+    assert [row.address for row in three.merge.open_conflicts] == [EXCESS]
+
+
 def test_another_open_file_is_a_source(window: MainWindow, shown: MergeWindow, path: Path, qtbot) -> None:
     second = path.with_name("second.amp")
     file = open_file(path).file
