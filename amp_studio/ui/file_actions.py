@@ -128,10 +128,11 @@ class FileActions(Translated):
 
     def new(self, family: str = "") -> None:
         """Make a new file from the family's defaults, or like another one."""
-        from .new_file_dialog import NewFileDialog
+        from .new_file_dialog import NewFileDialog, read_families
 
         project, workspace = self.window.project, self.window.workspace
         now = project.info.family if project else workspace.file.schema.family.family if workspace else ""
+        in_background(self.window, "Reading the families", read_families)  # the dialog offers all of them
         dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent())
         if not dialog.exec():
             return

@@ -37,6 +37,13 @@ from .theme import severity_ink
 _OTHER = "other"
 
 
+def read_families() -> None:
+    """Read the facts of all families and the list of examples, a third of a second the first time."""
+    for family in family_ids():
+        load_schema(family)
+    examples()
+
+
 class NewFileDialog(QDialog):
     """Asks for a new file. What a family cannot choose is off, with the reason; what is wrong is shown while it is typed."""
 

@@ -224,7 +224,8 @@ class WelcomePage(QWidget):
         if isinstance(found, str):
             self.list.show_row(item, replace(row, second=found, note=self.tr("cannot be read")))
             return
-        machine = [found.family_name, found.machine, " ".join(found.axes[:12])]
+        name = found.name if found.name.casefold() != path.stem.casefold() else ""
+        machine = [name, found.family_name, found.machine, " ".join(found.axes[:12])]
         note = "" if found.counts else self.tr("no findings")
         self.list.show_row(
             item, replace(row, second=", ".join(filter(None, machine)), counts=found.counts, note=note)

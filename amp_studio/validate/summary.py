@@ -17,6 +17,8 @@ from .validator import Validator
 class FileSummary:
     """What a list of files shows of one."""
 
+    name: str
+    """The name of the machine, as its file has it."""
     family: str
     family_name: str
     """Its short name."""
@@ -35,6 +37,7 @@ def summary_of(path: Path) -> FileSummary:
     names = {m.key: m.name for m in family.machines}
     findings = Validator(file, rules_beside(path, file.schema)).run()
     return FileSummary(
+        name=file.header.name,
         family=family.family,
         family_name=family.short or family.name,
         machine=names.get(file.machine, "") if len(names) > 1 else "",
