@@ -261,6 +261,14 @@ def fuzz_panel(folder: Path, seed: int, count: int) -> list[str]:
 
 
 PANEL = (
+    "axis-param 1750 0.005",
+    "axis-param 1340 add 0.001",
+    "axis-param 1801 increase",
+    "axis-calib 1 begin deviation - 0",
+    "axis-calib 1 insert 100 0.004",
+    "axis-calib 1 delete 0",
+    "cal-status 1",
+    "home 1",
     "search 1750",
     "replace 1750 40.5",
     "replace 1750 -1e3",

@@ -141,6 +141,16 @@ class Control:
         self._record.remember(self._digest)
         self._remember(restart_needed=True, changed_at_control=True)
 
+    def tune(self, change: Callable[[bytes], bytes], *, in_estop: bool) -> None:
+        """Change the image on line, where it counts at once; raises RefusalError, OSError, and what ``change`` raises."""
+        if in_estop:
+            self._need_estop("change it on line")
+        changed = change(self._active)
+        self.memory.replace(ACTIVE, changed)
+        self._take(changed)
+        self._record.remember(self._digest)
+        self._remember()
+
     # -- requests ----------------------------------------------------------------------------------
 
     def open_download(self, wish: OpenDownload) -> int:

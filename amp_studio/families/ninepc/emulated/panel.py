@@ -1,4 +1,4 @@
-"""The emulated 9/PC at its own screen: password, Patch AMP, and what it shows at each start (chapters 2, 33 and 37).
+"""The emulated 9/PC at its own screen: password, Patch AMP, and what it shows at each start (chapters 2, 33, 36 and 37).
 
 Commands are keys: ``password AB-D4`` is {PASSWORD}, ``patch-amp LOCK`` the softkey {PATCH AMP} with its second
 password, ``search 1750`` is {SEARCH NUMBER}, ``replace 1750 40`` {REPLACE VALUE}, ``update`` {UPDATE & EXIT}, ``leave``
@@ -18,6 +18,7 @@ from amp_studio.transfer.emulated.panel import Start
 from amp_studio.transfer.house.message import Flags
 from amp_studio.transfer.image import ImageError, decode_image, patch_image
 
+from .online_amp import OnlineAmp
 from .power_up import CORRECTED, MOST_AXES, corrected_limits, held_in_estop
 
 MODIFIED = "AMP HAS BEEN MODIFIED BY PATCH AMP"
@@ -40,10 +41,11 @@ def axes_supported(hardware: Mapping[str, str]) -> int:
 class NinePcPanel:
     """What an operator sees and does at a 9/PC that supports so many axes."""
 
-    words = "password WORD, patch-amp WORD, search NUMBER, replace NUMBER VALUE, update, leave, can, messages"
+    words = f"password WORD, patch-amp WORD, search NUMBER, replace NUMBER VALUE, update, leave, can, messages, {OnlineAmp.words}"
 
     def __init__(self, axes: int = MOST_AXES) -> None:
         self._axes = axes
+        self._online = OnlineAmp()
         self._has_level_0 = False
         self._edited: bytes | None = None
         """The copy of AMP that is edited; None while Patch AMP is not on the screen."""
@@ -54,6 +56,7 @@ class NinePcPanel:
     def started(self, control: Control) -> Start:
         """Return the messages of a power-up and why E-Stop stays; nobody is logged on after it (assumed)."""
         self._has_level_0, self._edited = False, None
+        self._online.started()
         self._messages = []
         if control.is_as_delivered:  # it is not configured yet: the manual names all of this after a download
             return Start()
@@ -93,7 +96,7 @@ class NinePcPanel:
                 return "cleared"
             case "messages" if not rest:
                 return "; ".join(self._messages) or "no message"
-        return None
+        return self._online.command(control, verb, rest)
 
     def _password(self, control: Control, word: str) -> str:
         if word.ljust(_CHARACTERS) != _master_password(control):
