@@ -70,14 +70,14 @@ class FindActions(Translated):
     def add(self, page: FilePage) -> None:
         """Know the values of a file, and the words of its family soon."""
         file = page.workspace.file
-        finder = self._finders[page] = Finder(file.schema, file.machine, file)
-        page.workspace.changed.connect(lambda *_: self._changed(page, finder))
+        self._finders[page] = Finder(file.schema, file.machine, file)
+        page.workspace.changed.connect(lambda *_: self._changed(page))
         page.destroyed.connect(lambda: self._finders.pop(page, None))
         page.detail.message_wanted.connect(lambda message: self._show_message(page, message))
         self._soon.start()
 
-    def _changed(self, page: FilePage, finder: Finder) -> None:
-        file = page.workspace.file
+    def _changed(self, page: FilePage) -> None:
+        file, finder = page.workspace.file, self._finders[page]
         if finder.machine != file.machine:
             self._finders[page] = Finder(file.schema, file.machine, file)
             self._soon.start()

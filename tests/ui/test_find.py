@@ -6,6 +6,7 @@ import pytest
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtTest import QTest
 
+from amp_studio.schema import Value
 from amp_studio.ui.find_box import FindBox
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.message_page import MessageWindow
@@ -122,6 +123,19 @@ def test_a_value_is_found_as_it_was_edited(workspace: Workspace, box: FindBox) -
     workspace.edit("edit", {address: workspace.read(address, "17.123 mm")})
     typed(box, "17.123")
     assert box.model.rows[1].hit.address == address
+
+
+def test_the_other_machine_type_is_searched_once_the_file_is_of_it(
+    window: MainWindow, workspace: Workspace, box: FindBox, qtbot
+) -> None:
+    before = window.finder._finders[window.page]
+    workspace.edit("lathe", {("control.type", ""): Value("lathe")})
+    after = window.finder._finders[window.page]
+    assert (before.machine, after.machine) == ("mill", "lathe")
+    workspace.edit("edit", {("servo.excess_error", "1"): Value(12.0, "mm")})
+    assert window.finder._finders[window.page] is after
+    box.begin("lathe type")
+    qtbot.waitUntil(lambda: heads(box)[:1] == ["Parameters"], timeout=WAIT_MS)
 
 
 def test_a_message_opens_its_page_which_follows_every_edit(
