@@ -122,9 +122,9 @@ class EditActions(Translated):
 
     def _edit(self) -> None:
         view = self.window.table_view
-        if view is not None and view.currentIndex().isValid():
+        if view is not None:
             view.setFocus()
-            view.edit(view.currentIndex())
+            view.edit_current()
 
     def note(self) -> None:
         """Edit the notes about the selected value, its group and the machine."""

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from heapq import nlargest
 
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, QPoint, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QAction,
     QFocusEvent,
-    QFontMetrics,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -22,19 +20,13 @@ from amp_studio.files import RangeError
 from amp_studio.schema import Address, InvalidValueError, Parameter, shown
 
 from .cell_editor import CellEditor, Refusal
-from .parameter_table import CONTROL, AddressRole, ParameterTable
+from .column_widths import LEAST_NAMES, column_widths
+from .parameter_table import AddressRole, ParameterTable
 from .selected_cells import SelectedCells
-from .table_heads import NUMBER, AxisHeads, Corner, RowHeads
+from .table_heads import AxisHeads, Corner, RowHeads
 from .theme import font
 from .value_delegate import ValueDelegate, allowed_text
 
-_NAMES = (240, 302, 420)
-"""Width of the names in a narrow table, in a wide one, and at most, where the values leave room."""
-_WIDE = 620
-_AXIS, _AXIS_AT_MOST, _CONTROL_ALONE, _COMMAND = 92, 150, (240, 460), 230
-"""Widths of columns: of an axis at least and at most, of the control where it is alone, of the command that reads a value."""
-_MIXED = 120, 190
-"""Width of the control's column beside axes, and where they leave room for more."""
 _MARGIN = 18
 """Room for the scroll bar."""
 _WIDEST_UNIT = 64
@@ -82,7 +74,7 @@ class ValueTable(QTableView):
         self.viewport().setMouseTracking(True)
         triggers = QAbstractItemView.EditTrigger
         self.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
-        self.verticalHeader().setFixedWidth(_NAMES[0])
+        self.verticalHeader().setFixedWidth(LEAST_NAMES)
         self.verticalHeader().sectionClicked.connect(self._select_row)
         self.horizontalHeader().sectionResized.connect(self._note_drag)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
@@ -188,13 +180,19 @@ class ValueTable(QTableView):
             editor.close_frame()
         super().reset()
 
+    def edit_current(self) -> None:
+        """Open the editor of the current cell, if it can be edited."""
+        index = self.currentIndex()
+        if index.flags() & Qt.ItemFlag.ItemIsEditable and self.indexWidget(index) is None:
+            self.edit(index)
+
     def _mend(self, address: Address, text: str, refusal: Refusal) -> None:
         """Open the editor again with a refused text."""
         index = self._table.index_of(address)
-        if index.isValid():
+        if index.isValid() and self.indexWidget(index) is None:
             self.setCurrentIndex(index)
             self._delegate.to_mend = (address, text, refusal)
-            self.edit(index)
+            self.edit_current()
 
     def _select_row(self, row: int) -> None:
         if self._table.rows[row].section:
@@ -213,7 +211,7 @@ class ValueTable(QTableView):
         is_enter = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
         editing = self.state() == QAbstractItemView.State.EditingState
         if is_enter and not editing and self.currentIndex().flags() & Qt.ItemFlag.ItemIsEditable:
-            self.edit(self.currentIndex())
+            self.edit_current()
         elif event.key() == Qt.Key.Key_Tab and not editing and self._is_end(self.CursorAction.MoveNext):
             self._leave_by_tab(forward=True)
         elif (
@@ -367,30 +365,12 @@ class ValueTable(QTableView):
         if self._is_dragged:
             return
         self._is_fitting = True
-        columns, names = self._table.columns, _NAMES[self.width() > _WIDE]
-        room = self.width() - names - _MARGIN - (_COMMAND if self._table.shows_commands else 0)
-        if columns == [CONTROL]:
-            widths = [max(_CONTROL_ALONE[0], min(_CONTROL_ALONE[1], room))]
-        else:
-            axes = len(columns) - (CONTROL in columns)
-            control = _MIXED[0] if CONTROL in columns else 0
-            each = max(_AXIS, min(_AXIS_AT_MOST, (room - control) // max(1, axes)))
-            control = max(_MIXED[0], min(_MIXED[1], room - each * axes))
-            widths = [control if column == CONTROL else each for column in columns]
-        for column, width in enumerate([*widths, _COMMAND] if self._table.shows_commands else widths):
+        room = self.width() - _MARGIN
+        names, widths = column_widths(self._table, room)
+        for column, width in enumerate(widths):
             self.setColumnWidth(column, width)
-        self._fit_names(names, sum(widths))
+        self.verticalHeader().setFixedWidth(names)
         self._is_fitting = False
-
-    def _fit_names(self, least: int, values: int) -> None:
-        """Make the names as wide as they need, as far as the values leave room: the gear is at their end."""
-        metrics = QFontMetrics(font("text"))
-        longest = nlargest(8, {row.parameter.name for row in self._table.rows}, len)
-        has_places = any(row.instance for row in self._table.rows)
-        wanted = max(map(metrics.horizontalAdvance, longest), default=0) + NUMBER + 20 + 110 * has_places
-        self.verticalHeader().setFixedWidth(
-            round(max(least, min(wanted, _NAMES[2], self.width() - values - _MARGIN)))
-        )
 
     def _note_drag(self, *_: object) -> None:
         """Keep the widths when the user has set one, until another list is shown."""
