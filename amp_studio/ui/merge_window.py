@@ -218,7 +218,8 @@ class MergeWindow(QDialog):
         """
         base = chosen.get(BASE)
         try:
-            merge = Merge(chosen[A].file, chosen[B].file, base.file if base else None)
+            ground: Side = "b" if chosen[B].is_now and not chosen[A].is_now else "a"
+            merge = Merge(chosen[A].file, chosen[B].file, base.file if base else None, ground=ground)
         except ValueError as error:
             self.message.say(str(error), "error")
             return

@@ -236,6 +236,20 @@ def test_swapped_sides_keep_what_was_taken(three: MergeWindow) -> None:
     assert three.merge.open_conflicts == []
 
 
+def test_swapped_sources_without_a_base_take_nothing_that_was_not_chosen(
+    shown: MergeWindow, window: MainWindow
+) -> None:
+    other = shown.merge.a.copy()
+    other.set(EXCESS, Value(3.0, "mm"))
+    shown.use(B, MergeSource("other.amp", "", other))
+    shown.view.swap.click()
+    assert result(shown, EXCESS) == Value(11.0, "mm")
+    assert shown.outcome.merge.toolTip() == "Nothing has been taken yet."
+    show(shown, EXCESS)
+    press(shown, "a")
+    assert result(shown, EXCESS) == Value(3.0, "mm")
+
+
 def test_rows_are_copied_as_a_spreadsheet_takes_them(three: MergeWindow) -> None:
     show(three, EXCESS)
     press(three, "b")
