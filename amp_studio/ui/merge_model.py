@@ -44,7 +44,7 @@ class Cell(NamedTuple):
     text: str
     unit: str = ""
     typed: str = ""
-    """What a person types for it, where that is something else."""
+    """What a person types for it; empty for the text itself."""
 
     @property
     def whole(self) -> str:
