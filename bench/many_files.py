@@ -43,10 +43,9 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
 
 def main(full: Path, paths: list[Path]) -> None:
     """Open the files in a window, show each once, and print what that takes."""
-    from PySide6.QtCore import QSettings, QStandardPaths
+    from PySide6.QtCore import QSettings
     from PySide6.QtWidgets import QApplication
 
-    QStandardPaths.setTestModeEnabled(True)
     QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(paths[0].parent))
     from amp_studio.ui.main_window import MainWindow
 
