@@ -10,7 +10,7 @@ import re
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import ClassVar, Protocol, runtime_checkable
 
 from .content import ContentKind
 from .links.endpoint import Endpoint
@@ -24,7 +24,6 @@ class Abilities:
     ``can_send``        it takes a download
     ``remembers``       it knows by itself what the control has contained before, and takes that back whatever it is
     ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
-    ``is_live``         single values go into the control while it is at work, one short exchange each
     ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
     """
 
@@ -32,7 +31,6 @@ class Abilities:
     remembers: bool = False
     all_or_nothing: bool = True
     maps_numbers: bool = False
-    is_live: bool = False
 
 
 @dataclass(frozen=True)
@@ -128,6 +126,13 @@ class ReadsBackPartly(Protocol):
     @property
     def read_back(self) -> str:
         """How the last fetch was proven, in words; "" where every byte was read."""
+
+
+@runtime_checkable
+class TakesLiveValues(Protocol):
+    """A driver over which single values go into a control that is at work, one short exchange each."""
+
+    takes_live_values: ClassVar[bool]
 
 
 class NeverRestarts:

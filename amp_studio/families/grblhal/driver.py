@@ -7,6 +7,7 @@ import hashlib
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import ClassVar
 
 from amp_studio.schema.visible import visible
 from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
@@ -49,7 +50,8 @@ class GrblDriver(GrblContentKind, NeverRestarts):
     It never makes a control restart: some builds do not take a setting afterwards.
     """
 
-    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True, is_live=True)
+    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True)
+    takes_live_values: ClassVar[bool] = True
 
     def __init__(
         self,

@@ -14,7 +14,7 @@ from pathlib import Path
 from amp_studio.files import Comparison, Notify, ParameterFile, compare
 from amp_studio.schema import Address, Value
 from amp_studio.transfer.content import decode_content
-from amp_studio.transfer.driver import ControlDriver
+from amp_studio.transfer.driver import ControlDriver, TakesLiveValues
 from amp_studio.transfer.errors import ImageChangedError, TransferError
 from amp_studio.transfer.progress import Progress, quiet
 
@@ -49,7 +49,7 @@ class LiveTuning:
     @property
     def is_live(self) -> bool:
         """Whether single values go into the control while it is at work; else each change is a download of everything."""
-        return self._driver.abilities.is_live
+        return isinstance(self._driver, TakesLiveValues)
 
     def look(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ParameterFile:
         """Read what the control contains, the first time or after an error; raises TransferError, ImageError."""

@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import ClassVar
 
 from amp_studio.families.acromill.formats.acr_command import CommandSetting
 from amp_studio.schema import load_schema
@@ -67,7 +68,8 @@ Figures = tuple[str, ...]
 class TerminalDriver(AcrContent, NeverRestarts):
     """Speaks to a card; ``system`` is the unit system of its figures, which it does not know itself."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False, is_live=True)
+    abilities = Abilities(can_send=True, all_or_nothing=False)
+    takes_live_values: ClassVar[bool] = True
 
     def __init__(
         self,

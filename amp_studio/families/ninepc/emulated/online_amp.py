@@ -142,7 +142,7 @@ class OnlineAmp:
 
 
 def _sum(file: ParameterFile, address: Address, by: Fraction) -> Value:
-    """Return a value with a number added; raises ValueError with the message of the screen where that is out of range."""
+    """Return a value with a number added; raises ValueError with the message of the screen if it is out of range."""
     old, new = file.get(address), stepped(file, address, by)
     assert old is not None
     if Fraction(repr(new.value)) != Fraction(repr(old.value)) + by:  # it stopped at its bound

@@ -9,6 +9,7 @@ import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import ClassVar
 
 from amp_studio.schema import load_schema
 from amp_studio.transfer.break_state import state_after_break
@@ -45,7 +46,8 @@ AXES = {0: "X", AXIS_Y: "Y"}
 class RegisterDriver(RegisterContent, NeverRestarts):
     """Speaks to the live registers of one module."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False, is_live=True)
+    abilities = Abilities(can_send=True, all_or_nothing=False)
+    takes_live_values: ClassVar[bool] = True
 
     def __init__(
         self,
