@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import (
+    Difference,
     Merge,
     ParameterFile,
     Row,
@@ -26,7 +27,7 @@ from amp_studio.schema.quoting import quoted
 from amp_studio.validate import Finding, Validator, rules_beside
 from amp_studio.validate.new_findings import new_findings
 
-from .comparing import named, row_json, shown
+from .comparing import difference_json, named, row_json, shown
 from .console import note, print_json
 from .errors import UsageError
 from .output import check_new
@@ -45,6 +46,12 @@ def merge_verb(options: argparse.Namespace) -> int:
         return _in_window(merge, options)
     result = merge.result()
     new = _new_findings(merge, result, options.ours)
+    if refitted := merge.refitted(result):
+        names = ", ".join(result.machine_schema.label(row.address) for row in refitted[:4])
+        more = f" and {len(refitted) - 4} more" if len(refitted) > 4 else ""
+        note(
+            f"the axis moves otherwise in the result, and the unit follows with the same figure: {names}{more}"
+        )
     if not options.dry_run:
         _write(result, options)
     if options.json:
@@ -158,14 +165,14 @@ def _document(
     changed = [row for row in merge.differing if merge.choice(row) not in ("a", None)]
     return {
         "output": None if options.dry_run else str(options.output),
-        "conflicts": [_row(merge, row, options.secrets) for row in merge.conflicts],
-        "changes": [_row(merge, row, options.secrets) for row in changed],
+        "conflicts": [_row(merge, row, result, options.secrets) for row in merge.conflicts],
+        "changes": [_row(merge, row, result, options.secrets) for row in changed],
         "same": merge.same,
         "findings": [finding_json(result, finding) for finding in new],
     }
 
 
-def _row(merge: Merge, row: Row, secrets: bool) -> dict[str, Any]:
+def _row(merge: Merge, row: Row, result: ParameterFile, secrets: bool) -> dict[str, Any]:
     """Return a row with the names of the sides; what an entry that the schema does not know contains is not shown."""
     settled = {"taken": _taken(merge.choice(row)) if merge.choice(row) else None}
     if row.id.part == "entry":
@@ -174,6 +181,9 @@ def _row(merge: Merge, row: Row, secrets: bool) -> dict[str, Any]:
         sides = {name: None if (v := row.of(side)) is None else v.value for name, side in SIDES.items()}
         return {"param": f"file.{row.id.key}"} | sides | settled
     found = row_json(merge, row, secrets)
+    settled["result"] = difference_json(
+        merge.a, Difference(row.address, result.get(row.address), None), secrets
+    )["a"]
     return {"param": found["param"], "id": found["id"], "instance": found["instance"], "base": found["base"],
             "ours": found["a"], "theirs": found["b"]} | settled | (
         {"secret": True} if found.get("secret") else {})  # fmt: skip

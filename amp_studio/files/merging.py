@@ -227,6 +227,14 @@ class Merge:
         self.apply_to(file)
         return file
 
+    def refitted(self, result: ParameterFile) -> list[Row]:
+        """Return the rows whose value has another unit in the result than where it was taken: their axis moves otherwise now."""
+        return [
+            row
+            for row in self.rows
+            if row.id.part == "value" and not same_value(result.get(row.address), self.result_of(row))
+        ]
+
     def apply_to(self, file: ParameterFile) -> list[Change]:
         """Put the result into a file that contains A or B; returns the values changed.
 

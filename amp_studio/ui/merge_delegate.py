@@ -158,6 +158,8 @@ class MergeDelegate(QStyledItemDelegate):
         note = self.tr("typed") if isinstance(choice, Typed) else ""
         if row.kind == "conflict":
             note = self.tr("conflict settled") if not note else self.tr("typed, conflict settled")
+        if self._model.is_refitted(row):
+            note = self.tr("unit follows the axis")
         self._write(painter, room.adjusted(left + 10, 0, 0, 0), note, self._small, "dim")
 
     def _value(self, painter: QPainter, room: QRect, text: str, unit: str, ink: Token, *, own: bool) -> int:

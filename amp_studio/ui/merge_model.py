@@ -20,6 +20,7 @@ from amp_studio.schema import (
     read_address,
     read_real,
     read_value,
+    same_value,
     show_value,
     shown,
 )
@@ -79,6 +80,7 @@ class MergeModel(QAbstractItemModel):
         self._letters: dict[str, str] = {}
         self._words: dict[RowId, str] = {}
         self._cells: dict[RowId, dict[int, Cell]] = {}
+        self._result = merge.result()
         self.set_merge(merge)
 
     # -- what is shown -------------------------------------------------------------
@@ -87,6 +89,7 @@ class MergeModel(QAbstractItemModel):
         """Show another merge."""
         self.beginResetModel()
         self.merge = merge
+        self._result = merge.result()
         self._letters = axis_letters(merge.a)
         self._words.clear()
         self._cells.clear()
@@ -185,7 +188,7 @@ class MergeModel(QAbstractItemModel):
         return cells[column]
 
     def _row_cells(self, row: Row) -> dict[int, Cell]:
-        values = [row.base, row.a, row.b, self.merge.result_of(row)]
+        values = [row.base, row.a, row.b, self.result_of(row)]
         if row.id.part != "value":
             texts = [None if value is None else str(value.value) for value in values]
             cells = [Cell("–" if text is None else visible(text)) for text in texts]
@@ -209,6 +212,14 @@ class MergeModel(QAbstractItemModel):
                 made.append(Cell(grouped(bare), shown(value.unit)))
         return dict(zip((BASE, A, B, RESULT), made, strict=True))
 
+    def result_of(self, row: Row) -> Value | None:
+        """Return what the result really has: on an axis that begins to turn, the figure in degrees."""
+        return self._result.get(row.address) if row.id.part == "value" else self.merge.result_of(row)
+
+    def is_refitted(self, row: Row) -> bool:
+        """Return whether a value has another unit in the result than where it was taken."""
+        return not same_value(self.result_of(row), self.merge.result_of(row))
+
     def text_to_edit(self, row: Row) -> str:
         """Return the result as it is typed: plain figures with their unit; empty for a masked secret."""
         if (
@@ -217,7 +228,7 @@ class MergeModel(QAbstractItemModel):
             and not self.secrets
         ):
             return ""
-        value = self.merge.result_of(row)
+        value = self.result_of(row)
         cell = self.cell(row, RESULT)
         return "" if value is None else cell.typed or cell.whole.replace(THIN, "")
 
@@ -262,12 +273,23 @@ class MergeModel(QAbstractItemModel):
         for row in changed:
             self.merge.choose(row, choice)
             self._cells.pop(row.id, None)
-        first = self.index_of(changed[0].id, NAME) if len(changed) == 1 else QModelIndex()
+        others = self._make_result() - {row.id for row in changed}
+        is_one = len(changed) == 1 and not others
+        first = self.index_of(changed[0].id, NAME) if is_one else QModelIndex()
         if first.isValid():
             self.dataChanged.emit(first, first.siblingAtColumn(RESULT))
         else:
             self._refresh_all()
         self.chosen.emit()
+
+    def _make_result(self) -> set[RowId]:
+        """Make the result again; returns the values that are another one, also those whose unit follows their axis."""
+        before, self._result = self._result.values, self.merge.result()
+        after = self._result.values
+        stale = {RowId("value", a) for a in {*before, *after} if before.get(a) != after.get(a)}
+        for row_id in stale:
+            self._cells.pop(row_id, None)
+        return stale
 
     def _refresh_all(self) -> None:
         for n, group in enumerate(self.groups):

@@ -75,7 +75,7 @@ def test_a_merge_as_json_has_conflicts_changes_and_new_findings(amp, three) -> N
     out = three[0].with_name("merged.amp")
     said = amp("merge", *three, "-o", out, "--json")
     conflict = {"param": "1300", "id": "home.calibration", "instance": "1",
-                "base": "0 mm", "ours": "1 mm", "theirs": "7 mm", "taken": None}  # fmt: skip
+                "base": "0 mm", "ours": "1 mm", "theirs": "7 mm", "taken": None, "result": "1 mm"}  # fmt: skip
     assert (said.code, said.json["conflicts"], said.json["output"]) == (1, [conflict], str(out))
     changes = {each["param"]: each["taken"] for each in said.json["changes"]}
     assert changes == {"1320": "theirs", "1350": "theirs"}
@@ -93,6 +93,14 @@ def test_a_finding_that_only_the_result_has_is_named(amp, checkout: Path, tmp_pa
     assert "new in the result: warning 1730 Gain Break Point" in said.err
     (finding,) = amp("merge", base, ours, theirs, "--dry-run", "--json").json["findings"]
     assert set(finding["params"]) == {"1730", "1740"}
+
+
+def test_values_whose_unit_follows_their_axis_are_named(amp, three) -> None:
+    base, ours, theirs = three
+    amp("set", theirs, "axis.type@X=rotary")
+    said = amp("merge", base, ours, theirs, "-o", base.with_name("merged.amp"), "--take", "ours")
+    assert "the unit follows with the same figure: 1300 Home Calibration" in said.err
+    assert open_file(base.with_name("merged.amp")).file.get(CALIBRATION) == Value(1.0, "deg")
 
 
 def test_remarks_of_ours_stay_in_the_result(amp, three) -> None:

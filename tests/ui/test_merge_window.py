@@ -250,6 +250,19 @@ def test_swapped_sources_without_a_base_take_nothing_that_was_not_chosen(
     assert result(shown, EXCESS) == Value(3.0, "mm")
 
 
+def test_the_result_shows_the_figure_in_degrees_of_an_axis_that_begins_to_turn(shown: MergeWindow) -> None:
+    other = shown.merge.a.copy()
+    other.set_many({("axis.type", "1"): Value("rotary")})
+    shown.use(B, MergeSource("other.amp", "", other))
+    row = next(row for row in shown.merge.differing if row.address == EXCESS)
+    show(shown, ("axis.type", "1"))
+    press(shown, "b")
+    assert shown.merge.result_of(row) == Value(11.0, "mm")
+    assert (shown.model.text(row, RESULT), shown.model.is_refitted(row)) == ("11°", True)
+    press(shown, Qt.Key.Key_Backspace)
+    assert (shown.model.text(row, RESULT), shown.model.is_refitted(row)) == ("11 mm", False)
+
+
 def test_rows_are_copied_as_a_spreadsheet_takes_them(three: MergeWindow) -> None:
     show(three, EXCESS)
     press(three, "b")
