@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from datetime import datetime
 
-from amp_studio.files import Merge, Row, RowGroup, Typed
+from amp_studio.files import Merge, ParameterFile, Row, RowGroup, Typed
 from amp_studio.files.diff import in_one_unit
 from amp_studio.files.merging import Choice, Side
 from amp_studio.schema import Value, show_value
@@ -27,17 +27,18 @@ def merge_paper(merge: Merge, names: Mapping[Side, str], date: datetime | None =
         ("Differ", str(len(merge.differing))), ("The same", str(merge.same)),
         ("Conflicts", f"{len(merge.conflicts)}, {left} not settled"),
     )  # fmt: skip
-    tables = tuple(_table(merge, group, tuple(names)) for group in merge.grouped(merge.differing))
+    result = merge.result()
+    tables = tuple(_table(merge, group, tuple(names), result) for group in merge.grouped(merge.differing))
     title = merge.a.header.name or names["a"]
     return Paper("Comparison", title, facts, tables, date or datetime.now().astimezone(), "Nothing differs.")
 
 
-def _table(merge: Merge, group: RowGroup, sides: tuple[Side, ...]) -> PaperTable:
+def _table(merge: Merge, group: RowGroup, sides: tuple[Side, ...], result: ParameterFile) -> PaperTable:
     heads = ("Number", "Parameter", "Belongs to", *(LETTERS[side] for side in sides), "Result")
     cells, strong = [], set()
     for at, row in enumerate(group.rows):
         choice = merge.choice(row)
-        cells.append((*_named(merge, row), *_values(merge, row, sides, choice)))
+        cells.append((*_named(merge, row), *_values(merge, row, sides, choice, result)))
         taken = sides.index(choice) if isinstance(choice, str) and choice in sides else len(sides)
         strong.add((at, 3 + taken))
     return PaperTable(group.title, heads, tuple(cells), _SHARES[: len(heads)], frozenset(strong))
@@ -51,9 +52,12 @@ def _named(merge: Merge, row: Row) -> tuple[str, str, str]:
     return number, file.schema.parameters[address[0]].name, place_of(file, address)
 
 
-def _values(merge: Merge, row: Row, sides: tuple[Side, ...], choice: Choice | None) -> tuple[str, ...]:
+def _values(
+    merge: Merge, row: Row, sides: tuple[Side, ...], choice: Choice | None, result: ParameterFile
+) -> tuple[str, ...]:
     """Return the values of a row in one unit, and that of the result in words."""
-    values = [*(row.of(side) for side in sides), merge.result_of(row)]
+    has = result.get(row.address) if row.id.part == "value" else merge.result_of(row)
+    values = [*(row.of(side) for side in sides), has]
     if row.id.part != "value":
         texts = ["–" if value is None else visible(str(value.value)) for value in values]
     else:
