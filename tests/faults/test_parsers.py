@@ -54,6 +54,7 @@ READERS = {
     "families/servo57c422b/lines/content.py": "damaged contents and racks of the 57C422B",
     "families/servo57c422b/lines/driver.py": "57C422B registers over a bad line",
     "families/servo57c422b/lines/register_line.py": "57C422B registers over a bad line",
+    "families/ninepc/emulated/online_amp.py": "odd commands at the screen of a 9/PC",
     "families/ninepc/emulated/panel.py": "odd commands at the screen of a 9/PC",
     "files/atomic.py": "damaged backups",
     "files/document.py": "damaged journal and history",
