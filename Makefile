@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign faults peers check format schema lock bench man wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign faults peers check format schema lock bench man translations wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -56,6 +56,9 @@ schema: setup ## write the JSON Schemas by which an editor completes and checks 
 
 bench: setup ## measure, and print one table
 	@$(BIN)/python bench/run.py
+
+translations: setup ## find the texts of the window that have no translation, and list them
+	@$(BIN)/python scripts/translations.py
 
 man: setup ## write build/amp-studio.1, the man page
 	@mkdir -p build && $(BIN)/amp-studio man > build/amp-studio.1

@@ -23,11 +23,14 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     from PySide6.QtWidgets import QApplication
 
     from .main_window import MainWindow
+    from .settings import UserSettings
+    from .translated import speak
 
     arguments = sys.argv[1:] if arguments is None else arguments
     application = QApplication.instance() or QApplication(["amp-studio", *arguments])
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
+    speak(UserSettings().language())
     window = MainWindow()
     sys.excepthook = _hook(window)
     window.show()

@@ -37,11 +37,9 @@ class AxisActions(QObject):
         self.menu = menu = window.menuBar().addMenu(self.tr("&Axis"))
         menu.setToolTipsVisible(True)
         act, tr = window.action, self.tr
-        self.name_action = act(tr("&Name Axis…"), self.name, self.tr("Ctrl+Shift+N"), "edit")
-        self.type_action = act(tr("Configure Axis &Type…"), self.configure_type, self.tr("Ctrl+T"), "edit")
-        self.servo_action = act(
-            tr("Configure &Servo…"), self.configure_servo, self.tr("Ctrl+Shift+T"), "edit"
-        )
+        self.name_action = act(tr("&Name Axis…"), self.name, "Ctrl+Shift+N", "edit")
+        self.type_action = act(tr("Configure Axis &Type…"), self.configure_type, "Ctrl+T", "edit")
+        self.servo_action = act(tr("Configure &Servo…"), self.configure_servo, "Ctrl+Shift+T", "edit")
         self.add_action = act(tr("&Add Axis…"), self.add, None, "edit")
         self.delete_action = act(tr("&Delete Axis…"), self.delete, None, "edit")
         self.copy_action = act(tr("&Copy Axis…"), self.copy, None, "edit")

@@ -85,7 +85,7 @@ class CalibrationPage(QWidget):
         for box in (self.input, self.start):
             box.activated.connect(lambda *_: self._guarded(self._rechoose))
         self.table.itemChanged.connect(self._typed)
-        for keys, act in ((self.tr("Ins"), self._insert), (self.tr("Del"), self._delete)):
+        for keys, act in (("Ins", self._insert), ("Del", self._delete)):
             shortcut = QShortcut(QKeySequence(keys), self.table)
             shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
             shortcut.activated.connect(lambda act=act: self._guarded(act))

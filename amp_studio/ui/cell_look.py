@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from PySide6.QtCore import QCoreApplication
-
 from amp_studio.files import unlike_axes
 from amp_studio.files.local_time import with_days_and_times
 from amp_studio.files.notes import value_note
@@ -18,7 +16,7 @@ from amp_studio.schema import Address, UnitError, Value, convert, show_value, sh
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET
 
-from .translated import Translated
+from .translated import Translated, tr
 from .workspace import Workspace
 
 CellKind = Literal["value", "not set", "absent"]
@@ -50,11 +48,6 @@ class CellLook:
     severity: str = ""
     """Of the worst finding that it causes."""
     has_note: bool = False
-
-
-def tr(text: str) -> str:
-    """Return a text in the language of the window."""
-    return QCoreApplication.translate("ShownValues", text)
 
 
 @lru_cache(maxsize=2_000)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication, QUrl
+from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog
 
@@ -13,6 +13,7 @@ from amp_studio.files import check_output
 
 from .studio_window import StudioWindow
 from .task import in_background
+from .translated import tr
 from .workspace import Workspace
 
 
@@ -20,9 +21,9 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     """Ask for a file and write the check list into it, then open it; nothing where the dialog is cancelled."""
     from amp_studio.report.check_list import build_check_list, write_check_list
 
-    endings = _tr("PDF (*.pdf);;Web page (*.html);;Text (*.txt)")
+    endings = tr("PDF (*.pdf);;Web page (*.html);;Text (*.txt)")
     start = workspace.path.with_name(f"{workspace.path.stem}-check-list.pdf")
-    text, chosen = QFileDialog.getSaveFileName(window, _tr("Check List"), str(start), endings)
+    text, chosen = QFileDialog.getSaveFileName(window, tr("Check List"), str(start), endings)
     if not text:
         return
     path = Path(text)
@@ -31,10 +32,6 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     check_output(path, workspace.path)
     checks = build_check_list(workspace.file, workspace.progress, workspace.path)
     notes: list[str] = []
-    in_background(window, _tr("Check List"), partial(write_check_list, checks, path, notes.append))
-    window.show_status("; ".join([_tr("{path} written").format(path=path), *notes]))
+    in_background(window, tr("Check List"), partial(write_check_list, checks, path, notes.append))
+    window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))
     QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("CheckList", text)

@@ -52,7 +52,7 @@ class CompareActions(QObject):
         self.action = window.action(
             self.tr("Compare and Merge &With…"),
             self.compare,
-            self.tr("Ctrl+Shift+M"),
+            "Ctrl+Shift+M",
             "file",
             "git-diff",
             self.tr("Compare"),

@@ -64,9 +64,7 @@ class ControlActions(Translated):
         exchanges = act(self.tr("E&xchanges of This File…"), self.recorded, None, "file")
         menu.addActions([download, verify, upload, put_back, by_hand])
         menu.addSeparator()
-        tuning = act(
-            self.tr("&Tuning…"), lambda: tune(self.window, self.exchanges), self.tr("Shift+F9"), "file"
-        )
+        tuning = act(self.tr("&Tuning…"), lambda: tune(self.window, self.exchanges), "Shift+F9", "file")
         menu.addActions([several, exchanges])
         menu.addAction(tuning)
         menu.addSeparator()

@@ -6,14 +6,14 @@ goes, the findings fold to their head. It all comes back with the room.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QByteArray, QCoreApplication, QSize, Qt
+from PySide6.QtCore import QByteArray, QSize, Qt
 from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QMainWindow, QStackedWidget, QWidget
 
 from .file_page import FilePage
 from .segment import Segment
 from .settings import UserSettings
 from .theme import GAP2, HEAD, font
-from .translated import Translated
+from .translated import Translated, tr
 
 _PANELS = (
     ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 248),
@@ -247,11 +247,10 @@ class Docks(Translated):
 
 def _name(title: str) -> str:
     """Return the name of a dock for a person; its key stays the same in every language."""
-    translate = QCoreApplication.translate
     names = {
-        "Groups": translate("Docks", "Groups"),
-        "Parameter": translate("Docks", "Parameter"),
-        "Findings": translate("Docks", "Findings"),
+        "Groups": tr("Groups"),
+        "Parameter": tr("Parameter"),
+        "Findings": tr("Findings"),
     }
     return names[title]
 

@@ -59,7 +59,7 @@ class FileActions(Translated):
         new = act(self.tr("&New…"), self.new, keys.New, "", "file-plus", self.tr("New"))
         opened = act(self.tr("&Open…"), self.open, keys.Open, "", "folder-open", self.tr("Open"))
         save = act(self.tr("&Save"), window.save, keys.Save, "edit", "floppy-disk")
-        save_as = act(self.tr("Save &As…"), self.save_as, self.tr("Ctrl+Shift+S"))
+        save_as = act(self.tr("Save &As…"), self.save_as, "Ctrl+Shift+S")
         close = act(self.tr("&Close"), self.close, keys.Close)
         report = act(self.tr("&Report…"), self.report, keys.Print, "file", "printer", self.tr("Report"))
         menu = window.menuBar().addMenu(self.tr("&File"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QMenu
 
 from amp_studio.find import Mark
@@ -13,7 +12,7 @@ from .file_page import FilePage
 from .filter_bar import mark_names
 from .studio_window import StudioWindow
 from .task import in_background
-from .translated import Translated
+from .translated import Translated, tr
 
 _LETTERS: dict[Mark, str] = {
     "not-set": "n", "changed": "c", "findings": "f", "axes-differ": "x", "unsaved": "s", "since-download": "d",
@@ -27,16 +26,16 @@ class FilterActions(Translated):
 
     def __init__(self, window: StudioWindow, into: QMenu) -> None:
         self.window = window
-        menu = into.addMenu(_tr("Filte&r"))
-        names = {mark: name for mark, (name, _) in mark_names().items()} | {"findings": _tr("With findings")}
+        menu = into.addMenu(tr("Filte&r"))
+        names = {mark: name for mark, (name, _) in mark_names().items()} | {"findings": tr("With findings")}
         for mark, (_, tip) in mark_names().items():
             action = window.action(_lettered(names[mark], _LETTERS[mark]), partial(self._toggle, mark))
             action.setToolTip(tip)
             menu.addAction(action)
         menu.addSeparator()
-        menu.addAction(window.action(_tr("&All Rows"), self._clear, self.tr("Ctrl+0")))
+        menu.addAction(window.action(tr("&All Rows"), self._clear, "Ctrl+0"))
         self.bookmark = window.action(
-            _tr("Boo&kmark"), self.toggle_bookmark, self.tr("Ctrl+B"), "file", "bookmark-simple"
+            tr("Boo&kmark"), self.toggle_bookmark, "Ctrl+B", "file", "bookmark-simple"
         )
 
     def add(self, page: FilePage) -> None:
@@ -63,7 +62,7 @@ class FilterActions(Translated):
         file, path = page.workspace.file, page.workspace.path
         try:
             last = in_background(
-                self.window, _tr("Reading the last download"), lambda: last_download(file, path)
+                self.window, tr("Reading the last download"), lambda: last_download(file, path)
             )
         except NoDownloadError as error:
             page.bar.say(str(error))
@@ -75,13 +74,13 @@ class FilterActions(Translated):
         page = self._page()
         address = page.table_view.address()
         if address is None:
-            raise ValueError(_tr("Select a value in the table first."))
+            raise ValueError(tr("Select a value in the table first."))
         kept = self.window.settings.bookmarks(page.workspace.path)
         kept ^= {address[0]}
         self.window.settings.keep_bookmarks(page.workspace.path, kept)
         page.filters.set_bookmarks(kept)
         name = page.workspace.file.schema.parameters[address[0]].name
-        text = _tr("{name} is bookmarked.") if address[0] in kept else _tr("{name} is no longer bookmarked.")
+        text = tr("{name} is bookmarked.") if address[0] in kept else tr("{name} is no longer bookmarked.")
         self.window.show_status(text.format(name=name))
 
 
@@ -89,7 +88,3 @@ def _lettered(name: str, letter: str) -> str:
     """Return a name with its letter marked for the menu."""
     at = name.casefold().find(letter)
     return f"{name[:at]}&{name[at:]}" if at >= 0 else name
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("FilterActions", text)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from PySide6.QtCore import QCoreApplication, QSize, QTimer, Signal
+from PySide6.QtCore import QSize, QTimer, Signal
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
@@ -17,6 +17,7 @@ from amp_studio.schema import Address, Value
 from .parameter_table import ParameterTable, TableRow
 from .segment import chip
 from .theme import GAP, GAP2, SMALL_ICON, icon
+from .translated import tr
 from .workspace import Workspace
 
 _CHIPS: tuple[Mark, ...] = ("not-set", "changed", "findings", "axes-differ")
@@ -29,19 +30,18 @@ _TITLE = 200
 
 def mark_names() -> dict[Mark, tuple[str, str]]:
     """Return each mark by its name and what it lists."""
-    tr = QCoreApplication.translate
     return {
-        "not-set": (tr("FilterBar", "Not set"), tr("FilterBar", "Active values that are not set")),
-        "changed": (tr("FilterBar", "Changed"), tr("FilterBar", "Values that are not the printed default")),
-        "findings": (tr("FilterBar", "Findings"), tr("FilterBar", "Values that cause a finding")),
-        "axes-differ": (tr("FilterBar", "Axes differ"), tr("FilterBar", "Parameters whose axes have different values")),
-        "unsaved": (tr("FilterBar", "Not saved"), tr("FilterBar", "Values that are not as on disk")),
-        "since-download": (tr("FilterBar", "Changed since download"),
-                           tr("FilterBar", "Values that are not as in the last recorded download")),
-        "restart": (tr("FilterBar", "Active after restart"), tr("FilterBar", "Values that take effect after a restart")),
-        "recent": (tr("FilterBar", "Recently edited"), tr("FilterBar", "The last values that were edited here")),
-        "bookmarked": (tr("FilterBar", "Bookmarked"), tr("FilterBar", "Parameters that you have bookmarked (Ctrl+B)")),
-        "noted": (tr("FilterBar", "With a note"), tr("FilterBar", "Values with a note")),
+        "not-set": (tr("Not set"), tr("Active values that are not set")),
+        "changed": (tr("Changed"), tr("Values that are not the printed default")),
+        "findings": (tr("Findings"), tr("Values that cause a finding")),
+        "axes-differ": (tr("Axes differ"), tr("Parameters whose axes have different values")),
+        "unsaved": (tr("Not saved"), tr("Values that are not as on disk")),
+        "since-download": (tr("Changed since download"),
+                           tr("Values that are not as in the last recorded download")),
+        "restart": (tr("Active after restart"), tr("Values that take effect after a restart")),
+        "recent": (tr("Recently edited"), tr("The last values that were edited here")),
+        "bookmarked": (tr("Bookmarked"), tr("Parameters that you have bookmarked (Ctrl+B)")),
+        "noted": (tr("With a note"), tr("Values with a note")),
     }  # fmt: skip
 
 

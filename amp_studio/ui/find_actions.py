@@ -57,11 +57,11 @@ class FindActions(Translated):
         self.box.entered.connect(self._forget_menus)
         act = window.action
         self.actions = [
-            act(self.tr("&Find…"), self.box.begin, self.tr("Ctrl+F"), ""),
-            act(self.tr("&Go to Number…"), self.box.begin, self.tr("Ctrl+G"), "file"),
+            act(self.tr("&Find…"), self.box.begin, "Ctrl+F", ""),
+            act(self.tr("&Go to Number…"), self.box.begin, "Ctrl+G", "file"),
         ]
         self.commands_action = act(
-            self.tr("&Commands…"), partial(self.box.begin, COMMANDS), self.tr("Ctrl+Shift+P"), ""
+            self.tr("&Commands…"), partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", ""
         )
         self.actions[0].setShortcuts([QKeySequence("Ctrl+F"), QKeySequence("Ctrl+K")])
 

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from PySide6.QtCore import (
     QAbstractListModel,
-    QCoreApplication,
     QModelIndex,
     QPersistentModelIndex,
     QRect,
@@ -20,6 +19,7 @@ from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 from amp_studio.find import Hit, HitKind
 
 from .theme import FINDING_ROW, GAP, GAP2, ROW, SMALL_ICON, colour, font, paint_icon
+from .translated import tr
 
 _ICONS: dict[HitKind, str] = {
     "parameter": "hash", "value": "equals", "choice": "list-bullets", "message": "warning-circle",
@@ -60,11 +60,10 @@ class FindRow(NamedTuple):
 
 
 def _head(kind: HitKind) -> str:
-    tr = QCoreApplication.translate
     return {
-        "parameter": tr("FindBox", "Parameters"), "value": tr("FindBox", "Values"), "choice": tr("FindBox", "Choices"),
-        "message": tr("FindBox", "Messages of the control"), "group": tr("FindBox", "Groups"),
-        "command": tr("FindBox", "Commands"), "note": tr("FindBox", "Notes"),
+        "parameter": tr("Parameters"), "value": tr("Values"), "choice": tr("Choices"),
+        "message": tr("Messages of the control"), "group": tr("Groups"),
+        "command": tr("Commands"), "note": tr("Notes"),
     }[kind]  # fmt: skip
 
 

@@ -359,7 +359,7 @@ class FindingsPanel(QWidget):
         able = bool(finding and self._workspace.may_edit and any(f.fix for f in self.current_findings()))
         for text, act, keys, can in (
             (self.tr("&Go to"), self._activate, self.tr("Enter"), bool(finding and finding.addresses)),
-            (self.tr("&Why"), self.explain, self.tr("Shift+F1"), finding is not None),
+            (self.tr("&Why"), self.explain, "Shift+F1", finding is not None),
             (self.tr("Fi&x"), self.fix, "F8", able),
             (self.tr("&Suppress…"), self.suppress, "", bool(finding and self._may_suppress(finding))),
         ):

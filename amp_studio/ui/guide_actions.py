@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QCoreApplication
-
 from amp_studio.files.lock import now, user
 from amp_studio.guide import SetupStep, next_open, step_of, tick
 from amp_studio.schema import Address
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
-from .translated import Translated
+from .translated import Translated, tr
 
 
 class GuideActions(Translated):
@@ -19,13 +17,13 @@ class GuideActions(Translated):
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act = window.action
-        self.next = act(_tr("&Next Not Set"), self.go_on, self.tr("Ctrl+."))
-        self.done = act(_tr("Mark Step as &Done"), self.mark, self.tr("Ctrl+Shift+."), "edit")
-        self.keep = act(_tr("Keep De&faults of This Step"), self.keep_defaults, None, "edit")
-        self.later = act(_tr("&Show Later Findings"), self.show_later)
-        self.check_list = act(_tr("&Check List…"), self.save_check_list)
+        self.next = act(tr("&Next Not Set"), self.go_on, "Ctrl+.")
+        self.done = act(tr("Mark Step as &Done"), self.mark, "Ctrl+Shift+.", "edit")
+        self.keep = act(tr("Keep De&faults of This Step"), self.keep_defaults, None, "edit")
+        self.later = act(tr("&Show Later Findings"), self.show_later)
+        self.check_list = act(tr("&Check List…"), self.save_check_list)
         self.later.setCheckable(True)
-        menu = window.menuBar().addMenu(_tr("&Guide"))
+        menu = window.menuBar().addMenu(tr("&Guide"))
         menu.addActions([self.next, self.done, self.keep])
         menu.addSeparator()
         menu.addActions([self.later, self.check_list])
@@ -51,7 +49,7 @@ class GuideActions(Translated):
         here = page.table_view.address()
         found = next_open(workspace.progress, here)
         if found is None:
-            self.window.show_status(_tr("Every active value is set."))
+            self.window.show_status(tr("Every active value is set."))
             return
         page.left.show_side("steps")
         page.left.steps.choose_step(step_of(workspace.file.schema)[found[0]])
@@ -70,7 +68,7 @@ class GuideActions(Translated):
             if each.state == "not begun"
         ]
         if passed:
-            text = _tr("All at their defaults, check them too: {steps}")
+            text = tr("All at their defaults, check them too: {steps}")
             self.window.show_status(text.format(steps=", ".join(passed)))
 
     def _step(self) -> SetupStep:
@@ -87,11 +85,11 @@ class GuideActions(Translated):
         workspace, step = self._page().workspace, step or self._step()
         is_ticked = bool(workspace.progress.of(step).ticked)
         by = None if is_ticked else self.tr("{now} by {user}").format(now=now(), user=user())
-        text = _tr("Step {number} not done") if is_ticked else _tr("Step {number} done")
+        text = tr("Step {number} not done") if is_ticked else tr("Step {number} done")
         workspace.do(text.format(number=step.number), lambda: tick(workspace.file, step, by))
         each = workspace.progress.of(step)
         if each.ticked and each.state != "done":
-            left = _tr("{title} is ticked. Left: {open} values not set, {errors} errors.")
+            left = tr("{title} is ticked. Left: {open} values not set, {errors} errors.")
             self.window.show_status(
                 left.format(title=step.title, open=len(each.open), errors=each.count("error"))
             )
@@ -102,8 +100,8 @@ class GuideActions(Translated):
         wanted = {a: workspace.file.default(a) for a in workspace.progress.of(step).open}
         known = {a: value for a, value in wanted.items() if value is not None}
         if not known:
-            raise ValueError(_tr("The manual prints no default for any open value of this step."))
-        workspace.edit(_tr("Keep defaults"), known)
+            raise ValueError(tr("The manual prints no default for any open value of this step."))
+        workspace.edit(tr("Keep defaults"), known)
 
     def show_later(self) -> None:
         """List the findings of steps that have not been reached too, or leave them out."""
@@ -120,7 +118,3 @@ class GuideActions(Translated):
         """Check what is on in the file in front."""
         page = self.window.page
         self.later.setChecked(page is not None and page.workspace.shows_later)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("GuideActions", text)

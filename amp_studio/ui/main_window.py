@@ -22,6 +22,7 @@ from .filter_actions import FilterActions
 from .find_actions import FindActions
 from .garbage import collect_by_timer
 from .guide_actions import GuideActions
+from .language_actions import LanguageActions
 from .left_panel import as_side
 from .picture_actions import PictureActions
 from .program_icon import program_icon
@@ -68,6 +69,7 @@ class MainWindow(StudioWindow):
         self.filters = FilterActions(self, self.view.menu)
         self.edits.menu.addAction(self.filters.bookmark)
         self.themes = ThemeActions(self, self.view.menu)
+        self.languages = LanguageActions(self, self.view.menu)
         self.control = ControlActions(self, self.files)
         self.projects = ProjectActions(self, self.files.open_path)
         self.project_files = ProjectFiles(

@@ -46,7 +46,7 @@ class ViewBar(QFrame):
         self.swap.setIcon(icon("swap"))
         self.swap.setAccessibleName(self.tr("Swap A and B"))
         self.swap.setToolTip(self.tr("Swap A and B (Alt+W)"))
-        self.swap.setShortcut(self.tr("Alt+W"))
+        self.swap.setShortcut("Alt+W")
         row.addWidget(self.swap)
         names = {"metric": "mm", "inch": "inch"}
         several = systems if len(systems) > 1 else ()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QApplication, QFileDialog
 
 from amp_studio.files import Document, Merge, ParameterFile
@@ -18,6 +17,7 @@ from .merge_window import MergeWindow
 from .settings import UserSettings
 from .task import Task
 from .theme import wear
+from .translated import tr
 from .workspace import Workspace
 
 
@@ -55,36 +55,28 @@ def tool_window(
         window.close()
 
     def ask_file() -> ReadSource | None:
-        text, _ = QFileDialog.getOpenFileName(
-            window, QCoreApplication.translate("MergeTool", "Compare with"), str(sources.folder), FILTER
-        )
+        text, _ = QFileDialog.getOpenFileName(window, tr("Compare with"), str(sources.folder), FILTER)
         return sources.from_copy(sources.other_file, Path(text)) if text else None
 
     sources = MergeSources(workspace)
     offers = [
         (
-            QCoreApplication.translate("MergeTool", "Other Files"),
-            [Offer(QCoreApplication.translate("MergeTool", "Another &File…"), ask_file)],
+            tr("Other Files"),
+            [Offer(tr("Another &File…"), ask_file)],
         )
     ]
     window = MergeWindow(workspace, sources, lambda: offers, save)
     window.outcome.merge.hide()
-    window.outcome.save.setText(
-        QCoreApplication.translate("MergeTool", "&Save {file}").format(file=output.name.replace("&", "&&"))
-    )
+    window.outcome.save.setText(tr("&Save {file}").format(file=output.name.replace("&", "&&")))
     window.outcome.save.setProperty("primary", True)
     chosen = {
-        A: MergeSource(QCoreApplication.translate("MergeTool", "Ours"), workspace.path.name, merge.a),
-        B: MergeSource(QCoreApplication.translate("MergeTool", "Theirs"), "", merge.b),
+        A: MergeSource(tr("Ours"), workspace.path.name, merge.a),
+        B: MergeSource(tr("Theirs"), "", merge.b),
     }
-    base = (
-        {}
-        if merge.base is None
-        else {BASE: MergeSource(QCoreApplication.translate("MergeTool", "Base"), "", merge.base)}
-    )
+    base = {} if merge.base is None else {BASE: MergeSource(tr("Base"), "", merge.base)}
     window.show_merge(chosen | base)
     for row in window.merge.differing:
         if (choice := merge.choices.get(row.id)) is not None:
             window.model.choose([row], choice)
-    window.head.target = QCoreApplication.translate("MergeTool", "goes to {file}").format(file=output.name)
+    window.head.target = tr("goes to {file}").format(file=output.name)
     return window

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from amp_studio.files import Merge, check_output
@@ -15,6 +14,7 @@ from .merge_model import SIDES
 from .merge_sources import MergeSource
 from .message_bar import MessageBar
 from .task import in_background
+from .translated import tr
 
 _KINDS = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv)"
 
@@ -23,7 +23,7 @@ def save_merge_report(
     window: QWidget, merge: Merge, chosen: Mapping[int, MergeSource], beside: Path, bar: MessageBar
 ) -> None:
     """Write a comparison as a paper; shows where it is, or the error. ``beside`` is the file that is compared."""
-    title = QCoreApplication.translate("MergeReport", "Report of the comparison")
+    title = tr("Report of the comparison")
     near = beside.with_name(f"{beside.stem}-comparison.pdf")
     text, kind = QFileDialog.getSaveFileName(window, title, str(near), _KINDS)
     if not text:
@@ -40,7 +40,7 @@ def save_merge_report(
     except (OSError, ValueError) as error:
         bar.say(str(error), "error")
         return
-    written = QCoreApplication.translate("MergeReport", "{file} written.")
+    written = tr("{file} written.")
     bar.say(written.format(file=path.name))
 
 

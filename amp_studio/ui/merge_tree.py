@@ -55,16 +55,16 @@ class MergeTree(QTreeView):
         self.selectionModel().currentChanged.connect(lambda *_: self.current_row.emit(self.row()))
         for text, keys, act in (
             (self.tr("Take Source &0"), ["0"], partial(self.take, "base")),
-            (self.tr("Take Source &A"), ["A", self.tr("Alt+Left")], partial(self.take, "a")),
-            (self.tr("Take Source &B"), ["B", self.tr("Alt+Right")], partial(self.take, "b")),
+            (self.tr("Take Source &A"), ["A", "Alt+Left"], partial(self.take, "a")),
+            (self.tr("Take Source &B"), ["B", "Alt+Right"], partial(self.take, "b")),
             (self.tr("&Type a Value"), ["F2"], self.type_value),
-            (self.tr("Take &Back the Choice"), [self.tr("Backspace")], partial(self.take, None)),
-            (self.tr("&Next Difference"), [self.tr("Alt+Down")], partial(self.step, 1)),
-            (self.tr("&Previous Difference"), [self.tr("Alt+Up")], partial(self.step, -1)),
+            (self.tr("Take &Back the Choice"), ["Backspace"], partial(self.take, None)),
+            (self.tr("&Next Difference"), ["Alt+Down"], partial(self.step, 1)),
+            (self.tr("&Previous Difference"), ["Alt+Up"], partial(self.step, -1)),
             (self.tr("Next &Conflict"), ["C"], partial(self.step, 1, conflicts=True)),
-            (self.tr("Pre&vious Conflict"), [self.tr("Shift+C")], partial(self.step, -1, conflicts=True)),
-            (self.tr("&Show in the Table"), [self.tr("Return"), self.tr("Enter")], self.go),
-            (self.tr("Cop&y Rows"), [self.tr("Ctrl+C")], self.copy),
+            (self.tr("Pre&vious Conflict"), ["Shift+C"], partial(self.step, -1, conflicts=True)),
+            (self.tr("&Show in the Table"), ["Return", self.tr("Enter")], self.go),
+            (self.tr("Cop&y Rows"), ["Ctrl+C"], self.copy),
         ):
             action = QAction(text, self)
             action.setShortcuts([QKeySequence(key) for key in keys])

@@ -33,8 +33,8 @@ class ProjectActions(Translated):
         ])  # fmt: skip
         menu.addSeparator()
         menu.addActions([
-            act(self.tr("Open &File of the Project…"), self.open_file, self.tr("Ctrl+Shift+O"), "project"),
-            act(self.tr("Chec&k All Files…"), self.check, self.tr("Ctrl+Shift+F8"), "project"),
+            act(self.tr("Open &File of the Project…"), self.open_file, "Ctrl+Shift+O", "project"),
+            act(self.tr("Chec&k All Files…"), self.check, "Ctrl+Shift+F8", "project"),
             act(self.tr("&Copy File…"), self.copy, None, "project"),
             act(self.tr("Copy from &Another Project…"), self.copy_from, None, "project"),
             act(self.tr("&Rename File…"), self.rename, None, "project"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from PySide6.QtCore import QCoreApplication, QMimeData, Qt
+from PySide6.QtCore import QMimeData, Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 
 from amp_studio.files import alike_axes, axis_instances, describe, fitted_axes
@@ -23,16 +23,11 @@ from amp_studio.schema.quoting import quoted
 from .block_preview import BlockPreview
 from .file_page import FilePage
 from .studio_window import StudioWindow
-from .translated import Translated
+from .translated import Translated, tr
 
 AddressBlock = Sequence[Sequence[Address | None]]
 _LISTED = 4
 """Refusals that a message lists."""
-
-
-def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
-    """Return a text in the language of the window."""
-    return QCoreApplication.translate("RangeActions", text, disambiguation, n)
 
 
 class RangeActions(Translated):
@@ -42,13 +37,13 @@ class RangeActions(Translated):
         self.window = window
         act, keys = window.action, QKeySequence.StandardKey
         copy = act(tr("&Copy"), self.copy, keys.Copy, "file")
-        named = act(tr("Copy with Na&mes"), self.copy_with_names, self.tr("Ctrl+Shift+C"), "file")
+        named = act(tr("Copy with Na&mes"), self.copy_with_names, "Ctrl+Shift+C", "file")
         paste = act(tr("&Paste…"), self.paste, keys.Paste, "edit")
-        down = act(tr("Fill &Down"), self.fill_down, self.tr("Ctrl+D"), "edit")
-        across = act(tr("Fill &Across Axes"), self.fill_across, self.tr("Ctrl+R"), "edit")
-        default = act(tr("&Back to Default"), self.to_default, self.tr("Ctrl+Backspace"), "edit")
+        down = act(tr("Fill &Down"), self.fill_down, "Ctrl+D", "edit")
+        across = act(tr("Fill &Across Axes"), self.fill_across, "Ctrl+R", "edit")
+        default = act(tr("&Back to Default"), self.to_default, "Ctrl+Backspace", "edit")
         clear = act(tr("Clear (&Not Set)"), self.clear, keys.Delete, "edit")
-        every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, self.tr("Ctrl+Shift+A"), "axes")
+        every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, "Ctrl+Shift+A", "axes")
         self.actions: list[QAction] = [copy, named, paste, down, across, default, clear, every]
         for action in (copy, named, paste, down, across, default, clear):  # a text field has its own
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)

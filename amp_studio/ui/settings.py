@@ -84,6 +84,14 @@ class UserSettings:
         """Store the address of the control."""
         self._stored.setValue("control", place)
 
+    def language(self) -> str:
+        """Return the language of the window: a code, or ``system``."""
+        return str(self._value("language") or "system")
+
+    def keep_language(self, choice: str) -> None:
+        """Store the language; it is that of the next start."""
+        self._stored.setValue("language", choice)
+
     def theme(self) -> ThemeChoice:
         """Return whether the window is light, dark, or as the system is."""
         return as_choice(self._value("theme"))

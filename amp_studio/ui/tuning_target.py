@@ -6,13 +6,14 @@ import threading
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QCoreApplication, QObject, Signal
+from PySide6.QtCore import QObject, Signal
 
 from amp_studio.calibration.steps import with_followers
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value
 
 from .task import TaskProgress
+from .translated import tr
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -28,11 +29,11 @@ def effect_words(schema: Schema, address: Address) -> str:
     """Return when a changed value takes effect by the manual, in words."""
     effect = schema.parameters[address[0]].effect or schema.family.effect
     words = {
-        "at-once": QCoreApplication.translate("Tuning", "at once"),
-        "reset": QCoreApplication.translate("Tuning", "on reset"),
-        "restart": QCoreApplication.translate("Tuning", "on restart"),
-        "command": QCoreApplication.translate("Tuning", "on {command}").format(command=effect.command),
-        "unknown": QCoreApplication.translate("Tuning", "not in the manual"),
+        "at-once": tr("at once"),
+        "reset": tr("on reset"),
+        "restart": tr("on restart"),
+        "command": tr("on {command}").format(command=effect.command),
+        "unknown": tr("not in the manual"),
     }
     return words[effect.level]
 

@@ -126,10 +126,10 @@ class ValueDelegate(QStyledItemDelegate):
         count = len(view.cells.addresses()) if hasattr(view, "cells") else 1
         kept = "" if self._workspace.is_masked(address) else self._table.shown_value(address)
         keys = [
-            (self.tr("Esc"), self.tr("keep {value}").format(value=kept)),
-            (self.tr("Ctrl+Shift+Enter"), self.tr("force and mark")),
+            ("Esc", self.tr("keep {value}").format(value=kept)),
+            ("Ctrl+Shift+Enter", self.tr("force and mark")),
         ]
-        fill = [(self.tr("Ctrl+Enter"), self.tr("fill %n cells", "", count))] if count > 1 else []
+        fill = [("Ctrl+Enter", self.tr("fill %n cells", "", count))] if count > 1 else []
         return tuple(fill + keys)
 
     def _preview(self, address: Address, text: str) -> Preview:

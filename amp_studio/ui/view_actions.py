@@ -14,7 +14,7 @@ from amp_studio.schema.registration import why_not_simulated
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
-from .translated import Translated
+from .translated import Translated, tr
 from .workspace import Workspace
 
 
@@ -24,7 +24,7 @@ class ViewActions(Translated):
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
         act = window.action
-        self.menu = menu = window.menuBar().addMenu(QCoreApplication.translate("ViewActions", "&View"))
+        self.menu = menu = window.menuBar().addMenu(tr("&View"))
         self.units_menu, self.machine_menu = (
             QMenu(self.tr("&Units"), window),
             QMenu(self.tr("Control &Type"), window),
@@ -33,18 +33,14 @@ class ViewActions(Translated):
         self.switch = act(
             self.tr("S&witch mm / inch"),
             self._switch,
-            self.tr("Ctrl+M"),
+            "Ctrl+M",
             "units",
             "ruler",
             self.tr("mm / inch"),
         )
-        self.as_entered = self._option(
-            self.tr("Show Values &As Entered"), self._show_as_entered, self.tr("Ctrl+E")
-        )
-        self.all_axes = self._option(self.tr("Show Un&fitted Axes"), self._show_columns, self.tr("Ctrl+U"))
-        self.hidden_too = self._option(
-            self.tr("Show &Hidden Parameters"), self._show_columns, self.tr("Ctrl+H")
-        )
+        self.as_entered = self._option(self.tr("Show Values &As Entered"), self._show_as_entered, "Ctrl+E")
+        self.all_axes = self._option(self.tr("Show Un&fitted Axes"), self._show_columns, "Ctrl+U")
+        self.hidden_too = self._option(self.tr("Show &Hidden Parameters"), self._show_columns, "Ctrl+H")
         self.secrets = self._option(self.tr("Show Se&crets"), self._show_secrets)
         self.secrets.setToolTip(self.tr("Show passwords in clear text, also in exports"))
         self.motion_action = act(
@@ -64,13 +60,13 @@ class ViewActions(Translated):
             2,
         ):
             panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
-        panels.insertAction(panels.actions()[0], act(self.tr("&Table"), self._to_table, self.tr("Ctrl+1")))
+        panels.insertAction(panels.actions()[0], act(self.tr("&Table"), self._to_table, "Ctrl+1"))
         menu.addSeparator()
         tabs = window.tabs
-        self.beside = act(self.tr("Show File &Beside"), tabs.move_across, self.tr("Ctrl+\\"))
+        self.beside = act(self.tr("Show File &Beside"), tabs.move_across, "Ctrl+\\")
         menu.addActions([
-            act(self.tr("Ne&xt File"), partial(tabs.turn, 1), self.tr("Ctrl+Tab")),
-            act(self.tr("Pre&vious File"), partial(tabs.turn, -1), self.tr("Ctrl+Shift+Tab")),
+            act(self.tr("Ne&xt File"), partial(tabs.turn, 1), "Ctrl+Tab"),
+            act(self.tr("Pre&vious File"), partial(tabs.turn, -1), "Ctrl+Shift+Tab"),
             self.beside,
         ])  # fmt: skip
         menu.addSeparator()

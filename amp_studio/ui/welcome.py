@@ -185,7 +185,7 @@ class WelcomePage(QWidget):
         for view, menu in ((self.list, self._recent_menu), (self.families, self._family_menu)):
             view.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             view.customContextMenuRequested.connect(menu)
-        for keys, act in ((self.tr("Del"), self._forget), (self.tr("Ctrl+B"), self._pin)):
+        for keys, act in (("Del", self._forget), ("Ctrl+B", self._pin)):
             short = QShortcut(QKeySequence(keys), self.list)
             short.setContext(Qt.ShortcutContext.WidgetShortcut)
             short.activated.connect(lambda act=act: self._on_current(act))

@@ -1,0 +1,60 @@
+"""Bring the translations of the window up to date: new texts are added as unfinished, texts that are gone are dropped.
+
+Runs lupdate of PySide6 over the window's modules. ``--check`` changes nothing, and fails where a file is not up to date or a
+text has no translation.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+UI = ROOT / "amp_studio" / "ui"
+FILES = sorted((UI / "translations").glob("*.ts"))
+
+
+def updated(path: Path) -> bytes:
+    """Return a translation file with the texts that the window has now."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(shutil.copy(path, folder))
+        tool = Path(sys.executable).with_name("pyside6-lupdate")
+        modules = sorted(str(module) for module in UI.glob("*.py"))
+        options = ["-no-obsolete", "-locations", "none", "-silent"]
+        subprocess.run([tool, *options, *modules, "-ts", copy], check=True, capture_output=True)
+        return copy.read_bytes()
+
+
+def unfinished(content: bytes) -> list[str]:
+    """Return the texts without a translation."""
+    messages = ET.fromstring(content).iter("message")  # noqa: S314  # a file of the program itself
+    return [
+        m.findtext("source") or "" for m in messages
+        if (t := m.find("translation")) is None or t.get("type") is not None or not "".join(t.itertext()).strip()
+    ]  # fmt: skip
+
+
+def main(arguments: list[str]) -> int:
+    """Update the files, or check them."""
+    code = 0
+    for path in FILES:
+        content = updated(path)
+        missing = unfinished(content)
+        for text in missing:
+            print(f"{path.name}: no translation of {text!r}")
+        if "--check" in arguments:
+            is_fresh = content == path.read_bytes()
+            print(f"{path.name}: {'up to date' if is_fresh else 'not up to date, run make translations'}")
+            code |= not is_fresh or bool(missing)
+        else:
+            path.write_bytes(content)
+            print(f"{path.name}: {len(missing)} without a translation")
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
