@@ -26,16 +26,43 @@ def updated(path: Path) -> bytes:
         modules = sorted(str(module) for module in UI.glob("*.py"))
         options = ["-no-obsolete", "-locations", "none", "-silent"]
         subprocess.run([tool, *options, *modules, "-ts", copy], check=True, capture_output=True)
-        return copy.read_bytes()
+        return with_known(copy.read_bytes(), path.read_bytes())
+
+
+def with_known(content: bytes, before: bytes) -> bytes:
+    """Return a file in which a text that only moved to another class keeps its translation: a word has one, wherever it is."""
+    known = {
+        (m.findtext("source"), m.get("numerus")): m.find("translation")
+        for m in ET.fromstring(before).iter("message")  # noqa: S314  # a file of the program itself
+        if is_finished(m)
+    }
+    root = ET.fromstring(content)  # noqa: S314
+    for message in root.iter("message"):
+        old = known.get((message.findtext("source"), message.get("numerus")))
+        if not is_finished(message) and old is not None:
+            place = message.find("translation")
+            if place is not None:
+                message.remove(place)
+            message.append(old)
+    ET.indent(root, "    ")
+    text: str = ET.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n{text}\n'.encode()
+
+
+def is_finished(message: ET.Element) -> bool:
+    """Return whether a text has a translation."""
+    translation = message.find("translation")
+    return (
+        translation is not None
+        and translation.get("type") is None
+        and bool("".join(translation.itertext()).strip())
+    )
 
 
 def unfinished(content: bytes) -> list[str]:
     """Return the texts without a translation."""
     messages = ET.fromstring(content).iter("message")  # noqa: S314  # a file of the program itself
-    return [
-        m.findtext("source") or "" for m in messages
-        if (t := m.find("translation")) is None or t.get("type") is not None or not "".join(t.itertext()).strip()
-    ]  # fmt: skip
+    return [m.findtext("source") or "" for m in messages if not is_finished(m)]
 
 
 def main(arguments: list[str]) -> int:

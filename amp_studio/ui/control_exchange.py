@@ -15,20 +15,23 @@ from .emulated_control import EmulatedControl
 from .questions import show_message
 from .studio_window import StudioWindow
 from .task import ProgressDialog, TaskProgress
-from .translated import Translated
+from .translated import Translated, tr
 from .workspace import Workspace
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Outcome
 
-STAGES = {
-    "keep": "Saving the control's present parameters …",
-    "download": "Sending the file …",
-    "commit": "The control is checking and storing the parameters …",
-    "restart": "Waiting for the control to restart …",
-    "verify": "Reading all parameters back and comparing …",
-    "upload": "Reading the parameters of the control …",
-}
+
+def stages() -> dict[str, str]:
+    """Return each stage of an exchange in words."""
+    return {
+        "keep": tr("Saving the control's present parameters …"),
+        "download": tr("Sending the file …"),
+        "commit": tr("The control is checking and storing the parameters …"),
+        "restart": tr("Waiting for the control to restart …"),
+        "verify": tr("Reading all parameters back and comparing …"),
+        "upload": tr("Reading the parameters of the control …"),
+    }
 
 
 class ControlExchange(Translated):
@@ -65,14 +68,14 @@ class ControlExchange(Translated):
             return fetch_image(address, progress, cancel, family=family)
 
         image: bytes = ProgressDialog(
-            title, work, self.window, self.tr("Waiting for the control …"), STAGES
+            title, work, self.window, self.tr("Waiting for the control …"), stages()
         ).run()
         return image
 
     def run(self, title: str, work: Callable[[TaskProgress, threading.Event], Outcome]) -> Outcome:
         """Run a download or restore, show its outcome and return it."""
         hint = self.tr("Waiting for the control …")
-        outcome: Outcome = ProgressDialog(title, work, self.window, hint, STAGES).run()
+        outcome: Outcome = ProgressDialog(title, work, self.window, hint, stages()).run()
         icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
         show_message(self.window, title, outcome.text, icon)
         return outcome

@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
 from amp_studio.files import Comparison, ParameterFile
 from amp_studio.schema import show_value
 
+from .translated import tr
+
 
 class DifferenceList(QTreeWidget):
     """One row for each value that differs: parameter, axis, kind of difference and both values."""
@@ -53,8 +55,12 @@ class DifferenceList(QTreeWidget):
 def counts(found: Comparison) -> str:
     """Return the counts of a comparison with a control in a sentence."""
     different = len(found.differences) - found.not_set_in_a - found.not_set_in_b
-    not_set = f"{found.not_set_in_a} not set in this file, {found.not_set_in_b} not set in the control"
-    return f"{different} different, {found.same} the same, {not_set}."
+    not_set = tr("{a} not set in this file, {b} not set in the control").format(
+        a=found.not_set_in_a, b=found.not_set_in_b
+    )
+    return tr("{different} different, {same} the same, {not_set}.").format(
+        different=different, same=found.same, not_set=not_set
+    )
 
 
 class DownloadPreview(QDialog):

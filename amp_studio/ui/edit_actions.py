@@ -34,7 +34,7 @@ class EditActions(Translated):
         quick = act(self.tr("&Quick Edit by Number…"), self.quick_edit, "F4", "edit")
         calculator = act(self.tr("Ca&lculator…"), self.calculator, "F3", "file")
         tables = act(self.tr("&Tables of the Manual…"), self.tables, "Shift+F3", "file")
-        fix = act("F&ix Selected Finding", self._fix, "F8", "edit")
+        fix = act(self.tr("F&ix Selected Finding"), self._fix, "F8", "edit")
         why = act(self.tr("S&how Explanation of Finding"), self._why, "Shift+F1", "file")
         several = act(self.tr("Fix Se&veral…"), self.fix_several, "Shift+F8", "edit", "magic-wand")
         safe = act(self.tr("Apply All &Safe Fixes"), self.fix_safe, None, "edit")

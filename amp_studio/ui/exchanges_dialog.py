@@ -11,8 +11,6 @@ from amp_studio.report.wording import counted
 
 from .workspace import Workspace
 
-_HEADS = ("When", "Who", "Exchange", "Control", "Before", "After", "How it ended")
-
 
 class ExchangesDialog(QDialog):
     """Lists the exchanges, the newest first; under each the parameters that it changed."""
@@ -27,7 +25,17 @@ class ExchangesDialog(QDialog):
         path = real_path(workspace.path)
         found = read_exchanges(path.parent, text_of_name(path.name))
         self.tree = QTreeWidget()
-        self.tree.setHeaderLabels(_HEADS)
+        self.tree.setHeaderLabels(
+            [
+                self.tr("When"),
+                self.tr("Who"),
+                self.tr("Exchange"),
+                self.tr("Control"),
+                self.tr("Before"),
+                self.tr("After"),
+                self.tr("How it ended"),
+            ]
+        )
         self.tree.setUniformRowHeights(True)
         self.tree.setAccessibleName(self.tr("Recorded exchanges"))
         for each in reversed(found):

@@ -78,7 +78,7 @@ class FileActions(Translated):
         menu.addSeparator()
         menu.addActions([report, act(self.tr("&Machine Facts…"), self.facts, None, "edit")])
         menu.addSeparator()
-        menu.addAction(act("E&xit", window.close, keys.Quit, ""))
+        menu.addAction(act(self.tr("E&xit"), window.close, keys.Quit, ""))
         self.last_session: list[Path] = window.settings.session()
         """The files that were open when the program was left; none once they have been opened again."""
         self.toolbar: list[QAction] = [new, opened, save]
@@ -220,7 +220,9 @@ class FileActions(Translated):
             self.window.tabs.bring(page)
             return
         try:
-            opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.open, path))
+            opened = in_background(
+                self.window, self.tr(self.tr("Opening")), lambda: _opened(Document.open, path)
+            )
         except InUseError as error:
             question = self.tr("{error}.\n\nOpen it read-only?").format(error=error)
             if ask(
@@ -231,7 +233,9 @@ class FileActions(Translated):
                 self.tr("Cancel"),
             ) != self.tr("&Open Read-Only"):
                 return
-            opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.view, path))
+            opened = in_background(
+                self.window, self.tr(self.tr("Opening")), lambda: _opened(Document.view, path)
+            )
         self._show(opened)
 
     def reload(self, page: FilePage) -> None:
@@ -239,10 +243,10 @@ class FileActions(Translated):
 
         def work() -> None:
             path, here = page.workspace.path, page.table_view.address()
-            in_background(self.window, "Opening", lambda: open_file(path))
+            in_background(self.window, self.tr("Opening"), lambda: open_file(path))
             page.workspace.document.close()  # gives up the lock
             again = self._show(
-                in_background(self.window, "Opening", lambda: _opened(Document.open, path)), page
+                in_background(self.window, self.tr("Opening"), lambda: _opened(Document.open, path)), page
             )
             if here and again:
                 again.go_to(here)
@@ -257,11 +261,11 @@ class FileActions(Translated):
             try:
                 try:
                     opened = in_background(
-                        self.window, self.tr("Opening"), partial(_opened, Document.open, path)
+                        self.window, self.tr(self.tr("Opening")), partial(_opened, Document.open, path)
                     )
                 except InUseError:
                     opened = in_background(
-                        self.window, self.tr("Opening"), partial(_opened, Document.view, path)
+                        self.window, self.tr(self.tr("Opening")), partial(_opened, Document.view, path)
                     )
             except (OSError, ValueError):
                 missing.append(path.name)

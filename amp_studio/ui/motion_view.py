@@ -110,8 +110,8 @@ class MotionView(QWidget):
     def _arrange(self) -> None:
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        form.addRow("S&cenario", self.scenario)
-        form.addRow("A&xis", self.axis)
+        form.addRow(self.tr("S&cenario"), self.scenario)
+        form.addRow(self.tr("A&xis"), self.axis)
         tools = QHBoxLayout()
         for widget in (self.settling, self.all_of_it, self.compare, self.keep):
             tools.addWidget(widget)

@@ -11,12 +11,6 @@ from amp_studio.schema import Address, write_value
 from .questions import ask, show_message
 from .translated import Translated
 
-_ANSWERS: dict[str, RangeDecision] = {
-    "&Continue checking": "keep",
-    "&Edit parameter": "edit",
-    "&Quit checking": "quit",
-}
-
 
 class AskInDialogs(Translated):
     """A person who decides about each value in a dialog."""
@@ -26,8 +20,13 @@ class AskInDialogs(Translated):
 
     def decide(self, problem: str) -> RangeDecision:
         """Ask whether to keep the value, to edit it or to quit."""
+        answers: dict[str, RangeDecision] = {
+            self.tr("&Continue checking"): "keep",
+            self.tr("&Edit parameter"): "edit",
+            self.tr("&Quit checking"): "quit",
+        }
         icon = QMessageBox.Icon.Warning
-        return _ANSWERS[ask(self._parent, self.tr("Out of range"), f"{problem}.", *_ANSWERS, icon=icon)]
+        return answers[ask(self._parent, self.tr("Out of range"), f"{problem}.", *answers, icon=icon)]
 
     def new_value(self, file: ParameterFile, address: Address, problem: str) -> str | None:
         """Ask for another value; a secret is not shown."""

@@ -15,6 +15,7 @@ from amp_studio.validate import Validator, rules_beside
 from .control_exchange import ControlExchange
 from .questions import ask
 from .task import TaskProgress, in_background
+from .translated import tr
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Copy, Outcome
@@ -31,16 +32,16 @@ def restore(control: ControlExchange) -> None:
 
     window = control.window
     folder = window.workspace.path.parent if window.workspace else Path()
-    text, _ = QFileDialog.getOpenFileName(window, "Restore", str(folder), COPIES)
+    text, _ = QFileDialog.getOpenFileName(window, tr("Restore"), str(folder), COPIES)
     if not text:
         return
     path = Path(text)
-    copy = in_background(window, "Opening", lambda: open_copy(path))
+    copy = in_background(window, tr("Opening"), lambda: open_copy(path))
     _check(copy, path)
-    address = control.ask_address("Restore")
+    address = control.ask_address(tr("Restore"))
     if address is None:
         return
-    present = control.fetch(address, "Restore", copy.family)
+    present = control.fetch(address, tr("Restore"), copy.family)
     if not _is_wanted(control, copy, path, present):
         return
 
@@ -50,7 +51,7 @@ def restore(control: ControlExchange) -> None:
         return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present), record=path,
                             notify=notes.append)  # fmt: skip
 
-    outcome = control.run("Restore", work)
+    outcome = control.run(tr("Restore"), work)
     if outcome.verified and copy.file is not None and window.workspace is not None:
         control.remember(window.workspace, copy.file)
     if notes:
@@ -65,7 +66,9 @@ def _check(copy: Copy, path: Path) -> None:
     error = next((f for f in findings if f.severity == "error"), None)
     if error is not None:
         raise ValueError(
-            f"{path.name} has errors, and there is no control image beside it. First error: {error.message}"
+            tr("{name} has errors, and there is no control image beside it. First error: {message}").format(
+                name=path.name, message=error.message
+            )
         )
 
 
@@ -79,23 +82,34 @@ def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes)
     doubts = (
         []
         if copy.is_checked
-        else [f"There is no digest beside {path.name}, so its content cannot be checked."]
+        else [
+            tr("There is no digest beside {name}, so its content cannot be checked.").format(name=path.name)
+        ]
     )
     now = None
     try:
         now = decode_content(present) if present else None
     except ImageError as error:
-        doubts.append(f"The parameters of the control cannot be shown: {error}.")
+        doubts.append(tr("The parameters of the control cannot be shown: {error}.").format(error=error))
     if copy.file is None:
-        doubts.append(f"{path.name} is restored byte for byte, but cannot be shown: {copy.fault}.")
+        doubts.append(
+            tr("{name} is restored byte for byte, but cannot be shown: {why}.").format(
+                name=path.name, why=copy.fault
+            )
+        )
     elif now is not None and now.schema.family.family != copy.file.schema.family.family:
-        doubts.append(f"The control contains parameters for {now.schema.family.name}.")
+        doubts.append(tr("The control contains parameters for {name}.").format(name=now.schema.family.name))
     elif now is not None and not doubts:
         secrets = control.window.workspace.secrets if control.window.workspace else False
         found = compare(copy.file.schema, copy.file.values, by_schema(now, copy.file.schema).values)
-        preview = DownloadPreview(copy.file, found, control.window, secrets=secrets, title="Restore")
+        preview = DownloadPreview(copy.file, found, control.window, secrets=secrets, title=tr("Restore"))
         return bool(preview.exec())
     question = "\n\n".join(
-        [*doubts, f"Restore {path.name}? The control's present parameters are saved first."]
+        [
+            *doubts,
+            tr("Restore {name}? The control's present parameters are saved first.").format(name=path.name),
+        ]
     )
-    return ask(control.window, "Restore", question, "&Restore", "Cancel", default=1) == "&Restore"
+    return ask(control.window, tr("Restore"), question, tr("&Restore"), tr("Cancel"), default=1) == tr(
+        "&Restore"
+    )

@@ -13,6 +13,7 @@ from amp_studio.validate import rules_beside
 from .control_exchange import ControlExchange
 from .questions import ask
 from .task import in_background
+from .translated import tr
 
 _FILES = "Parameter files and backups of a control (*.amp *.img);;All files (*)"
 
@@ -26,15 +27,17 @@ def enter_by_hand(control: ControlExchange) -> None:
     window = control.window
     workspace = window.workspace
     assert workspace is not None
-    question = (
+    question = tr(
         "The sheet lists the values that differ from what the control contains.\n\nWhere is that known from?"
     )
-    answer = ask(window, "Enter Values by Hand", question, "The &Control", "A &File", "Cancel")
+    answer = ask(
+        window, tr("Enter Values by Hand"), question, tr("The &Control"), tr("A &File"), tr("Cancel")
+    )
     found = (
         _of_control(control)
-        if answer == "The &Control"
+        if answer == tr("The &Control")
         else _of_file(control)
-        if answer == "A &File"
+        if answer == tr("A &File")
         else None
     )
     if found is None:
@@ -51,7 +54,7 @@ def enter_by_hand(control: ControlExchange) -> None:
 
 
 def _of_control(control: ControlExchange) -> tuple[ParameterFile, str] | None:
-    address = control.ask_address("Enter Values by Hand")
+    address = control.ask_address(tr("Enter Values by Hand"))
     if address is None:
         return None
     from amp_studio.transfer.client.parameters import sha256
@@ -59,7 +62,7 @@ def _of_control(control: ControlExchange) -> tuple[ParameterFile, str] | None:
 
     workspace = control.window.workspace
     assert workspace is not None
-    content = control.fetch(address, "Enter Values by Hand", workspace.file.schema.family.family)
+    content = control.fetch(address, tr("Enter Values by Hand"), workspace.file.schema.family.family)
     present = decode_content(content)
     control.remember(workspace, present)
     return present, f"{address}, sha256 {sha256(content)[:12]}…"
@@ -69,11 +72,11 @@ def _of_file(control: ControlExchange) -> tuple[ParameterFile, str] | None:
     window = control.window
     assert window.workspace is not None
     folder = str(window.workspace.path.parent)
-    text, _ = QFileDialog.getOpenFileName(window, "What the control contains", folder, _FILES)
+    text, _ = QFileDialog.getOpenFileName(window, tr("What the control contains"), folder, _FILES)
     if not text:
         return None
     path = Path(text)
-    return in_background(window, "Opening", partial(_read, path)), path.name
+    return in_background(window, tr("Opening"), partial(_read, path)), path.name
 
 
 def _read(path: Path) -> ParameterFile:
@@ -83,5 +86,5 @@ def _read(path: Path) -> ParameterFile:
         return open_file(path).file
     copy = open_copy(path)
     if copy.file is None:
-        raise ValueError(f"{path.name} cannot be read: {copy.fault}.")
+        raise ValueError(tr("{name} cannot be read: {why}.").format(name=path.name, why=copy.fault))
     return copy.file

@@ -28,10 +28,10 @@ from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, Ticks, judg
 from .questions import show_message
 from .task import in_background
 from .theme import Token, colour, severity_icon
+from .translated import tr
 from .workspace import Workspace
 
 _STEP, _NUMBER, _KEY_IN, _UNIT, _NOW, _NAME, _READ, _RESULT = range(8)
-_HEADS = ["Step", "Number", "Key In", "Unit", "Now", "Parameter", "Screen Shows", "Result"]
 _WIDTHS = (120, 90, 110, 60, 100, 270, 110, 130)
 _ENTRY = Qt.ItemDataRole.UserRole
 _FILTERS = "PDF (*.pdf);;Web page (*.html);;Text (*.txt);;Table with a column to fill in (*.csv)"
@@ -258,7 +258,18 @@ class SheetDialog(QDialog):
 
 def _list() -> QTreeWidget:
     found = QTreeWidget()
-    found.setHeaderLabels(_HEADS)
+    found.setHeaderLabels(
+        [
+            tr("Step"),
+            tr("Number"),
+            tr("Key In"),
+            tr("Unit"),
+            tr("Now"),
+            tr("Parameter"),
+            tr("Screen Shows"),
+            tr("Result"),
+        ]
+    )
     found.setUniformRowHeights(True)
     found.setAlternatingRowColors(True)
     found.setItemDelegate(_ReadBackOnly(found))

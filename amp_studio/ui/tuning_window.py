@@ -264,9 +264,9 @@ class TuningWindow(QWidget):
 
     def run_exchange(self, title: str, exchange: ControlWork) -> object:
         """Run an exchange with the control with progress and cancel; raises its error."""
-        from .control_exchange import STAGES
+        from .control_exchange import stages
 
-        return ProgressDialog(title, exchange, self, f"{title} …", dict(STAGES)).run(300)
+        return ProgressDialog(title, exchange, self, f"{title} …", stages()).run(300)
 
     def read_measured(self, axis: str) -> None:
         """Ask for a file of measured points and set what they make of an axis, as one step."""

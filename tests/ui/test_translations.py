@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -51,7 +51,10 @@ def test_a_translation_has_the_same_holes_and_an_alt_letter_where_the_text_has_o
 
 
 @pytest.mark.usefixtures("german")
-def test_menus_are_in_german_and_their_alt_letters_differ(window: MainWindow) -> None:
+def test_menus_are_in_german_and_their_alt_letters_differ(
+    open_window: Callable[..., MainWindow], path: Path
+) -> None:
+    window = open_window(path)
     titles = [action.text() for action in window.menuBar().actions()]
     assert "&Datei" in titles
     assert "&Hilfe" in titles
