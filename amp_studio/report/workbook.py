@@ -5,14 +5,17 @@ from __future__ import annotations
 import io
 import math
 import re
+import zipfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 
 Cell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
 _MOST_NAME = 31
 _WIDEST = 60
+_NO_TIME = datetime(2000, 1, 1)  # noqa: DTZ001  # a workbook has no time zone
 _MOST_TEXT = 32_767
 
 
@@ -53,8 +56,18 @@ def workbook(sheets: Iterable[WorkbookSheet]) -> bytes:
         if has_heads:
             page.freeze_panes = "A2"
             page.auto_filter.ref = page.dimensions
+    book.properties.created = book.properties.modified = _NO_TIME
     stream = io.BytesIO()
     book.save(stream)
+    return _without_times(stream)
+
+
+def _without_times(content: io.BytesIO) -> bytes:
+    """Return an archive whose parts have no time of their own, so that equal workbooks have equal bytes."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(content) as packed, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as again:
+        for part in packed.infolist():
+            again.writestr(zipfile.ZipInfo(part.filename), packed.read(part), zipfile.ZIP_DEFLATED)
     return stream.getvalue()
 
 

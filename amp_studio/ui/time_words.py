@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from datetime import datetime, timedelta
 
-from PySide6.QtCore import QCoreApplication, QDate, QLocale
+from PySide6.QtCore import QDate, QLocale
+
+from .translated import tr
 
 
 def in_words(moment: datetime, now: datetime) -> str:
     """Return a local time in words, seen from ``now``: ``today 14:35``, ``yesterday 17:48``, ``19 Nov 09:12``, ``3 Mar 2024``."""
-    tr, time = QCoreApplication.translate, f"{moment:%H:%M}"
+    time = f"{moment:%H:%M}"
     if moment.date() == now.date():
-        return tr("TimeWords", "today {time}").format(time=time)
+        return tr("today {time}").format(time=time)
     if moment.date() == (now - timedelta(days=1)).date():
-        return tr("TimeWords", "yesterday {time}").format(time=time)
+        return tr("yesterday {time}").format(time=time)
     day = QDate(moment.year, moment.month, moment.day)
-    # Until the words around it are translated a month is English like them.
-    month = QLocale(tr("TimeWords", "en", "language of the names of months")).toString(day, "d MMM")
+    month = QLocale(tr("en", "language of the names of months")).toString(day, "d MMM")
     return f"{month} {time}" if moment.year == now.year else f"{month} {moment.year}"

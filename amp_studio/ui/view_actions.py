@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
@@ -177,11 +176,10 @@ class ViewActions(Translated):
         """Show in the menu whether the family in front can be simulated; the key gives the reason where it cannot."""
         family = workspace.file.schema.family if workspace else None
         reason, action = why_not_simulated(family) if family else "", self.motion_action
-        translate = QCoreApplication.translate
-        missing = translate("ViewActions", "&Motion… (not for {family})") if reason else self.tr("&Motion…")
+        missing = self.tr("&Motion… (not for {family})") if reason else self.tr("&Motion…")
         action.setText(missing.format(family=family.short or family.name) if family else missing)
-        action.setIconText(translate("ViewActions", "Motion"))
-        action.setToolTip(reason or translate("ViewActions", "Motion (F9)"))
+        action.setIconText(self.tr("Motion"))
+        action.setToolTip(reason or self.tr("Motion (F9)"))
 
     def _motion(self) -> None:
         page = self.window.page

@@ -16,7 +16,14 @@ from amp_studio.schema import Value, family_ids, load_schema
 ODD = '#panic("x") $x$ *b* _i_ `c` \\ " <script>alert(1)</script> &amp; {{ 1 }} {% if %} // /* @ref = \x00\x1b[2J\u202e 机 é'
 """What Typst, HTML, the template engine, a terminal or a printer could take for an order."""
 
-STARTS = {".pdf": b"%PDF-", ".html": b"<!DOCTYPE html>", ".csv": b"\xef\xbb\xbfnumber,", ".txt": b"=" * 100}
+STARTS = {
+    ".pdf": b"%PDF-",
+    ".html": b"<!DOCTYPE html>",
+    ".csv": b"\xef\xbb\xbfnumber,",
+    ".txt": b"=" * 100,
+    ".xlsx": b"PK",
+    ".json": b"{",
+}
 
 
 @pytest.mark.parametrize("sort", SORTS)
@@ -71,7 +78,7 @@ def test_no_text_of_a_file_is_taken_for_an_order(
     assert content.startswith(STARTS[ending])
     if ending == ".html":
         assert b"<script>alert" not in content
-    if ending in (".html", ".txt"):
+    if ending in (".html", ".txt", ".json"):
         assert not {0x00, 0x1B} & set(content), "no sign may steer a terminal or a printer"
 
 
@@ -95,7 +102,8 @@ def test_a_report_that_exists_is_replaced(tmp_path: Path, mill: ParameterFile) -
 @pytest.mark.parametrize("name", ["report.doc", "report", "report.pdf.bak"])
 def test_another_ending_is_refused_in_one_sentence(tmp_path: Path, mill: ParameterFile, name: str) -> None:
     with pytest.raises(
-        ValueError, match=r"unknown report format\. Use the file extension \.pdf, \.html, \.csv, \.txt"
+        ValueError,
+        match=r"unknown report format\. Use the file extension \.pdf, \.html, \.xlsx, \.csv, \.json, \.txt",
     ) as refused:
         write_report(mill, tmp_path / name)
     assert "\n" not in str(refused.value)

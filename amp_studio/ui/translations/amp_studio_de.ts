@@ -177,24 +177,6 @@
             <translation>Erst einen Wert einer vorhandenen Achse auswählen.</translation>
         </message>
         <message>
-            <source>TimeWords</source>
-            <comment>today {time}</comment>
-            <translation>TimeWords</translation>
-        </message>
-        <message>
-            <source>TimeWords</source>
-            <comment>yesterday {time}</comment>
-            <translation>TimeWords</translation>
-        </message>
-        <message numerus="yes">
-            <source>TimeWords</source>
-            <comment>en</comment>
-            <translation>
-                <numerusform>TimeWords</numerusform>
-                <numerusform>TimeWords</numerusform>
-            </translation>
-        </message>
-        <message>
             <source>Does not exist here: {why}</source>
             <translation>Gibt es hier nicht: {why}</translation>
         </message>
@@ -577,6 +559,19 @@ Woher ist bekannt, was sie enthält?</translation>
         <message>
             <source>Result</source>
             <translation>Ergebnis</translation>
+        </message>
+        <message>
+            <source>today {time}</source>
+            <translation>heute {time}</translation>
+        </message>
+        <message>
+            <source>yesterday {time}</source>
+            <translation>gestern {time}</translation>
+        </message>
+        <message>
+            <source>en</source>
+            <comment>language of the names of months</comment>
+            <translation>de</translation>
         </message>
     </context>
     <context>
@@ -1934,6 +1929,13 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         <message>
             <source>Copy &amp;Path</source>
             <translation>&amp;Pfad kopieren</translation>
+        </message>
+    </context>
+    <context>
+        <name>FileTarget</name>
+        <message>
+            <source>The file is read-only: another program has it open.</source>
+            <translation>Die Datei ist nur zum Lesen: ein anderes Programm hat sie offen.</translation>
         </message>
     </context>
     <context>
@@ -4561,6 +4563,13 @@ Die Arbeit ist noch offen.</translation>
         </message>
     </context>
     <context>
+        <name>TabCorner</name>
+        <message>
+            <source>Open files</source>
+            <translation>Offene Dateien</translation>
+        </message>
+    </context>
+    <context>
         <name>TabEnd</name>
         <message>
             <source>Unsaved changes</source>
@@ -4893,6 +4902,10 @@ Die Arbeit ist noch offen.</translation>
         <message>
             <source>{text} is no bare number: it is added in {unit}.</source>
             <translation>{text} ist keine bloße Zahl: addiert wird in {unit}.</translation>
+        </message>
+        <message>
+            <source>{name} is not used: {why}.</source>
+            <translation>{name} wird nicht benutzt: {why}.</translation>
         </message>
     </context>
     <context>
