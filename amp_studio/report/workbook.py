@@ -8,14 +8,13 @@ import re
 import zipfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 
 Cell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
 _MOST_NAME = 31
 _WIDEST = 60
-_NO_TIME = datetime(2000, 1, 1)  # noqa: DTZ001  # a workbook has no time zone
+_TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
 _MOST_TEXT = 32_767
 
 
@@ -56,7 +55,6 @@ def workbook(sheets: Iterable[WorkbookSheet]) -> bytes:
         if has_heads:
             page.freeze_panes = "A2"
             page.auto_filter.ref = page.dimensions
-    book.properties.created = book.properties.modified = _NO_TIME
     stream = io.BytesIO()
     book.save(stream)
     return _without_times(stream)
@@ -67,7 +65,10 @@ def _without_times(content: io.BytesIO) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(content) as packed, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as again:
         for part in packed.infolist():
-            again.writestr(zipfile.ZipInfo(part.filename), packed.read(part), zipfile.ZIP_DEFLATED)
+            text = packed.read(part)
+            if part.filename == "docProps/core.xml":
+                text = _TIME.sub(b"2000-01-01T00:00:00Z", text)
+            again.writestr(zipfile.ZipInfo(part.filename), text, zipfile.ZIP_DEFLATED)
     return stream.getvalue()
 
 

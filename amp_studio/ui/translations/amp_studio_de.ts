@@ -2738,6 +2738,10 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <translation>eingegeben, Konflikt gelöst</translation>
         </message>
         <message>
+            <source>unit follows the axis</source>
+            <translation>Einheit folgt der Achse</translation>
+        </message>
+        <message>
             <source>Result</source>
             <translation>Ergebnis</translation>
         </message>
