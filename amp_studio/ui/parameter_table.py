@@ -65,6 +65,8 @@ class ParameterTable(QAbstractTableModel):
         self._unfiltered: list[list[Address]] | None = None
         """What ``unfiltered`` returns, until rows or columns may be others."""
         self._shows_commands = False
+        self._axis_heads: dict[str, tuple[str, str]] = {}
+        """Column -> its head, until a value changes."""
         self._heads: dict[int, str] = {}
         """TableRow -> its head, for the rows that are shown."""
         self._machine = ""
@@ -129,6 +131,7 @@ class ParameterTable(QAbstractTableModel):
         effects = {id(e): e for row in self.rows for e in [row.parameter.effect or family.effect]}
         self._shows_commands = any(e.level == "command" for e in effects.values())
         self._heads.clear()
+        self._axis_heads.clear()
         self._looks.clear()
         self.endResetModel()
 
@@ -271,9 +274,10 @@ class ParameterTable(QAbstractTableModel):
         if column >= len(self.columns):
             return "", self.tr("Read by")
         name = self.columns[column]
-        if name == CONTROL:
-            return "", self.workspace.file.schema.family.scopes["global"].label
-        return axis_head(self.workspace.file, name)
+        if name not in self._axis_heads:
+            label = self.workspace.file.schema.family.scopes["global"].label
+            self._axis_heads[name] = ("", label) if name == CONTROL else axis_head(self.workspace.file, name)
+        return self._axis_heads[name]
 
     @property
     def titles(self) -> list[str]:
@@ -353,6 +357,7 @@ class ParameterTable(QAbstractTableModel):
     # -- following the file ----------------------------------------------------
 
     def _refresh(self, addresses: list[Address]) -> None:
+        self._axis_heads.clear()
         self.values.find_findings()
         columns, decides = self._columns(), self.workspace.file.evaluation.decides_states
         if (

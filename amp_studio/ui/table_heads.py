@@ -11,6 +11,7 @@ from .theme import COLUMN_HEAD, GAP3, ROW, colour, font
 
 NUMBER = 54
 """Width of the column of numbers."""
+_MOST_REMEMBERED = 10_000
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 
 
@@ -20,6 +21,11 @@ class RowHeads(QHeaderView):
     def __init__(self, table: ParameterTable, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Vertical, parent)
         self._table = table
+        head = font("small")
+        head.setWeight(head.Weight.DemiBold)
+        fonts = {"head": head, "text": font("text"), "dim": font("small")}
+        self._fonts = {ink: (letters, QFontMetrics(letters)) for ink, letters in fonts.items()}
+        self._elided: dict[tuple[str, str, int], str] = {}
         self.row_height = max(ROW, QFontMetrics(font("text")).height() + 6)
         self.setMinimumSectionSize(self.row_height)
         self.setDefaultSectionSize(self.row_height)
@@ -65,12 +71,16 @@ class RowHeads(QHeaderView):
             )
 
     def _write(self, painter: QPainter, place: QRect, text: str, ink: str, *, is_head: bool = False) -> None:
-        letters = font("small") if is_head else font("text" if ink == "text" else "small")
-        if is_head:
-            letters.setWeight(letters.Weight.DemiBold)
+        letters, metrics = self._fonts["head" if is_head else ink]
         painter.setFont(letters)
         painter.setPen(colour("text" if ink == "text" else "dim"))
-        shown = QFontMetrics(letters).elidedText(text, Qt.TextElideMode.ElideRight, place.width())
+        key = ink, text, place.width()
+        shown = self._elided.get(key)
+        if shown is None:
+            if len(self._elided) > _MOST_REMEMBERED:
+                self._elided.clear()
+            shown = metrics.elidedText(text, Qt.TextElideMode.ElideRight, place.width())
+            self._elided[key] = shown
         painter.drawText(place, _LEFT, shown)
 
 
