@@ -49,7 +49,10 @@ class ErrorPlot(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.names)
         layout.addWidget(self.plot, 1)
-        scheme().changed.connect(lambda: self.draw(self._traces, self._unit))
+        scheme().changed.connect(self._draw_again)  # a method: a plot that is gone is not asked
+
+    def _draw_again(self) -> None:
+        self.draw(self._traces, self._unit)
 
     def draw(self, traces: Sequence[ErrorTrace], unit: str) -> None:
         """Draw these curves instead of the ones before; ``unit`` of positions and errors."""
