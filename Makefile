@@ -13,10 +13,10 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign faults peers check format schema lock bench man translations wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign faults peers check format schema lock bench screenshots man translations wheel clean setup setup-run
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 run: setup-run ## set up what is missing and show the program on an example machine
 	@$(BIN)/amp-studio demo
@@ -59,6 +59,9 @@ bench: setup ## measure, and print one table
 
 translations: setup ## find the texts of the window that have no translation, and list them
 	@$(BIN)/python scripts/translations.py
+
+screenshots: setup ## draw every page of the window into build/screenshots, light and dark, English and German
+	@$(BIN)/python scripts/screenshots.py
 
 man: setup ## write build/amp-studio.1, the man page
 	@mkdir -p build && $(BIN)/amp-studio man > build/amp-studio.1

@@ -19,6 +19,7 @@ from amp_studio.schema import Address
 from amp_studio.schema.model import Table
 
 from .pages import LINK, drawn, link
+from .theme import scheme
 from .workspace import Workspace
 
 
@@ -55,6 +56,7 @@ class TablesDialog(QDialog):
         self.list.currentItemChanged.connect(self._show)
         self.page.anchorClicked.connect(self._follow)
         workspace.closed.connect(self.close)
+        scheme().changed.connect(self._show_again)
         self._list()
 
     def _list(self, *_: object) -> None:
@@ -76,6 +78,10 @@ class TablesDialog(QDialog):
     def _show(self, item: QListWidgetItem | None, *_: object) -> None:
         if item is not None:
             self.page.setHtml(self._html(self._schema.tables[item.data(Qt.ItemDataRole.UserRole)]))
+
+    def _show_again(self) -> None:
+        """Write the page again: its links keep the colour in which they were written."""
+        self._show(self.list.currentItem())
 
     def _html(self, table: Table) -> str:
         links = ", ".join(link(self._schema, p) for p in table.params)

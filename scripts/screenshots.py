@@ -1,0 +1,353 @@
+"""Draw every page of the window without a display: light and dark, English and German, for documents and for review.
+
+The files are copies of the examples with fixed times; nothing of the person who runs it is read or written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import shutil
+import sys
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+TOP = Path(__file__).resolve().parents[1]
+OUT = TOP / "build" / "screenshots"
+WORK = TOP / "build" / "screenshots-work"
+MOMENT = 1_773_305_100
+"""12 March 2026, 08:45 UTC: when every file was last changed."""
+LARGE, SMALL = (1440, 900), (1024, 700)
+PATIENCE = 20.0
+"""Seconds after which a page that is not ready ends the run."""
+
+# Before anything imports Qt or asks where the user's folders are.
+os.environ |= {"QT_QPA_PLATFORM": "offscreen", "TZ": "UTC", "USER": "operator", "LOGNAME": "operator"}
+os.environ |= {f"XDG_{n}_HOME": str(WORK / "home" / n.lower()) for n in ("CACHE", "CONFIG", "DATA", "STATE")}
+sys.path.insert(0, str(TOP))
+
+from PySide6.QtCore import QPoint, QSettings, Qt  # noqa: E402  # after the folders are set
+from PySide6.QtGui import QPainter, QPixmap  # noqa: E402
+from PySide6.QtTest import QTest  # noqa: E402
+from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402
+
+from amp_studio.files import Document, ParameterFile, compare, new_file  # noqa: E402
+from amp_studio.schema import Value  # noqa: E402
+from amp_studio.ui.main_window import MainWindow  # noqa: E402
+from amp_studio.ui.task import Task  # noqa: E402
+from amp_studio.ui.theme import scheme  # noqa: E402
+from amp_studio.ui.workspace import Workspace  # noqa: E402
+
+EXCESS, RAPID, CALIBRATION = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("home.calibration", "1")
+
+
+def settle(ready: Callable[[], object] = lambda: not Task.running) -> None:
+    """Let the window work until it is ready; raises TimeoutError."""
+    end = time.monotonic() + PATIENCE
+    while not ready():
+        if time.monotonic() > end:
+            raise TimeoutError("a page did not become ready")
+        QTest.qWait(10)
+    for _ in range(3):
+        QTest.qWait(5)
+
+
+def picture(widget: QWidget) -> QPixmap:
+    """Return a window as it is, with what is open over it."""
+    drawn = widget.grab()
+    over = QApplication.activePopupWidget()
+    if over is not None and over is not widget:
+        painter = QPainter(drawn)
+        painter.drawPixmap(widget.mapFromGlobal(over.mapToGlobal(QPoint(0, 0))), over.grab())
+        painter.end()
+    return drawn
+
+
+class Photographer:
+    """Keeps each page in both colours."""
+
+    def __init__(self, language: str, only: str) -> None:
+        self.language, self.only, self.count = language, only, 0
+
+    def wants(self, name: str) -> bool:
+        """Return whether a page was asked for."""
+        return self.only in name
+
+    def take(self, name: str, widget: QWidget, size: tuple[int, int] | None = None) -> None:
+        """Write a page in light and in dark, in a size or in its own."""
+        if not self.wants(name):
+            return
+        if size:
+            widget.resize(*size)
+        settle()
+        for choice in ("light", "dark"):
+            scheme().choose(choice)
+            settle()
+            suffix = f"-{size[0]}x{size[1]}" if size not in (None, LARGE) else ""
+            picture(widget).save(str(OUT / f"{name}-{choice}-{self.language}{suffix}.png"))
+            self.count += 1
+        scheme().choose("light")
+
+
+class Stage:
+    """The window on copies of the examples."""
+
+    def __init__(self, photographer: Photographer) -> None:
+        self.photographer, self.take = photographer, photographer.take
+        shutil.rmtree(WORK, ignore_errors=True)
+        self.files = WORK / "machines"
+        shutil.copytree(TOP / "examples", self.files)
+        for path in self.files.rglob("*"):
+            os.utime(path, (MOMENT, MOMENT))
+        QSettings("AMP Studio", "AMP Studio").clear()
+        self.window: Any = MainWindow()  # a file is open on every page but the first
+        self.window.resize(*LARGE)
+        self.window.show()
+        settle()
+
+    def path(self, folder: str) -> Path:
+        """Return the parameter file of an example."""
+        return next((self.files / folder).glob("*.amp"))
+
+    @contextlib.contextmanager
+    def beside(self, kind: str) -> Iterator[Any]:
+        """Give the side window of a class that was just opened, and close it afterwards."""
+        found = [w for w in self.window.findChildren(QWidget) if type(w).__name__ == kind and w.isVisible()]
+        yield found[-1]
+        found[-1].close()
+        QTest.qWait(1)
+
+    def show_new(self, name: str, file: ParameterFile) -> None:
+        """Show a file that is not among the examples."""
+        path = self.files / "new" / name
+        path.parent.mkdir(exist_ok=True)
+        self.window.show_workspace(Workspace(Document.create(file, path)))
+        os.utime(path, (MOMENT, MOMENT))
+
+    # -- pages ---------------------------------------------------------------------------
+
+    def welcome(self) -> None:
+        """The page that is there before a file is open."""
+        settle(self.window.welcome.families.count)
+        self.take("01-welcome", self.window, LARGE)
+        self.take("01-welcome", self.window, SMALL)
+
+    def steps(self) -> None:
+        """A new mill at its steps."""
+        file = new_file("9pc", "mill", ["X", "Y", "Z"])
+        for axis in "123":
+            file.set(("servo.hardware_type", axis), Value("sercos"))
+            file.set(("servo.loop_type", axis), Value("digital"))
+        self.show_new("NEW_MILL.amp", file)
+        self.take("02-steps", self.window, LARGE)
+
+    def main(self) -> None:
+        """Groups, project, findings, filters and the find box on the example mill."""
+        window = self.window
+        window.open_first(self.path("mill-1394"))
+        settle()
+        window.go_to(EXCESS)
+        self.take("03-groups", window, LARGE)
+        self.take("03-groups", window, SMALL)
+        window.page.left.show_side("project")
+        self.take("04-project", window, LARGE)
+        window.page.left.show_side("groups")
+        window.workspace.edit("excess error", {EXCESS: Value(0.001, "mm")})
+        window.workspace.edit("loops", {("servo.position_loop_type", a): Value("open") for a in "123"})
+        window.workspace.edit("home", {CALIBRATION: Value(1.0, "mm")})
+        window.show_panel("Findings")
+        self.take("05-findings", window, LARGE)
+        window.page.filters.choose("unsaved", True)
+        self.take("06-filters", window, LARGE)
+        window.page.filters.clear()
+
+    def refusal(self) -> None:
+        """A value that is out of range, refused in its cell."""
+        view = self.window.table_view
+        self.window.go_to(EXCESS)
+        view.setFocus()
+        view.edit_current()
+        field: Any = QApplication.focusWidget()
+        QTest.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+        QTest.keyClicks(field, "99999999 mm")
+        QTest.keyClick(field, Qt.Key.Key_Return)
+        self.take("07-refusal", self.window, LARGE)
+        QTest.keyClick(QApplication.focusWidget() or field, Qt.Key.Key_Escape)
+
+    def find(self) -> None:
+        """The find box with what it found."""
+        box = self.window.finder.box
+        box.begin("excess")
+        settle(lambda: self.window.finder._finder() is not None)
+        for text in ("servo amp fe limits", "exess error"):
+            box.begin(text)
+            settle()
+            self.take("08-find-message" if "fe" in text else "09-find-typing-error", self.window, LARGE)
+        box.close_list()
+        box.clear()
+
+    def pictures(self) -> None:
+        """Every picture of the mill, all at once and one by one."""
+        page = self.window.page
+        self.window.pictures.action.trigger()
+        self.take("10-pictures", self.window, LARGE)
+        self.take("10-pictures", self.window, SMALL)
+        for name in page.pictures._pictures:
+            page.pictures.show_picture(name)
+            self.take(f"11-picture-{name}", self.window, LARGE)
+        self.window.pictures.action.trigger()
+
+    def compare(self) -> None:
+        """Two sources, then three with a conflict."""
+        from amp_studio.ui.merge_model import BASE, A, B
+        from amp_studio.ui.merge_sources import MergeSource
+
+        window = self.window
+        base, other = window.workspace.file.copy(), window.workspace.file.copy()
+        shown = window.files.comparing.open(window.page)
+        other.set(EXCESS, Value(13.0, "mm"))
+        other.set(RAPID, Value(190.0, "mm/s"))
+        source = MergeSource("MILL_1394.amp", "hall 2", other)
+        shown.show_merge({A: shown.sources.now(), B: source})
+        self.take("12-compare-two", shown, LARGE)
+        base.set(EXCESS, Value(11.0, "mm"))
+        base.set(CALIBRATION, Value(0.0, "mm"))
+        shown.show_merge({A: shown.sources.now(), B: source, BASE: MergeSource("Last saved", "", base)})
+        self.take("13-compare-three", shown, LARGE)
+        self.take("13-compare-three", shown, SMALL)
+        shown.close()
+
+    def exchange(self) -> None:
+        """What a download would change, and what was exchanged before."""
+        from amp_studio.transfer.client.record import Exchange, add_exchange
+        from amp_studio.ui.download_preview import DownloadPreview
+
+        workspace = self.window.workspace
+        held = workspace.file.copy()
+        held.set(RAPID, Value(190.0, "mm/s"))
+        held.set(CALIBRATION, Value(0.5, "mm"))
+        preview = DownloadPreview(
+            workspace.file, compare(workspace.file.schema, workspace.file.values, held.values), self.window
+        )
+        preview.show()
+        self.take("14-download-preview", preview)
+        preview.close()
+        for when, verb, text in (("2026-03-10T07:12:00Z", "upload", "written into MILL_1394.amp"),
+                                 ("2026-03-12T08:30:00Z", "download", "complete and read back equal")):  # fmt: skip
+            add_exchange(workspace.path, Exchange(when, "operator", verb, workspace.path.name, "9pc", "tcp://192.168.0.20:4001",
+                "3f6c1a90be52", "a14be0097d21", "new" if verb == "download" else "", "", text,
+                (("1400 Home Calibration, X", "0.5 mm", "1 mm"),) if verb == "download" else ()))  # fmt: skip
+        self.window.control.recorded()
+        with self.beside("ExchangesDialog") as dialog:
+            self.take("15-history", dialog)
+
+    def motion(self) -> None:
+        """A simulated movement."""
+        self.window.go_to(("feedrate.rapid", "1"))
+        self.window.view.motion_action.trigger()
+        with self.beside("MotionView") as view:
+            settle(lambda: getattr(view, "trace", None) is not None and not Task.running)
+            self.take("16-motion", view)
+
+    def tuning(self) -> None:
+        """Every page of the tuning window."""
+        from amp_studio.ui.tuning_actions import tune
+
+        tune(self.window, self.window.control.exchanges)
+        with self.beside("TuningWindow") as tuning:
+            for n in range(tuning.pages.count()):
+                tuning.pages.setCurrentRow(n)
+                self.take(f"17-tuning-{n + 1}", tuning)
+
+    def dialogs(self) -> None:
+        """Calculator, tables, steps of undo, and the dialog of a new file."""
+        from amp_studio.ui.file_dialogs import ReportDialog
+        from amp_studio.ui.new_file_dialog import NewFileDialog
+
+        self.window.go_to(("servo.lead_screw_pitch", "1"))
+        for n, (act, kind, name) in enumerate((
+            (self.window.edits.calculator, "CalculatorDialog", "calculator"),
+            (self.window.edits.tables, "TablesDialog", "tables"),
+            (self.window.edits.steps, "StepList", "undo"),
+        ), 18):  # fmt: skip
+            act()
+            with self.beside(kind) as dialog:
+                self.take(f"{n}-{name}", dialog)
+        for name, dialog in (
+            ("21-new", NewFileDialog(self.window, "9pc")),
+            ("22-report", ReportDialog(self.window.workspace.path, self.window)),
+        ):
+            dialog.show()
+            self.take(name, dialog)
+            dialog.close()
+
+    def project_check(self) -> None:
+        """The findings of several files."""
+        import threading
+
+        from amp_studio.ui.project_check import ProjectCheckDialog, check_files
+
+        paths = sorted(self.files.glob("*/*.amp"))
+        checked = check_files(paths, lambda *_: None, threading.Event())
+        dialog = ProjectCheckDialog(checked, lambda *_: None, self.window)
+        dialog.show()
+        self.take("23-project-check", dialog)
+        dialog.close()
+
+    def families(self) -> None:
+        """The other families, each with its pictures."""
+        for n, folder in enumerate(("num-1060-mill", "acromill-router", "57c422b-label-press", "grblhal-router", "syntec-mill"), 30):  # fmt: skip
+            self.window.open_first(self.path(folder))
+            settle()
+            self.take(f"{n}-{folder}", self.window, LARGE)
+            self.window.pictures.action.trigger()
+            self.take(f"{n}-{folder}-pictures", self.window, LARGE)
+            self.window.pictures.action.trigger()
+
+    def close(self) -> None:
+        """End without a question."""
+        self.window.may_leave = lambda *_: True
+        self.window.close()
+        self.window.deleteLater()
+        QApplication.processEvents()
+
+
+PAGES: tuple[Callable[[Stage], None], ...] = (
+    Stage.welcome, Stage.steps, Stage.main, Stage.refusal, Stage.find, Stage.pictures, Stage.compare, Stage.exchange,
+    Stage.motion, Stage.tuning, Stage.dialogs, Stage.project_check, Stage.families,
+)  # fmt: skip
+
+
+def draw(language: str, only: str) -> int:
+    """Draw all pages in a language; returns how many pictures were written."""
+    from amp_studio.ui.translated import speak
+
+    speak(language)
+    stage = Stage(Photographer(language, only))
+    for page in PAGES:
+        page(stage)
+    stage.close()
+    return stage.photographer.count
+
+
+def main() -> int:
+    """Draw what the command line asks for."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--language", choices=("en", "de"), action="append", help="default: both")
+    parser.add_argument("--only", default="", help="pages whose name contains this")
+    chosen = parser.parse_args()
+    OUT.mkdir(parents=True, exist_ok=True)
+    application = QApplication(["amp-studio"])
+    start = time.monotonic()
+    count = sum(map(partial(draw, only=chosen.only), chosen.language or ("en", "de")))
+    application.quit()
+    sys.stdout.write(f"{count} pictures in {OUT} after {time.monotonic() - start:.0f} s\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
