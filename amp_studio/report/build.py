@@ -21,6 +21,7 @@ from amp_studio.files import (
     open_file,
     without_secrets,
 )
+from amp_studio.files.notes import all_notes, machine_note
 from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
@@ -72,7 +73,8 @@ def build_report(
         machine=tuple(_machine(file, project)),
         facts=tuple(_facts(file, source, contents)),
         counts=tuple(_counts(file, found, len(printed), findings)),
-        remarks=file.header.notes.strip(),
+        remarks=machine_note(file).strip(),
+        remarked=tuple((note.label, note.text.strip()) for note in all_notes(file) if note.subject != "machine"),
         axis_heads=heads,
         axes=axes,
         notes=notes_of(file, findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),

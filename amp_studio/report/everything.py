@@ -15,7 +15,7 @@ def render_json(report: Report) -> bytes:
     """Return the report as one JSON document; every value to its last digit, as text with its unit beside it."""
     document = {
         "title": report.title, "family": report.family, "printed": report.date.isoformat(timespec="seconds"), "program": report.program,
-        "machine": dict(report.machine), "document": dict(report.facts), "counts": dict(report.counts), "notes": report.remarks,
+        "machine": dict(report.machine), "document": dict(report.facts), "counts": dict(report.counts), "notes": report.remarks, "noted": [{"about": about, "note": text} for about, text in report.remarked],
         "values": [dict(zip(HEADS, line_of(row), strict=True)) | {"place": row.place, "why": row.why} for row in report.rows()],
         "findings": [
             {"severity": note.severity, "count": note.count, "place": note.place, "about": [label for _, label in note.about],

@@ -123,6 +123,8 @@ class ReportRow:
     """``i2`` for the second reason in this report why a value is ignored, ``u1`` for not available; empty when active."""
     forced: str
     """When and by whom it was forced out of range; empty when it was not."""
+    note: str = ""
+    """What a person noted about it."""
 
     @property
     def anchor(self) -> str:
@@ -155,7 +157,8 @@ class ReportRow:
     def small_print(self) -> str:
         """The text below the value: the other unit system, the unit of entry, the bits of a word."""
         entered = f"in the file {self.entered}" if self.entered else ""
-        return "; ".join(part for part in (self.also, entered, self.detail) if part)
+        note = f"Note: {self.note}" if self.note else ""
+        return "; ".join(part for part in (self.also, entered, self.detail, note) if part)
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,7 +289,9 @@ class Report:
     """The facts of the cover about the file and the document."""
     counts: tuple[tuple[str, str], ...]
     remarks: str
-    """The notes kept in the file."""
+    """What a person noted about the machine."""
+    remarked: tuple[tuple[str, str], ...]
+    """(group or value, what a person noted about it) of all that have a note, also where the value is not printed."""
     axis_heads: tuple[str, ...]
     axes: tuple[tuple[str, ...], ...]
     notes: tuple[Note, ...]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
 from amp_studio.files.local_time import with_local_times
+from amp_studio.files.notes import value_note
 from amp_studio.schema import (
     MASKED,
     Address,
@@ -118,6 +119,7 @@ def row_of(
         why=state.why,
         state_mark=state_mark,
         forced=with_local_times(file.forced.get(address, "")),
+        note=" ".join(value_note(file, address).split()),
     )
 
 

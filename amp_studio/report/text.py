@@ -66,6 +66,10 @@ def _title(report: Report) -> Iterator[str]:
         for paragraph in report.remarks.splitlines():
             yield from _wrapped(paragraph, "")
         yield ""
+    for about, noted in report.remarked:
+        yield from _wrapped(noted, f"{about}: ")
+    if report.remarked:
+        yield ""
     if report.axes:
         yield from _columns(report.axis_heads, report.axes)
         yield ""

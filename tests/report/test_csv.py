@@ -51,13 +51,13 @@ def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> 
     group = "Home Parameters"
     name = "Home Calibration"
     assert lines["home.calibration", "1"] == (
-        "1300", "home.calibration", "1", name, group, "12.5", "mm", "0", "yes", "in-force", "", "yes")  # fmt: skip
+        "1300", "home.calibration", "1", name, group, "12.5", "mm", "0", "yes", "in-force", "", "yes", "")  # fmt: skip
     assert lines["home.calibration", "2"] == (
-        "2300", "home.calibration", "2", name, group, "-0.1", "in", "0", "yes", "in-force", "", "yes")  # fmt: skip
+        "2300", "home.calibration", "2", name, group, "-0.1", "in", "0", "yes", "in-force", "", "yes", "")  # fmt: skip
     assert lines["home.calibration", "4"] == (
-        "4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "", "yes")  # fmt: skip
+        "4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "", "yes", "")  # fmt: skip
     assert lines["servo.gain_break_point", "1"][5:] == (
-        "999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01", "yes")  # fmt: skip
+        "999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01", "yes", "")  # fmt: skip
     unset = lines["servo.inposition_band", "2"]
     assert unset[5:9] == ("", "mm", "0.0254", "no"), "a value that is not set does not differ from anything"
 
@@ -75,7 +75,7 @@ def test_the_file_is_what_rfc_4180_and_excel_expect(tmp_path: Path, mill: Parame
     content = (tmp_path / "r.csv").read_bytes()
     assert content.startswith(b"\xef\xbb\xbf" + ",".join(HEADS).encode() + b"\r\n")
     assert content.endswith(b"\r\n")
-    assert b'"by ""J, Fitter""\nat night",yes\r\n' in content
+    assert b'"by ""J, Fitter""\nat night",yes,\r\n' in content
     assert all(len(line) == len(HEADS) for line in table_of(tmp_path / "r.csv"))
 
 

@@ -9,9 +9,12 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, content_of, digest_of, fitted_axes, new_file, save_file
+from amp_studio.files.notes import set_group_note, set_machine_note, set_value_note
 from amp_studio.report import SORTS, Contents, build_report
 from amp_studio.report.model import Grid, Listing, ReportRow, Sort
+from amp_studio.report.page import render_html
 from amp_studio.report.sections import number_key
+from amp_studio.report.text import render_text
 from amp_studio.schema import Value
 
 
@@ -261,3 +264,16 @@ def test_a_saved_file_prints_as_it_did_in_memory(tmp_path: Path, mill: Parameter
 def test_a_machine_type_without_axes_of_its_own_prints_too() -> None:
     report = build_report(new_file("9pc", "lathe", ["X", "Z"]))
     assert [line[1] for line in report.axes] == ["X", "Z"]
+
+
+def test_notes_of_machine_group_and_value_are_printed(mill: ParameterFile) -> None:
+    set_machine_note(mill, "Rebuilt in 2019.")
+    set_group_note(mill, "home", "Switches are new.")
+    set_value_note(mill, ("home.calibration", "1"), "Measured by J. Fitter.")
+    report = build_report(mill)
+    assert report.remarks == "Rebuilt in 2019."
+    assert [text for _, text in report.remarked] == ["Switches are new.", "Measured by J. Fitter."]
+    row = next(r for r in report.rows() if r.anchor == "home.calibration@1")
+    assert row.small_print == "Note: Measured by J. Fitter."
+    assert b"Switches are new." in render_text(report)
+    assert b"Switches are new." in render_html(report)

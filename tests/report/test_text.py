@@ -29,7 +29,7 @@ def row(number: str, name: str, value: str, **more: object) -> ReportRow:
 
 SMALL = Report(
     title="Mill 7", family="9/PC", file_name="mill.amp", date=datetime(2026, 7, 1, 14, 5, tzinfo=UTC), program="AMP Studio",
-    contents=Contents("axis"), machine=(("Machine", "Mill 7"),), facts=(("Units", "metric"),), help={}, pictures=(), motion=(), exchanges=(), counts=(("Values", "3"),), remarks="",
+    contents=Contents("axis"), machine=(("Machine", "Mill 7"),), facts=(("Units", "metric"),), help={}, pictures=(), motion=(), exchanges=(), counts=(("Values", "3"),), remarks="", remarked=(),
     axis_heads=("Axis", "Name"), axes=(("1", "X"),),
     notes=(Note("error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"),),
     forced=(), not_set=(("1004", "G30 Position", "Axis 1 X"),),
