@@ -74,7 +74,9 @@ def build_report(
         facts=tuple(_facts(file, source, contents)),
         counts=tuple(_counts(file, found, len(printed), findings)),
         remarks=machine_note(file).strip(),
-        remarked=tuple((note.label, note.text.strip()) for note in all_notes(file) if note.subject != "machine"),
+        remarked=tuple(
+            (note.label, note.text.strip()) for note in all_notes(file) if note.subject != "machine"
+        ),
         axis_heads=heads,
         axes=axes,
         notes=notes_of(file, findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),

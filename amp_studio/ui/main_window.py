@@ -20,7 +20,7 @@ from .file_actions import FileActions
 from .file_page import FilePage
 from .filter_actions import FilterActions
 from .find_actions import FindActions
-from .garbage import collect_by_timer
+from .garbage import collect_by_timer, set_apart
 from .guide_actions import GuideActions
 from .language_actions import LanguageActions
 from .left_panel import as_side
@@ -149,6 +149,7 @@ class MainWindow(StudioWindow):
         if instead is not None:
             self.close_page(instead)
         page.table_view.setFocus()
+        set_apart(page)
         return page
 
     def _show_page(self, page: FilePage | None) -> None:

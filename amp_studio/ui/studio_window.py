@@ -23,6 +23,7 @@ from .file_page import FilePage
 from .file_summaries import FileSummaries
 from .file_tabs import FileTabs
 from .findings_panel import FindingsPanel
+from .garbage import look_again
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .questions import ask, show_message
@@ -77,6 +78,7 @@ class StudioWindow(QMainWindow):
         self.docks.remove(page)
         page.workspace.close()
         page.deleteLater()
+        look_again(bool(self.tabs.pages()))
 
     @property
     def page(self) -> FilePage | None:

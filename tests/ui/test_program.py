@@ -240,3 +240,13 @@ def test_a_task_that_cannot_be_cancelled_ignores_escape(window: MainWindow) -> N
 
     during(lambda dialog: dialog.reject())
     assert ProgressDialog("Work", work, window, cancellable=False).run() == "whole"
+
+
+def test_what_belongs_to_an_open_file_is_left_out_of_collections_until_it_is_closed(
+    window: MainWindow,
+) -> None:
+    assert gc.get_freeze_count() > 10_000
+    page = window.page
+    assert page is not None
+    window.close_page(page)
+    assert gc.get_freeze_count() < 10_000
