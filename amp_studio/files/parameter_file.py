@@ -236,9 +236,14 @@ class ParameterFile:
     def _turned(self, changes: Iterable[Change]) -> Iterable[str]:
         """Return the axes that changes may have made turn, or move straight."""
         family = self.schema.family
-        if family.angular_when is None:
+        conditions = {self.schema.angular_when(p) for p in self.schema.parameters.values()} - {None}
+        if not conditions:
             return ()
-        reads = {read_address(text)[0] for text in family.conditions[family.angular_when].reads.values()}
+        reads = {
+            read_address(text)[0]
+            for name in conditions
+            for text in family.conditions[str(name)].reads.values()
+        }
         changed = [c.address for c in changes if c.address[0] in reads]
         axes = family.scopes["axis"].instances if "axis" in family.scopes else ()
         whole = any(self.machine_schema.scopes[a[0]] != "axis" for a in changed)

@@ -192,7 +192,7 @@ def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
     """Return the units in which a parameter is entered, in degrees too where it belongs to an axis that may turn."""
     if parameter.choices or parameter.type in ("text", "format", "bits"):
         return ()
-    turns = schema.family.angular_when is not None and any(
+    turns = schema.angular_when(parameter) is not None and any(
         schema.on(m.key).scopes[parameter.id] == "axis" for m in schema.family.machines
     )
     systems = tuple(schema.family.units) or ("",)

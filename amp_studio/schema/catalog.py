@@ -98,6 +98,10 @@ class Schema:
         )
         return angular(unit) if turns else unit
 
+    def angular_when(self, parameter: Parameter) -> str | None:
+        """Return the condition under which the lengths of a parameter are angles."""
+        return parameter.angular_when or self.family.angular_when
+
     def units_of(self, parameter: Parameter) -> tuple[str, ...]:
         """Return every unit a parameter can be entered in, in any unit system, straight or turning."""
         if parameter.id not in self._unit_table:

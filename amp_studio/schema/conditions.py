@@ -174,7 +174,8 @@ class Conditions:
         parameter, family = self._schema.parameters[address[0]], self._schema.family
         names = [r.when or r.unless or "" for r in parameter.states]
         names += [v.when for v in parameter.range_variants]
-        names += [family.angular_when] if family.angular_when else []
+        angular = self._schema.angular_when(parameter)
+        names += [angular] if angular else []
         asked = [self.asked(name, address[1], self.scopes[address[0]]) for name in names]
         found = {
             a

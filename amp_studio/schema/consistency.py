@@ -155,6 +155,8 @@ def _in_state(family: Family, state: StateRule) -> Iterator[tuple[KeyPath, str]]
 def _in_parameter(
     family: Family, parameter: Parameter, own_states: range, ids: set[str]
 ) -> Iterator[tuple[KeyPath, str]]:
+    if parameter.angular_when is not None and parameter.angular_when not in family.conditions:
+        yield ("angular_when",), f"there is no condition {quoted(parameter.angular_when)}"
     for n, state in enumerate(parameter.states[i] for i in own_states):
         for place, what in _in_state(family, state):
             yield ("states", n, *place), what

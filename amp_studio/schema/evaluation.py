@@ -179,8 +179,8 @@ class Evaluation:
         return self._conditions.bound_sources(address)
 
     def turns(self, address: Address) -> bool:
-        """Return whether the instance belongs to an axis whose lengths are angles."""
-        name = self.schema.family.angular_when
+        """Return whether the length of an instance is an angle, as its axis turns."""
+        name = self.schema.angular_when(self.schema.parameters[address[0]])
         return bool(name and self.scope(address) == "axis" and self.is_true(name, address[1], "axis"))
 
     def unit(self, address: Address, system: str) -> str:

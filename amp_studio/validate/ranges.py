@@ -84,10 +84,10 @@ class ValueChecks:
     def __init__(self, file: ParameterFile, machine: str) -> None:
         self._file = file
         self._facts = _facts(file.schema, machine)
-        self._angular = file.schema.family.angular_when
         self._spans: dict[tuple[str, str], tuple[float, float]] = {}
         """Bounds that depend on nothing, by parameter and unit."""
-        self._turning: dict[str, bool] = {}
+        self._turning: dict[tuple[str | None, str], bool] = {}
+        """Whether an axis turns, by the condition and the axis."""
 
     def look_again(self) -> None:
         """Forget what depends on values, which may have changed; called before the checks of a round."""
@@ -96,7 +96,7 @@ class ValueChecks:
     def finding(self, address: Address, value: Value) -> Finding | None:
         """Return what is wrong with a value, if anything is."""
         facts = self._facts[address[0]]
-        turns = facts.turning is not None and self._turns(address)
+        turns = facts.turning is not None and self._turns(facts.parameter, address[1])
         key: Hashable = (value.value.__class__, value.value, value.unit, turns)
         if not facts.own_range:
             key = key, self._bounds_of(facts, address)
@@ -149,13 +149,11 @@ class ValueChecks:
             return None
         return nearest if other is not None or _is_near(value, nearest) else None
 
-    def _turns(self, address: Address) -> bool:
-        found = self._turning.get(address[1])
+    def _turns(self, parameter: Parameter, axis: str) -> bool:
+        asked = (self._file.schema.angular_when(parameter), axis)
+        found = self._turning.get(asked)
         if found is None:
-            found = self._angular is not None and self._file.evaluation.is_true(
-                self._angular, address[1], "axis"
-            )
-            self._turning[address[1]] = found
+            found = self._turning[asked] = self._file.evaluation.turns((parameter.id, axis))
         return found
 
     def _bounds_of(self, facts: _Facts, address: Address) -> Hashable:

@@ -279,6 +279,30 @@ def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
     assert "outside 0 to 214.1 mm" in str(fault(here.evaluation, slide, Value(1440.0, "mm")))
 
 
+def test_a_parameter_may_be_an_angle_on_fewer_axes_than_the_family_says(facts, head, machine) -> None:
+    """9/PC Lead Screw Thread Pitch: a length on a spindle too (page 7-17)."""
+    text = (
+        SHARED
+        + """
+  - id: servo.pitch
+    name: Pitch
+    scope: axis
+    type: real
+    quantity: length
+    angular_when: never
+    help: {what: Travel for a turn.}
+    page: "7-17"
+"""
+    )
+    never = "  never: {reads: {type: axis.type}, when: type == 'table', why: never}\n"
+    here = machine(
+        facts.schema(text, head + SPINDLE_AXIS + never + "angular_when: spindle_axis\n"),
+        {"axis.type@2": Value("spindle")},
+    )
+    assert here.evaluation.unit(("servo.pitch", "2"), "metric") == "mm"
+    assert here.evaluation.unit(("axis.type", "2"), "metric") == ""
+
+
 def test_a_value_is_entered_in_one_unit_and_stored_in_another(facts, machine) -> None:
     """9/PC feedrates: mm/min or in/min in the editor, mm/s in the control (page 37-4)."""
     schema = facts.schema("""

@@ -147,6 +147,25 @@ def test_an_axis_that_turns_wants_degrees(mill) -> None:
     assert {address[1] for address in wrong} == {"1"}
 
 
+def test_the_lead_of_a_spindle_is_a_length_and_one_in_degrees_is_offered_as_the_same_figure(mill) -> None:
+    """Page 7-17 prints mm and in. alone; files have had degrees on a spindle."""
+    mill.set(("axis.type", "1"), Value("spindle"))
+    mill.set(("servo.lead_screw_pitch", "1"), Value(2.54, "deg"))
+    finding = next(f for f in found(mill, "schema.range") if f.causes[0][0] == "servo.lead_screw_pitch")
+    assert finding.message == "Lead Screw Thread Pitch 2.54° should be in mm here."
+    assert finding.fix == (Setting(("servo.lead_screw_pitch", "1"), Value(2.54, "mm")),)
+
+
+def test_a_lead_becomes_an_angle_on_an_axis_made_rotary_and_a_length_again_on_a_spindle(mill) -> None:
+    pitch, kind = ("servo.lead_screw_pitch", "5"), ("axis.type", "5")
+    mill.set(pitch, Value(4.0, "mm"))
+    units = []
+    for key in ("rotary", "spindle", "linear"):
+        mill.refit_turned([c for c in [mill.set(kind, Value(key))] if c])
+        units.append(mill.values[pitch])
+    assert units == [Value(4.0, "deg"), Value(4.0, "mm"), Value(4.0, "mm")]
+
+
 def test_a_fix_that_would_be_wrong_too_is_not_offered(mill) -> None:
     positive, negative = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
     mill.set(negative, Value(2540001.0, "mm"))

@@ -248,6 +248,8 @@ class Parameter(Model):
     bits: Bits | None = None
     default: Default | None = None
     storage: Storage | None = None
+    angular_when: str | None = None
+    """Instead of the family's: the condition under which its length is in degrees (a lead is one on a spindle too)."""
     states: tuple[StateRule, ...] = ()
     effect: Effect | None = None
     access: Literal["read-write", "read"] = "read-write"
