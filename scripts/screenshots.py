@@ -194,6 +194,7 @@ class Stage:
         """Every picture of the mill, all at once and one by one."""
         page = self.window.page
         self.window.pictures.action.trigger()
+        page.pictures.show_picture("all")
         self.take("10-pictures", self.window, LARGE)
         self.take("10-pictures", self.window, SMALL)
         for name in page.pictures._pictures:

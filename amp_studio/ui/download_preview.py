@@ -33,6 +33,7 @@ class DifferenceList(QTreeWidget):
                 self.tr("The control"),
             ]
         )
+        self.setAccessibleName(self.tr("Differences"))
         self.setRootIsDecorated(False)
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)
@@ -41,7 +42,7 @@ class DifferenceList(QTreeWidget):
             QTreeWidgetItem([
                 schema.on(machine).label(difference.address),
                 schema.on(machine).instance_label(difference.address),
-                self.tr("not in this file") if difference.a is None else self.tr("only in this file") if difference.b is None else "different",
+                self.tr("not in this file") if difference.a is None else self.tr("only in this file") if difference.b is None else self.tr("different"),
                 *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
                   for v in difference.in_one_unit()),
             ])

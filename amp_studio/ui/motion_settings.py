@@ -138,6 +138,7 @@ def scrolled(form: QWidget) -> QScrollArea:
     area.setWidgetResizable(True)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     area.setWidget(form)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the fields in it take the keyboard, and it follows them
     return area
 
 

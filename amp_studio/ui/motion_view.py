@@ -103,6 +103,8 @@ class MotionView(QWidget):
         self.values.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.plot = MotionPlot()
         self.figures, self.assumptions = FiguresPage(self._follow), AssumptionsPage()
+        self.plot.setAccessibleName(self.tr("Simulated motion"))
+        self.figures.setAccessibleName(self.tr("Figures of the motion"))
         self.recommendations = RecommendationsPage(self.apply, self._follow)
         for button in (self.save_button, self.settling, self.all_of_it, self.keep):
             button.setEnabled(False)

@@ -87,6 +87,7 @@ class ProjectCheckDialog(QDialog):
                 self.tr("Finding"),
             ]
         )
+        self.tree.setAccessibleName(self.tr("Findings of each file"))
         self.tree.setUniformRowHeights(True)
         self.tree.addTopLevelItems([_branch(c) for c in checked])
         for column in range(4):

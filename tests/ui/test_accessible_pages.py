@@ -1,0 +1,164 @@
+"""The accessibility tree of every page of the window: names, roles and the way of the Tab key."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAccessible
+from PySide6.QtWidgets import QApplication, QHeaderView, QWidget
+
+from amp_studio.files import compare
+from amp_studio.schema import Value
+from amp_studio.ui.calculator_dialog import CalculatorDialog
+from amp_studio.ui.download_preview import DownloadPreview
+from amp_studio.ui.exchanges_dialog import ExchangesDialog
+from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_window import MergeWindow
+from amp_studio.ui.motion_view import MotionView
+from amp_studio.ui.new_file_dialog import NewFileDialog
+from amp_studio.ui.note_dialog import NoteDialog
+from amp_studio.ui.project_check import ProjectCheckDialog, check_files
+from amp_studio.ui.quick_edit import QuickEdit
+from amp_studio.ui.step_list import StepList
+from amp_studio.ui.tables_dialog import TablesDialog
+from amp_studio.ui.tuning_window import TuningWindow
+
+from .conftest import action
+
+EXCESS = ("servo.excess_error", "1")
+
+
+def focusable(top: QWidget) -> list[QWidget]:
+    """Return the visible parts of a window that take the keyboard by themselves."""
+    return [part for part in top.findChildren(QWidget)
+            if part.window() is top and part.isVisible() and part.isEnabled() and part.focusProxy() is None
+            and part.focusPolicy() != Qt.FocusPolicy.NoFocus]  # fmt: skip
+
+
+def silent(top: QWidget) -> list[str]:
+    """Return the parts of the accessibility tree that take the keyboard and have no name, or a role that says nothing."""
+    found: list[str] = []
+
+    def walk(node: object) -> None:
+        part = node.object()  # type: ignore[attr-defined]  # QAccessibleInterface
+        if isinstance(part, QWidget) and part in wanted:
+            wanted.remove(part)
+            name, role = node.text(QAccessible.Text.Name), node.role()  # type: ignore[attr-defined]  # likewise
+            if not name or role == QAccessible.Role.NoRole:
+                found.append(f"{type(part).__name__} in {type(part.parent()).__name__}: {name!r} {role.name}")
+        for n in range(min(node.childCount(), 200)):  # type: ignore[attr-defined]  # likewise
+            child = node.child(n)  # type: ignore[attr-defined]  # likewise
+            if child is not None and isinstance(child.object(), QWidget):
+                walk(child)
+
+    wanted = focusable(top)
+    heads = [
+        part for part in wanted if isinstance(part.parent(), QHeaderView)
+    ]  # Qt lists no widgets in a head
+    wanted = [part for part in wanted if part not in heads]
+    found += [type(part).__name__ for part in heads if not part.accessibleName()]
+    walk(QAccessible.queryAccessibleInterface(top))
+    return found + [
+        f"not in the tree: {type(part).__name__} in {type(part.parent()).__name__}" for part in wanted
+    ]
+
+
+def beside_the_way(top: QWidget) -> list[str]:
+    """Return the parts that the Tab key never reaches in the chain of the focus."""
+    reached, part = set(), top.nextInFocusChain()
+    while part is not None and part is not top and part not in reached:
+        reached.add(part)
+        part = part.nextInFocusChain()
+    return [type(p).__name__ for p in focusable(top) if p.focusPolicy() & Qt.FocusPolicy.TabFocus and p not in reached]  # fmt: skip
+
+
+def opened(window: MainWindow, kind: type[QWidget]) -> QWidget:
+    return window.findChildren(kind)[-1]
+
+
+def by(name: str, kind: type[QWidget]) -> Callable[[MainWindow], QWidget]:
+    """Return what opens a side window by a command of the menus."""
+
+    def open_it(window: MainWindow) -> QWidget:
+        action(window, name).trigger()
+        return opened(window, kind)
+
+    return open_it
+
+
+def shown(make: Callable[[MainWindow], QWidget]) -> Callable[[MainWindow], QWidget]:
+    """Return what shows a dialog without waiting for its end."""
+
+    def open_it(window: MainWindow) -> QWidget:
+        dialog = make(window)
+        dialog.show()
+        return dialog
+
+    return open_it
+
+
+def left(side: str) -> Callable[[MainWindow], QWidget]:
+    def open_it(window: MainWindow) -> QWidget:
+        window.page.left.show_side(side)
+        return window
+
+    return open_it
+
+
+def findings(window: MainWindow) -> QWidget:
+    window.workspace.edit("error", {EXCESS: Value(0.001, "mm")})
+    window.show_panel("Findings")
+    return window
+
+
+def pictures(window: MainWindow) -> QWidget:
+    action(window, "Pictures").trigger()
+    return window
+
+
+def preview(window: MainWindow) -> QWidget:
+    file = window.workspace.file
+    other = {k: v for k, v in file.values.items() if k != EXCESS}
+    return DownloadPreview(file, compare(file.schema, file.values, other), window)
+
+
+def project_check(window: MainWindow) -> QWidget:
+    checked = check_files([window.workspace.path], lambda *_: None, threading.Event())
+    return ProjectCheckDialog(checked, lambda *_: None, window)
+
+
+PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
+    "steps": left("steps"), "groups": left("groups"), "project": left("project"),
+    "findings": findings, "pictures": pictures,
+    "compare": lambda window: window.files.comparing.open(window.page),
+    "motion": by("Motion", MotionView), "tuning": by("Tuning", TuningWindow),
+    "calculator": by("Calculator", CalculatorDialog), "tables": by("Tables of the Manual", TablesDialog),
+    "quick edit": lambda window: (window.edits.quick_edit(), opened(window, QuickEdit))[1],
+    "steps of undo": lambda window: (window.edits.steps(), opened(window, StepList))[1],
+    "exchanges": lambda window: (window.control.recorded(), opened(window, ExchangesDialog))[1],
+    "new": shown(lambda window: NewFileDialog(window, "9pc")),
+    "report": shown(lambda window: ReportDialog(window.workspace.path, window)),
+    "note": shown(lambda window: NoteDialog(window.workspace, EXCESS, window)),
+    "download": shown(preview), "project check": shown(project_check),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_each_part_of_a_page_has_a_name_and_a_role_and_tab_reaches_it(window: MainWindow, page: str) -> None:
+    window.go_to(EXCESS)
+    top = PAGES[page](window)
+    if isinstance(top, TuningWindow):
+        for n in range(top.pages.count()):
+            top.pages.setCurrentRow(n)
+            QApplication.processEvents()
+            assert (silent(top), beside_the_way(top)) == ([], []), top.pages.item(n).text()
+    QApplication.processEvents()
+    assert silent(top) == []
+    assert beside_the_way(top) == []
+    assert top.windowTitle() or top.accessibleName()
+    if isinstance(top, MergeWindow):
+        assert top.tree.accessibleName()
