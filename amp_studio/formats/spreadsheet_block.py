@@ -100,7 +100,15 @@ def _rows_of_text(text: str) -> list[list[str]]:
 
 def _rows_of_html(markup: str) -> list[list[str]]:
     reader = _TableReader()
-    reader.feed(markup)  # never closed: what has no end would be tried from each sign of it on
+    try:
+        reader.feed(markup)  # never closed: what has no end would be tried from each sign of it on
+    except BlockError:
+        raise
+    except (
+        AssertionError,
+        ValueError,
+    ):  # a declaration or a sign in digits that Python's reader does not take
+        return []
     return reader.whole()
 
 

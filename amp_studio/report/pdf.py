@@ -65,9 +65,7 @@ def typst_source(report: Report, own: Path | None = None) -> str:
         "report.typ.j2", own, language_of(report.contents.language), report=report, marks=MARKS
     )
     if own is not None and _PACKAGE.search(source):
-        raise TemplateMistakeError(
-            f"{own}: imports a package of Typst, which would be loaded from the network"
-        )
+        raise TemplateMistakeError(own, "imports a package of Typst, which would be loaded from the network")
     return source
 
 
@@ -105,7 +103,7 @@ def render_pdf(report: Report, own: Path | None = None) -> bytes:
     try:
         return typeset(source, own.parent)
     except TypstError as error:
-        raise TemplateMistakeError(f"{own}: Typst: {error}") from None
+        raise TemplateMistakeError(own, f"Typst: {error}") from None
 
 
 def typeset(source: str, root: Path = TEMPLATES) -> bytes:

@@ -6,7 +6,7 @@ a bound for its size and its time. Its mistakes have their line.
 
 from __future__ import annotations
 
-import time
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,10 +22,22 @@ OWN = "templates"
 _MOST_TEMPLATE = 256 * 1024
 _MOST_OUTPUT = 64 * 2**20
 _PATIENCE_S = 20.0
+_LONGEST_MISTAKE = 500
+_HALF = re.compile("[\ud800-\udfff]")
+_MISTAKES = (
+    ArithmeticError, AssertionError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError,
+)  # fmt: skip
+"""What a template can raise by what it does, beside the errors of jinja2."""
 
 
 class TemplateMistakeError(ValueError):
-    """A template of a project cannot be used; the text has its file and its line."""
+    """A template of a project cannot be used; the text has its file and its line, and is one line that can be read."""
+
+    def __init__(self, own: Path, mistake: str) -> None:
+        words = " ".join(mistake.split())
+        super().__init__(
+            f"{own}: {words if len(words) <= _LONGEST_MISTAKE else words[:_LONGEST_MISTAKE] + '…'}"
+        )
 
 
 def own_template(folder: Path | None, name: str) -> Path | None:
@@ -51,22 +63,29 @@ def filled(
 
     from .model import Listing
 
-    environment: Environment = SandboxedEnvironment(
-        loader=_loader(own), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, **settings
-    )
+    whole = {"loader": _loader(own), "undefined": StrictUndefined, "trim_blocks": True, "lstrip_blocks": True}
+    environment: Environment
+    if own is None:
+        environment = SandboxedEnvironment(**whole, **settings)
+    else:
+        from .bounded_templates import BoundedEnvironment
+
+        environment = BoundedEnvironment(_PATIENCE_S, **whole, **settings)
     environment.globals.update(_=language.text, counted=language.counted, language=language.code)
     environment.filters.update(filters)
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     if own is None:
         return environment.get_template(name).render(values)
     if own.stat().st_size > _MOST_TEMPLATE:
-        raise TemplateMistakeError(f"{own}: is larger than {_MOST_TEMPLATE // 1024} KB")
+        raise TemplateMistakeError(own, f"is larger than {_MOST_TEMPLATE // 1024} KB")
     try:
         return _bounded(environment, own, values)
     except TemplateError as error:
-        raise TemplateMistakeError(f"{own}: {_line(own, error)}{error.message or error}") from None
-    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
-        raise TemplateMistakeError(f"{own}: {_line(own, error)}{error}") from None
+        raise TemplateMistakeError(own, f"{_line(own, error)}{error.message or error}") from None
+    except _MISTAKES as error:
+        raise TemplateMistakeError(
+            own, f"{_line(own, error)}{str(error) or 'needs too much memory'}"
+        ) from None
 
 
 def _loader(own: Path | None) -> BaseLoader:
@@ -79,14 +98,17 @@ def _loader(own: Path | None) -> BaseLoader:
 
 
 def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) -> str:
-    """Return what a template writes, up to a time and a size."""
-    end, parts, size = time.monotonic() + _PATIENCE_S, [], 0
+    """Return what a template writes, up to a size; its environment bounds the time."""
+    parts, size = [], 0
     for part in environment.get_template(own.name).generate(values):
         parts.append(part)
         size += len(part)
-        if size > _MOST_OUTPUT or time.monotonic() > end:
-            raise TemplateMistakeError(f"{own}: writes without end")
-    return "".join(parts)
+        if size > _MOST_OUTPUT:
+            raise TemplateMistakeError(own, "writes without end")
+    text = "".join(parts)
+    if _HALF.search(text):
+        raise TemplateMistakeError(own, "writes half a character, as \\ud800")
+    return text
 
 
 def _line(own: Path, error: BaseException) -> str:

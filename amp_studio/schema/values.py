@@ -38,6 +38,7 @@ EXACT = 2**53 - 1
 LONGEST_TEXT = 100_000
 """Signs of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
+_NOT_ZERO = re.compile(r"[^eE]*[1-9]")
 _UNWRITABLE = re.compile("[\ud800-\udfff\ufffe\uffff]")
 
 
@@ -52,7 +53,7 @@ def read_number(text: str) -> tuple[float, str]:
     number = float(digits)
     if not math.isfinite(number):
         raise InvalidValueError(f"{quoted(digits)} is too large")
-    if number == 0 and Decimal(digits) != 0:
+    if number == 0 and _NOT_ZERO.match(digits):  # no Decimal: it does not take every exponent
         raise InvalidValueError(f"{quoted(digits)} is too small")
     return number, rest
 
@@ -70,7 +71,9 @@ def _digits(text: str) -> tuple[str, str]:
     elif " " in digits:  # "3000 1/min": what comes after the blank is no part of the number
         digits, _, tail = digits.partition(" ")
         exponent, rest = "", tail + text[found.end(1) :]
-    return _decimal(digits, exponent), rest
+    number = _decimal(digits, exponent)
+    # No exponent makes more of zero; Decimal would not take one of twenty digits.
+    return (number if _NOT_ZERO.match(number) else number.lower().partition("e")[0]), rest
 
 
 def _decimal(digits: str, exponent: str) -> str:

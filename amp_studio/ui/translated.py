@@ -64,7 +64,7 @@ _installed: list[QTranslator] = []
 
 
 def language_in_use(choice: str) -> str:
-    """Return the code of the language of a choice; that of the system where it is none of them."""
+    """Return the code of the language of a choice; that of the system where it is not one of them."""
     if choice in LANGUAGES:
         return choice
     system = QLocale.system().name()[:2]

@@ -119,9 +119,8 @@ def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -
     if (copied := reader.reference_alone(text)) is not None:
         return copied
     if parameter.choices:
-        raise InvalidValueError(
-            f"{parameter.name} is a choice: only the value of another one can be taken, as =Y"
-        )
+        name = parameter.name
+        raise InvalidValueError(f"{name} is a choice: only the value of another one can be taken, as =Y")
     found = reader.calculated(text)
     unit = unit_of(address)
     if found.unit:
@@ -131,21 +130,23 @@ def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -
                 f"figure(…) takes a number without its unit"
             )
         found = _in_unit(found, unit)
+    figure = _figure(found.number)
     if parameter.type in ("integer", "bits"):
         if found.number.denominator != 1:
-            raise InvalidValueError(
-                f"{parameter.name} takes whole numbers, and the result is {_figure(found.number)}: use round(…)"
-            )
+            name = parameter.name
+            raise InvalidValueError(f"{name} takes whole numbers, and the result is {figure}: use round(…)")
         return read_value(parameter, str(found.number.numerator), unit)
-    return read_value(parameter, f"{_figure(found.number)} {unit}".strip(), unit)
+    return read_value(parameter, f"{figure} {unit}".strip(), unit)
 
 
 def _figure(number: Fraction) -> str:
-    """Return the nearest double in digits; raises InvalidValueError where there is none."""
+    """Return the nearest double in digits; raises InvalidValueError where there is none, or only 0 for what is not 0."""
     try:
-        return write_number(float(number))
+        if (nearest := float(number)) or not number:
+            return write_number(nearest)
     except OverflowError:
         raise InvalidValueError("the result is too large") from None
+    raise InvalidValueError("the result is too small")
 
 
 class _Reader:

@@ -10,12 +10,8 @@ from pathlib import Path
 import pytest
 
 TARGETS = {
-    "a side taken, with its findings, painted",
-    "filtered among all values, painted",
-    "filtered, painted",
     "frame of a dragged handle, 9/PC, processor time",
     "frame of a dragged handle, NUM, processor time",
-    "shown, painted",
     "the worst of all, with findings and other views",
     "frame while scrolling by the wheel, at worst",
     "frame while scrolling by the page, at worst",

@@ -25,6 +25,7 @@ from tests.ui.killed import kill_editor
 
 from . import (
     descriptions,
+    editor,
     grbl_lines,
     measured_points,
     own_contents,
@@ -172,11 +173,9 @@ CAMPAIGNS = (
         50,
         2_000,
     ),
+    Campaign("damaged copies of Grbl settings", partial(_damaged, grbl_lines.fuzz_contents), 20_000, 30, 300),
     Campaign(
-        "damaged copies of Grbl settings", partial(_damaged, grbl_lines.fuzz_contents), 20_000, 30, 1_000
-    ),
-    Campaign(
-        "damaged answers of a Grbl control", partial(_damaged, grbl_lines.fuzz_answers), 20_000, 30, 1_000
+        "damaged answers of a Grbl control", partial(_damaged, grbl_lines.fuzz_answers), 20_000, 30, 300
     ),
     Campaign(
         "odd bytes at an emulated Grbl control",
@@ -219,6 +218,9 @@ CAMPAIGNS = (
     Campaign("damaged lists of a control's screen", partial(_damaged, sheets.fuzz_screens), MANY, 100, 5_000),
     Campaign("damaged points of a laser", partial(_damaged, measured_points.fuzz_points), MANY, 150, 5_000),
     Campaign("damaged ticks of a sheet", partial(_damaged_in, sheets.fuzz_ticks), MANY, 100, 5_000),
+    Campaign("pasted blocks of cells", partial(_damaged, editor.fuzz_blocks), MANY, 200, 5_000),
+    Campaign("odd expressions in cells", partial(_damaged, editor.fuzz_cell_expressions), MANY, 200, 5_000),
+    Campaign("hostile templates of a project", partial(_damaged_in, editor.fuzz_templates), 20_000, 30, 300),
     Campaign("damaged backups", partial(_damaged_in, stored.fuzz_backups), MANY, 50, 5_000),
     Campaign("damaged cache", partial(_damaged_in, stored.fuzz_caches), MANY, 200, 5_000),
     Campaign("damaged lock notes", partial(_damaged_in, stored.fuzz_locks), MANY, 300, 5_000),

@@ -17,7 +17,7 @@ CALLS = {
     "read_file", "read_yaml", "read_yaml_file", "loads", "reader", "recv", "readLine", "readAllStandardError", "unpack_from",
     "model_validate_json", "validate_python", "QSettings", "read_bytes", "read_text", "parse_qsl", "fromhex", "parse_args",
     "clipboard", "input", "comports", "os.read", "read_entries", "read_expression", "read_content", "decode_image",
-    "decode_content", "decode",
+    "decode_content", "decode", "read_block", "feed", "get_template",
 }  # fmt: skip
 """Calls by which something comes in, or becomes what it means."""
 NAMES = {"stdin", "argv", "environ"}
@@ -26,9 +26,9 @@ READERS = {
     "calibration/cells.py": "damaged points of a laser",
     "calibration/reading.py": "damaged points of a laser",
     "cli/checks.py": "damaged parameter file",
+    "cli/comparing.py": "damaged control image",
     "cli/console.py": "odd values",
     "cli/control.py": "damaged control image",
-    "cli/files.py": "damaged control image",
     "cli/identify.py": "damaged control image",
     "cli/out_of_range.py": "",  # whether somebody is at the terminal
     "cli/plain_files.py": "",  # carries any bytes as they are
@@ -58,13 +58,18 @@ READERS = {
     "families/ninepc/emulated/panel.py": "odd commands at the screen of a 9/PC",
     "files/atomic.py": "damaged backups",
     "files/document.py": "damaged journal and history",
+    "files/examples.py": "",  # the program's own examples, of which the heads are shown
     "files/lock.py": "damaged lock notes",
     "files/paths.py": "",  # shortens a name
     "files/project.py": "damaged project.yaml",
     "files/reading.py": "damaged parameter file",
     "files/storage.py": "damaged parameter file",
     "formats/import_export.py": "damaged texts of controls",
+    "formats/spreadsheet_block.py": "pasted blocks of cells",
     "formats/values_csv.py": "damaged texts of controls",
+    "report/language.py": "",  # a file of the program itself
+    "report/page.py": "",  # the program's own drawings, in letters of base64
+    "report/templating.py": "hostile templates of a project",
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",
@@ -85,10 +90,12 @@ READERS = {
     "transfer/emulated/faults.py": "damaged practice faults",
     "transfer/emulated/memory.py": "damaged memory of an emulated control",
     "transfer/emulated/record.py": "damaged memory of an emulated control",
+    "transfer/emulated/responder.py": "damaged frames",
     "transfer/emulated/staging.py": "damaged memory of an emulated control",
     "transfer/house/broken_transfers.py": "damaged notes of begun downloads",
     "transfer/house/frame.py": "damaged frames",
     "transfer/house/message.py": "damaged messages",
+    "transfer/house/transaction.py": "damaged frames",
     "transfer/image.py": "odd commands at an emulated control",
     "transfer/links/endpoint.py": "damaged addresses of controls",
     "transfer/links/password.py": "hostile ends of a password",
@@ -102,13 +109,19 @@ READERS = {
     "transfer/links/tcp.py": "hostile clients",
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
     "ui/control_actions.py": "damaged control image",
-    "ui/edit_actions.py": "odd values",
+    "ui/file_actions.py": "",  # copies an example of the program, which is opened as every file is
     "ui/file_tabs.py": "",  # writes to the clipboard
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
+    "ui/merge_sources.py": "damaged control image",
+    "ui/merge_tree.py": "",  # writes to the clipboard
+    "ui/project_files.py": "damaged parameter file",
+    "ui/range_actions.py": "pasted blocks of cells",
     "ui/restore.py": "damaged control image",
     "transfer/plain/ymodem.py": "hostile ends of plain files",
     "ui/sheet_actions.py": "damaged control image",
+    "ui/theme.py": "",  # a file of the icon package
     "ui/settings.py": "damaged settings",
+    "validate/cell_expression.py": "odd expressions in cells",
     "validate/rule_file.py": "damaged suppressions",
     "validate/calculator.py": "odd arguments of formulas",
     "validate/rule_review.py": "damaged expressions in rules",

@@ -114,3 +114,8 @@ def test_libreoffice_takes_a_block_and_gives_it_back(tmp_path: Path) -> None:
     back = read_block("", (tmp_path / "back" / "block.html").read_text(encoding="utf-8"))
     assert back[:2] == TEXTS[:2]
     assert [back[2][0], back[2][2]] == ['two\nlines and "quotes"', "4 °"], "a tab is a blank in HTML"
+
+
+@pytest.mark.parametrize("markup", ["<table><td>&#" + "9" * 5000 + ";", "<table><![x[ ]]><td>1"])
+def test_html_that_cannot_be_read_leaves_the_text(markup: str) -> None:
+    assert read_block("7\t8", markup) == [["7", "8"]]

@@ -82,6 +82,14 @@ def test_logo_colours_header_and_a_chapter_of_a_pdf(machine: Path, mill: Paramet
         ("html", EXTENDS_PAGE + "{% block chapters %}{{ cycler.__init__.__globals__ }}{% endblock %}", "unsafe"),
         ("html", "{% include '../../../../etc/passwd' %}", "passwd"),
         ("html", "{% for a in range(1000000000) %}x{% endfor %}", "too big"),
+        ("html", EXTENDS_PAGE + "{% block chapters %}\n{{ 'x' * 10**11 }}{% endblock %}", "line 3: '*' makes too much"),
+        ("html", "{{ '%9999999999d' % 1 }}", "'%' makes too much"),
+        ("html", "{{ 'x'|center(9999999999) }}", "a filter makes too much"),
+        ("html", "{{ '{:>99999999999999}'.format(1) }}", "line 1: needs too much memory"),
+        ("html", "{{ '\\ud800' }}", "half a character"),
+        ("html", "{{ cycler() }}", "at least one item"),
+        ("html", "{{ 'x'|truncate(-5) }}", "expected length"),
+        ("html", "{{ " + "x" * 9_000 + " }}", "xxx…"),
         ("html", "x" * 300_000, "larger than 256 KB"),
         ("pdf", EXTENDS_PDF + "{% block chapters %}#let{% endblock %}", "Typst: "),
         ("pdf", EXTENDS_PDF + '{% block logo %}#image("../mill.amp"){% endblock %}', "Typst: "),
@@ -111,3 +119,18 @@ def test_a_text_of_the_file_stays_a_text_in_a_template_too(machine: Path, mill: 
     )
     assert notes == []
     assert pdf.startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    "template",
+    [
+        "{% set a = range(9999)|list %}{% for b in a %}{% for c in a %}{% for d in a %}{% endfor %}{% endfor %}{% endfor %}",
+        "{% macro f(n) %}{{ f(n - 1) if n }}{{ f(n - 1) if n }}{% endmacro %}{{ f(60) }}",
+    ],
+)
+def test_a_template_that_works_without_end_and_writes_nothing_is_ended(
+    machine: Path, mill: ParameterFile, template: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.report.templating._PATIENCE_S", 0.05)
+    _, (note,) = printed(machine, mill, "html", template)
+    assert "works without end" in note

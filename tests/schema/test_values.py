@@ -17,6 +17,7 @@ from amp_studio.schema import (
     write_figure,
     write_value,
 )
+from amp_studio.schema.values import read_number
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -133,3 +134,11 @@ def test_a_whole_number_takes_no_fraction(ninepc) -> None:
         read_value(parameter, "3.5", "")
     with pytest.raises(InvalidValueError, match="too large for Teeth"):
         read_value(parameter, "9007199254740993.0e1", "")
+
+
+def test_a_number_with_an_exponent_of_twenty_digits_is_read_or_refused_like_any_other() -> None:
+    assert read_number("0e99999999999999999999 mm") == (0.0, "mm")
+    assert read_number("-0.0E-99999999999999999999") == (0.0, "")
+    for text, said in (("1e-99999999999999999999", "too small"), ("1e99999999999999999999", "too large")):
+        with pytest.raises(InvalidValueError, match=said):
+            read_number(text)

@@ -136,3 +136,21 @@ def test_a_secret_is_in_no_expression(file: ParameterFile) -> None:
             file,
             f"={secret.id}@{i}*1" if (i := file.machine_schema.instances(secret)[0]) else f"={secret.id}*1",
         )
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("=1e-99123456789012345678999999", "too small"),
+        ("=1e-300*1e-300", "too small"),
+        ("=1e300*1e300", "too large"),
+        ("=1" + "*1e300" * 40, "too large"),
+    ],
+)
+@pytest.mark.parametrize("parameter_id", ["servo.excess_error", "servo.feed_forward"])
+def test_a_result_that_no_number_holds_is_refused(
+    file: ParameterFile, text: str, said: str, parameter_id: str
+) -> None:
+    ids = {p.id: a for a in file.addresses() for p in [file.schema.parameters[a[0]]]}
+    with pytest.raises(InvalidValueError, match=said):
+        typed(file, text, ids[parameter_id])

@@ -1,0 +1,84 @@
+"""The sandbox of a project's template, with a bound for its time and for what one operation may make.
+
+Imported only where a template of a project is there: jinja2 takes a while to load.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from typing import Any
+
+from jinja2 import nodes
+from jinja2.exceptions import SecurityError
+from jinja2.runtime import Context
+from jinja2.sandbox import SandboxedEnvironment
+
+_MOST_MADE = 2**24
+"""Characters, elements or bits that one operation may make."""
+_WIDE = re.compile(r"%[^a-zA-Z%]*(?:\d{6}|\*)")
+_TICK = "_within_time"
+_WIDENING = ("batch", "center", "indent", "slice")
+"""Filters whose argument is the size of what they make."""
+
+
+class BoundedEnvironment(SandboxedEnvironment):
+    """A sandbox in which every loop and every call looks at the clock: a template that only works is ended too."""
+
+    intercepted_binops = frozenset({"*", "**", "%"})
+
+    def __init__(self, seconds: float, **settings: Any) -> None:
+        super().__init__(**settings)
+        self._end = time.monotonic() + seconds
+        self.globals[_TICK] = self.check_time
+        for name in _WIDENING:
+            self.filters[name] = _narrow(self.filters[name])
+
+    def check_time(self) -> None:
+        """Raise SecurityError when the time is over."""
+        if time.monotonic() > self._end:
+            raise SecurityError("works without end")
+
+    def call(self, context: Context, function: Any, /, *args: Any, **kwargs: Any) -> Any:
+        """Call what a template calls, while there is time."""
+        self.check_time()
+        return super().call(context, function, *args, **kwargs)
+
+    def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
+        """Calculate what is not too large; raises SecurityError."""
+        if _made(operator, left, right) > _MOST_MADE:
+            raise SecurityError(f"'{operator}' makes too much")
+        return super().call_binop(context, operator, left, right)
+
+    def _parse(self, source: str, name: str | None, filename: str | None) -> nodes.Template:
+        """Let every loop look at the clock: jinja2 parses with this for its compiler."""
+        template = super()._parse(source, name, filename)
+        for loop in template.find_all(nodes.For):
+            tick = nodes.ExprStmt(nodes.Call(nodes.Name(_TICK, "load"), [], [], None, None))
+            loop.body.insert(0, tick.set_lineno(loop.lineno))
+        template.set_environment(self)
+        return template
+
+
+def _made(operator: str, left: Any, right: Any) -> int:
+    """Return about how much an operation makes: elements, characters or bits."""
+    if operator == "%":
+        return _MOST_MADE + 1 if isinstance(left, str) and _WIDE.search(left) else 0
+    if isinstance(right, int) and isinstance(left, int):
+        bits = left.bit_length()
+        return bits * abs(right) if operator == "**" else bits + right.bit_length()
+    times, many = (left, right) if isinstance(left, int) else (right, left)
+    if isinstance(times, int) and isinstance(many, str | bytes | list | tuple):
+        return len(many) * times
+    return 0
+
+
+def _narrow(made: Any) -> Any:
+    """Return a filter that takes no huge number for what it makes."""
+
+    def narrow(value: Any, *args: Any, **kwargs: Any) -> Any:
+        if any(isinstance(each, int) and each > _MOST_MADE for each in (*args, *kwargs.values())):
+            raise SecurityError("a filter makes too much")
+        return made(value, *args, **kwargs)
+
+    return narrow
