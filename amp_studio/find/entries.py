@@ -64,6 +64,8 @@ def entries_of(schema: Schema, machine: str) -> Iterator[Entry]:
 def _parameter(schema: Schema, machine: str, parameter: Parameter) -> Entry:
     group = schema.group_of[parameter.id]
     units = " ".join(schema.units_of(parameter))
+    helped = parameter.help
+    noted = " ".join(n.says for n in (*helped.danger, *helped.warning, *helped.note))
     texts: list[tuple[Where, str]] = [
         ("number", " ".join(schema.on(machine).numbers(parameter).values())),
         ("name", parameter.name),
@@ -71,7 +73,7 @@ def _parameter(schema: Schema, machine: str, parameter: Parameter) -> Entry:
         ("group", f"{group.name} {group.section}"),
         ("choice", " ".join(choice.label for choice in parameter.choices or ())),
         ("choice", " ".join(bit.label for bit in parameter.bits or () if not bit.unknown)),
-        ("help", f"{parameter.help.what} {parameter.help.find} {parameter.help.wrong} {units}"),
+        ("help", f"{helped.what} {helped.find} {helped.wrong} {noted} {units}"),
     ]
     page = f"page {parameter.page}"
     return Entry(

@@ -21,7 +21,7 @@ from amp_studio.schema import (
     unknown,
     write_number,
 )
-from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, Range
+from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, HelpNote, Range
 from amp_studio.validate import formulas
 
 from .number_text import instances_without_number, number_lines, short_span, split_count
@@ -313,12 +313,15 @@ def _at_the_control(parameter: Parameter) -> Iterator[str]:
 
 
 def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
-    """Return the help as (title, text)."""
+    """Return the help as (title, text), what is dangerous first."""
     texts = parameter.help
     parts = [
+        *_statements("Danger", texts.danger),
+        *_statements("Warning", texts.warning),
         ("What it does", texts.what),
         ("How to find its value", texts.find),
         ("When it is wrong", texts.wrong),
+        *_statements("Note", texts.note),
     ]
     related = ", ".join(schema.parameters[r].name for r in texts.related if r in schema.parameters)
     parts.append(("Related", related))
@@ -327,6 +330,10 @@ def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
         count = f" ({n} of {len(errata)})" if len(errata) > 1 else ""
         parts.append((f"Contradiction in the manual{count}", erratum_text(erratum)))
     return [(title, " ".join(text.split())) for title, text in parts if text]
+
+
+def _statements(grade: str, statements: Iterable[HelpNote]) -> list[tuple[str, str]]:
+    return [(grade, f"{s.says} (page {s.page})") for s in statements]
 
 
 def erratum_text(erratum: Erratum) -> str:

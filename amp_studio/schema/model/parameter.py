@@ -192,12 +192,25 @@ class Effect(Model):
     """The command that makes the device read the value (level ``command``)."""
 
 
+class HelpNote(Model):
+    """What the manual warns of or asks for, in our own words, and where it does."""
+
+    says: str
+    page: Page
+
+
 class Help(Model):
     """The parameter in our own words; ``find`` and ``wrong`` may be empty for a plain choice."""
 
     what: str
     find: str = ""
     wrong: str = ""
+    danger: tuple[HelpNote, ...] = ()
+    """Where a wrong value can move the machine unexpectedly or hurt somebody."""
+    warning: tuple[HelpNote, ...] = ()
+    """Where a wrong value can damage something or cost accuracy."""
+    note: tuple[HelpNote, ...] = ()
+    """An effect to know, such as a value that the control replaces."""
     related: tuple[ParameterId, ...] = ()
 
 
