@@ -243,7 +243,7 @@ def _choice(choice: Choice, patchable: bool) -> str:
 
 
 def _bits(parameter: Parameter) -> Iterator[str]:
-    """Yield one line for each field of a packed word; bits with counted names (Axis 2, Axis 3) share one."""
+    """Yield one line for each field of a word; bits with counted names (Axis 2, Axis 3), or none legible, share one."""
     fields = list(parameter.bits or ())
     while fields:
         run = [fields.pop(0)]
@@ -252,17 +252,18 @@ def _bits(parameter: Parameter) -> Iterator[str]:
         first, last = run[0], run[-1]
         end = last.bit + last.width - 1
         where = f"{first.bit}" if end == first.bit else f"{first.bit} to {end}"
-        what = first.label if first is last else f"{first.label} to {last.label}"
+        what = first.label if first.label == last.label else f"{first.label} to {last.label}"
         unknown = " (not legible in the manual: keep the present value)" if first.unknown else ""
         yield f"{where}: {what}{unknown}"
         yield from (f"    {_choice(choice, patchable=False)}" for choice in first.choices or ())
 
 
 def _goes_on(a: Bit, b: Bit) -> bool:
-    """Return whether a bit continues a series: Axis 3 after Axis 2."""
+    """Return whether a bit continues a series: Axis 3 after Axis 2, or one more without a legible name."""
     (head, number), (other, following) = split_count(a.label), split_count(b.label)
     plain = a.width == b.width == 1 and not a.choices and not b.choices and a.unknown == b.unknown
-    return plain and head == other and following == number + 1 and b.bit == a.bit + 1
+    same_lost = a.unknown and a.label == b.label
+    return plain and b.bit == a.bit + 1 and (same_lost or (head == other and following == number + 1))
 
 
 def _default(parameter: Parameter) -> str:

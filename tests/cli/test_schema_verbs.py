@@ -166,6 +166,18 @@ def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) 
     assert "0 to 7: Bit 0 to Bit 7 (not legible in the manual: keep the present value)" in lost
 
 
+def test_bits_that_one_lost_figure_would_name_are_told_once(amp) -> None:
+    word = amp("show", "57c422b", "setup.drive").out
+    assert (
+        "Bits           0 to 15: Unnamed (figure 4.2) (not legible in the manual: keep the present value)\n"
+        in word
+    )
+    assert word.count("figure 4.2") == 1
+    mode = amp("show", "57c422b", "control.mode").out
+    assert "3: Unnamed (figure 4.33) (not legible in the manual: keep the present value)\n" in mode
+    assert "4: Direction\n" in mode
+
+
 def test_no_line_of_any_page_is_wider_than_a_terminal(amp) -> None:
     for parameter in load_schema("9pc").parameters:
         assert [line for line in amp("show", "9pc", parameter).out.splitlines() if len(line) > 100] == []

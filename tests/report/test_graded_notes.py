@@ -26,6 +26,7 @@ def test_the_manual_speaks_of_danger_at_these_parameters_of_the_9pc_alone() -> N
     assert {p.id for p in parameters if p.help.danger} == {
         "control.cancel_tool_offsets",
         "deskew.slave",
+        "deskew.slave_2",
         "servo.excess_error",
         "servo.position_sign",
         "servo.velocity_sign",
