@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign faults peers check format schema lock bench screenshots man translations wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign faults peers check format schema docs lock bench screenshots man translations wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -54,6 +54,19 @@ format: setup ## put the code into the one format and mend what ruff can mend
 schema: setup ## write the JSON Schemas by which an editor completes and checks fact files, rules.yaml and project.yaml
 	@$(BIN)/python scripts/write_schemas.py
 
+docs: setup-run build/docs/env/ready ## write the site with the reference of every parameter into build/site, and check its links
+	@rm -rf build/docs/source build/site && mkdir -p build/docs/source && cp -R docs/. build/docs/source
+	@sed 's#](docs/#](#; s#](CHANGELOG#](changelog#' CONTRIBUTING.md >build/docs/source/contributing.md && cp CHANGELOG.md build/docs/source/changelog.md
+	@$(BIN)/python scripts/write_reference.py build/docs/source/reference
+	@build/docs/env/bin/sphinx-build --quiet --fail-on-warning --keep-going --fresh-env --jobs auto \
+		--doctree-dir build/docs/doctrees build/docs/source build/site
+	@$(BIN)/python scripts/check_links.py build/site
+
+build/docs/env/ready: requirements/docs.lock
+	@rm -rf build/docs/env && $(or $(PYTHON),python3) -m venv build/docs/env
+	@build/docs/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes -r $<
+	@touch $@
+
 bench: setup ## measure, and print one table
 	@$(BIN)/python bench/run.py
 
@@ -73,6 +86,7 @@ lock: ## write requirements/*.lock again; UPGRADE=1 takes the newest versions
 	@test -x build/lock/bin/uv || { $(or $(PYTHON),python3) -m venv build/lock && build/lock/bin/pip install --quiet $(LOCK_TOOL); }
 	@$(LOCK) --group dev --output-file requirements/dev.lock
 	@$(LOCK) --group build --constraint requirements/dev.lock --output-file requirements/run.lock
+	@$(subst pyproject.toml,,$(LOCK)) --group docs --output-file requirements/docs.lock
 
 clean: ## remove everything that make made, .venv too
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache .coverage

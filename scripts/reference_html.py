@@ -1,0 +1,110 @@
+"""What all pages of the generated reference are made of: anchors, links, lists of facts.
+
+A page is Markdown with HTML inside: an anchor is the id or the number of a parameter exactly as the program writes it, which
+a label of Sphinx cannot be (it makes ``servo-excess-error`` of ``servo.excess_error``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from html import escape
+from urllib.parse import quote
+
+from amp_studio.schema import Group, Parameter, Rule, Schema
+from amp_studio.schema.model import ControlMessage, Messages
+
+
+def heading(level: int, text: str) -> str:
+    """Return a heading; what means something to Markdown is escaped."""
+    return "#" * level + " " + re.sub(r"([\\`*_\[\]<>#|${}~&!^:])", r"\\\1", " ".join(text.split()))
+
+
+def anchors(*names: str) -> str:
+    """Return places to which links may go."""
+    return "".join(f'<a id="{escape(name)}"></a>' for name in dict.fromkeys(names))
+
+
+def link(page: str, anchor: str, text: str) -> str:
+    """Return a link to an anchor of a page of the same family."""
+    return f'<a href="{quote(page)}.html#{quote(anchor)}">{escape(text)}</a>'
+
+
+def page_link(page: str, text: str) -> str:
+    """Return a link to a page of the same family."""
+    return f'<a href="{quote(page)}.html">{escape(text)}</a>'
+
+
+def facts_list(facts: Iterable[tuple[str, str]]) -> str:
+    """Return facts (title, HTML) as a table; a title that repeats is written once."""
+    rows, before = [], ""
+    for title, text in facts:
+        rows.append(f"<tr><th>{escape(title) if title != before else ''}</th><td>{text}</td></tr>")
+        before = title
+    return '<table class="facts">\n' + "\n".join(rows) + "\n</table>"
+
+
+def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    """Return a table of HTML cells."""
+    lines = ["<table>", "<tr>" + "".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
+    return "\n".join([*lines, "</table>"])
+
+
+def listed(items: Iterable[str], tag: str = "ul") -> str:
+    """Return a list of HTML entries, nothing without any."""
+    entries = "\n".join(f"<li>{item}</li>" for item in items)
+    return f"<{tag}>\n{entries}\n</{tag}>" if entries else ""
+
+
+def paragraph(text: str, strong: str = "") -> str:
+    """Return a paragraph of plain text, behind a word in bold where there is one."""
+    lead = f"<strong>{escape(strong)}.</strong> " if strong else ""
+    return f"<p>{lead}{escape(' '.join(text.split()))}</p>"
+
+
+def page(schema: Schema, title: str, *parts: str) -> str:
+    """Return a page of a family.
+
+    It is in no list of Sphinx: with every group of every family in the list beside each page, the site would take three
+    times as long and be twice as large. What leads here is the page of the family.
+    """
+    short = schema.family.short or schema.family.name
+    above = f'<p><a href="../index.html">Reference</a> › <a href="index.html">{escape(schema.family.name)}</a></p>'
+    head = "---\norphan: true\n---"
+    return "\n\n".join([head, heading(1, f"{short}: {title}"), above, *filter(None, parts)])
+
+
+# -- where things are ----------------------------------------------------------
+
+
+def group_page(group: Group) -> str:
+    """Return the page of a group."""
+    return f"group-{group.key}"
+
+
+def messages_page(messages: Messages) -> str:
+    """Return the page of a list of messages."""
+    return f"messages-{messages.id}"
+
+
+def parameter_link(schema: Schema, parameter: Parameter | str) -> str:
+    """Return a link to a parameter."""
+    found = schema.parameters[parameter] if isinstance(parameter, str) else parameter
+    return link(group_page(schema.group_of[found.id]), found.id, found.name)
+
+
+def parameter_links(schema: Schema, ids: Iterable[str]) -> str:
+    """Return links to parameters, those that the family has."""
+    return ", ".join(parameter_link(schema, name) for name in ids if name in schema.parameters)
+
+
+def rule_link(rule: Rule) -> str:
+    """Return a link to a rule."""
+    return link("rules", rule.id, rule.title)
+
+
+def message_link(schema: Schema, message: ControlMessage) -> str:
+    """Return a link to a message of the control."""
+    page = next(messages_page(m) for m in schema.message_lists if message in m.messages)
+    return link(page, message.id, message.name)

@@ -1,0 +1,192 @@
+"""Writes the reference of every parameter of every family, in Markdown, into a folder: one page a group.
+
+All of it comes from the schema and from the functions behind ``amp-studio show``, so that the pages are never another
+opinion than the program. Sphinx makes the site of them (``make docs``).
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from html import escape
+from pathlib import Path
+
+from reference_html import (
+    anchors,
+    facts_list,
+    group_page,
+    heading,
+    link,
+    listed,
+    message_link,
+    messages_page,
+    page,
+    page_link,
+    paragraph,
+    parameter_link,
+    parameter_links,
+    rule_link,
+    table,
+)
+from reference_lists import commissioning, errata, messages, numbers, rules, tables
+
+from amp_studio.guide import step_of, steps_of
+from amp_studio.report import facts, formula_lines, help_parts
+from amp_studio.report.wording import severity_name
+from amp_studio.schema import Group, Parameter, Schema, family_ids, load_schema, read_address
+
+
+def reference() -> dict[str, str]:
+    """Return the text of every page by its path below ``reference/``."""
+    pages = {"index.md": overview()}
+    for family in family_ids():
+        schema = load_schema(family)
+        pages |= {f"{family}/{name}.md": text for name, text in family_pages(schema).items()}
+    return pages
+
+
+def overview() -> str:
+    """Return the page that leads to the families."""
+    schemas = [load_schema(family) for family in family_ids()]
+    rows = (
+        (
+            f'<a href="{s.family.family}/index.html">{escape(s.family.name)}</a>',
+            str(len(s.parameters)),
+            str(len(s.rules)),
+            str(len(s.messages)),
+            escape(s.family.title),
+        )
+        for s in schemas
+    )
+    return "\n\n".join(
+        [
+            heading(1, "Reference"),
+            "Every parameter, rule and message of every control family, made from the same facts as the program.",
+            table(("Family", "Parameters", "Rules", "Messages", "Manual"), rows),
+            "\n".join(
+                ["```{toctree}", ":hidden:", "", *(f"{s.family.family}/index" for s in schemas), "```"]
+            ),
+        ]
+    )
+
+
+def family_pages(schema: Schema) -> dict[str, str]:
+    """Return the pages of one family by name."""
+    pages = {group_page(group): group_text(schema, group) for group in schema.groups}
+    pages |= {messages_page(listed): messages(schema, listed) for listed in schema.message_lists}
+    pages |= {"rules": rules(schema), "numbers": numbers(schema)}
+    if schema.commissioning is not None:
+        pages["commissioning"] = commissioning(schema)
+    if schema.errata:
+        pages["errata"] = errata(schema)
+    if schema.tables:
+        pages["tables"] = tables(schema)
+    return pages | {"index": family_index(schema, pages)}
+
+
+def family_index(schema: Schema, pages: Mapping[str, str]) -> str:
+    """Return the page that leads to all others of a family."""
+    titles = {
+        "numbers": "Every number, in order",
+        "commissioning": "Steps of commissioning",
+        "rules": f"Rules ({len(schema.rules)})",
+        "tables": f"Tables ({len(schema.tables)})",
+        "errata": f"Contradictions in the manual ({len(schema.errata)})",
+    }
+    groups = [f"{page_link(group_page(g), group_title(g))} ({len(g.parameters)})" for g in schema.groups]
+    shown = [f"{page_link(messages_page(m), m.title)} ({len(m.messages)})" for m in schema.message_lists]
+    parts = [
+        heading(1, schema.family.name),
+        paragraph(f"{schema.family.title} ({schema.family.document}). {schema.family.what}"),
+        heading(2, "Look up"),
+        listed(page_link(name, title) for name, title in titles.items() if name in pages),
+        heading(2, "Parameters by group"),
+        listed(groups),
+    ]
+    if shown:
+        parts += [heading(2, "Messages of the control"), listed(shown)]
+    return "\n\n".join(parts)
+
+
+def group_title(group: Group) -> str:
+    """Return what a group is called, with its section."""
+    return f"{group.name}: {group.section}" if group.section else group.name
+
+
+def group_text(schema: Schema, group: Group) -> str:
+    """Return the page of a group: its parameters in the order of the manual."""
+    parts = [part for parameter in group.parameters for part in parameter_parts(schema, parameter)]
+    return page(schema, group_title(group), paragraph(f"Chapter {group.chapter} of the manual."), *parts)
+
+
+def parameter_parts(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield the parts of the section of one parameter."""
+    every = dict.fromkeys(
+        f"n-{number}"
+        for m in schema.family.machines
+        for number in schema.on(m.key).numbers(parameter).values()
+    )
+    short = next(iter(every), "").removeprefix("n-")
+    yield anchors(parameter.id, *every)
+    yield heading(2, f"{short} {parameter.name}".strip())
+    yield facts_list((title, escape(text)) for title, text in facts(schema, parameter))
+    for title, text in help_parts(schema, parameter):
+        if title == "Related":
+            yield f"<p><strong>Related.</strong> {parameter_links(schema, parameter.help.related)}</p>"
+        elif title.startswith("Contradiction"):
+            yield f'<div class="admonition caution">{paragraph(text, title)}</div>'
+        else:
+            yield paragraph(text, title)
+    for title, entries in linked(schema, parameter):
+        shown = listed(entries)
+        if shown:
+            yield f"<p><strong>{title}</strong></p>\n{shown}"
+
+
+def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str]]]:
+    """Yield what leads away from a parameter: (title, entries)."""
+    yield "Formulas", [escape(line) for line in formula_lines(schema, parameter)]
+    if schema.commissioning is not None:
+        steps, own = steps_of(schema), step_of(schema)[parameter.id]
+        yield (
+            "Commissioning",
+            [
+                link("commissioning", f"step-{s.number}", f"Step {s.number} of {len(steps)}: {s.title}")
+                + f" (page {s.page})"
+                for s in steps
+                if s is own or parameter in s.again
+            ],
+        )
+    yield (
+        "Messages of the control",
+        [
+            f"{message_link(schema, m)} (page {', '.join(m.every_page)})"
+            for m in schema.messages_of(parameter.id)
+        ],
+    )
+    yield (
+        "Rules that read it",
+        [
+            f"{severity_name(rule.severity)}: {rule_link(rule)} (page {rule.page})"
+            for rule in schema.rules
+            if any(read_address(read)[0] == parameter.id for read in rule.reads.values())
+        ],
+    )
+    yield (
+        "Named by",
+        [parameter_link(schema, other) for other in schema.parameters.values()
+         if parameter.id in other.help.related and other.id not in parameter.help.related],
+    )  # fmt: skip
+
+
+def main() -> None:
+    """Write the pages into the folder that is named."""
+    folder = Path(sys.argv[1])
+    for name, text in reference().items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
