@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
+from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
 from amp_studio.schema.registration import why_not_simulated
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
+from .task import in_background
 from .translated import Translated, tr
 from .workspace import Workspace
+
+if TYPE_CHECKING:
+    from .motion_view import MotionView
 
 
 class ViewActions(Translated):
@@ -187,6 +193,18 @@ class ViewActions(Translated):
         if reason := why_not_simulated(page.workspace.file.schema.family):
             page.bar.say(reason)
             return
-        from .motion_view import MotionView  # takes the simulator along
+        view = in_background(
+            self.window, self.tr("Loading the simulator"), partial(_motion_view, page.workspace.file.copy())
+        )
+        view(page.workspace, self.window.selected(), page.go_to, self.window).show()
 
-        MotionView(page.workspace, self.window.selected(), page.go_to, self.window).show()
+
+def _motion_view(file: ParameterFile) -> type[MotionView]:
+    """Load the view with the plots, and the simulator with what it knows of the family of a file. For a thread."""
+    from amp_studio.sim.listing import listing
+
+    from .motion_view import MotionView
+
+    listing(file)
+
+    return MotionView
