@@ -39,15 +39,15 @@ def facts_list(facts: Iterable[tuple[str, str]]) -> str:
     """Return facts (title, HTML) as a table; a title that repeats is written once."""
     rows, before = [], ""
     for title, text in facts:
-        rows.append(f"<tr><th>{escape(title) if title != before else ''}</th><td>{text}</td></tr>")
+        rows.append(f"<tr><th>{escape(title) if title != before else ''}</th> <td>{text}</td></tr>")
         before = title
     return '<table class="facts">\n' + "\n".join(rows) + "\n</table>"
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table of HTML cells."""
-    lines = ["<table>", "<tr>" + "".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
+    """Return a table of HTML cells; with blanks between them, else the search takes two cells for one word."""
+    lines = ["<table>", "<tr>" + " ".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>"]
+    lines += ["<tr>" + " ".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
     return "\n".join([*lines, "</table>"])
 
 
