@@ -159,6 +159,7 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
     ]
     found += [("Instances", text) for text in instances_without_number(schema, parameter, machine)]
     found += [("Range", text) for text in _ranges(schema, parameter)]
+    found += [("Unit", parameter.bare)] if parameter.bare else []
     found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
     found += [("Bits", text) for text in _bits(parameter)]
     found.append(("Default", _default(parameter)))

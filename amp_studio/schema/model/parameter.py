@@ -252,6 +252,8 @@ class Parameter(Model):
     quantity: Quantity = ""
     unit: Unit | None = None
     """Fixes the unit where the quantity alone leaves it open (``ms``, ``s``; ``counts``)."""
+    bare: str | None = None
+    """What a number without a unit is: ``teeth``, ``blocks``, ``a ratio``; or that the manual prints no unit for it."""
     decimals: int | None = None
     ranges: Ranges | None = None
     range_variants: tuple[RangeVariant, ...] = ()
