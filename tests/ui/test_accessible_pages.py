@@ -40,7 +40,7 @@ def focusable(top: QWidget) -> list[QWidget]:
 
 
 def silent(top: QWidget) -> list[str]:
-    """Return the parts of the accessibility tree that take the keyboard and have no name, or a role that says nothing."""
+    """Return the parts of the accessibility tree that take the keyboard and have no name, or a role that has no meaning."""
     found: list[str] = []
 
     def walk(node: object) -> None:

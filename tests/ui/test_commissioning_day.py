@@ -40,7 +40,7 @@ def type_into(window: MainWindow, address: tuple[str, str], text: str) -> None:
 
 
 def is_typed_over(window: MainWindow, text: str) -> QWidget:
-    """Type over the refused text that still stands in its cell, and Enter."""
+    """Type over the refused text that is still in its cell, and Enter."""
     field = editor(window)
     QTest.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
     QTest.keyClicks(field, text)
@@ -79,7 +79,7 @@ def test_a_whole_commissioning_day(
     assert file.get(first) is None
     assert window.page.left.side == "steps"
 
-    # A block from a spreadsheet, looked at first.
+    # A block from a spreadsheet, checked first.
     window.go_to(EXCESS)
     QGuiApplication.clipboard().setText("12\t13\t14")
     blocks: list[str] = []
@@ -119,7 +119,7 @@ def test_a_whole_commissioning_day(
     assert file.get(RIGHT) != before
     action(window, "Pictures").trigger()
 
-    # What stands on the control's screen leads to its parameters.
+    # What is on the control's screen leads to its parameters.
     box = window.finder.box
     box.begin("servo amp fe limits")
     qtbot.waitUntil(lambda: window.finder._finder() is not None, timeout=WAIT_MS)
