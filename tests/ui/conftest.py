@@ -42,6 +42,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     try:
         return (yield)
     finally:
+        gc.unfreeze()  # what belonged to the files that were open
         gc.enable()
 
 

@@ -1370,12 +1370,20 @@ Einen anderen Namen wählen.</translation>
             <translation>Die Steuerung</translation>
         </message>
         <message>
+            <source>Differences</source>
+            <translation>Unterschiede</translation>
+        </message>
+        <message>
             <source>not in this file</source>
             <translation>nicht in dieser Datei</translation>
         </message>
         <message>
             <source>only in this file</source>
             <translation>nur in dieser Datei</translation>
+        </message>
+        <message>
+            <source>different</source>
+            <translation type="unfinished" />
         </message>
     </context>
     <context>
@@ -3261,6 +3269,14 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <translation>Von nun an mit der jetzigen Kurve vergleichen</translation>
         </message>
         <message>
+            <source>Simulated motion</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Figures of the motion</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>S&amp;cenario</source>
             <translation>&amp;Szenario</translation>
         </message>
@@ -3750,6 +3766,10 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Finding</source>
             <translation>Befund</translation>
+        </message>
+        <message>
+            <source>Findings of each file</source>
+            <translation type="unfinished" />
         </message>
     </context>
     <context>
@@ -4599,6 +4619,18 @@ Die Arbeit ist noch offen.</translation>
             <translation>Alle Tabellen durchsuchen, zum Beispiel nach Alarm, Motor oder Nummer</translation>
         </message>
         <message>
+            <source>Search all tables</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Tables</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Table</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>No table contains these words.</source>
             <translation>Keine Tabelle enthält diese Wörter.</translation>
         </message>
@@ -4985,6 +5017,10 @@ Die Arbeit ist noch offen.</translation>
         <message>
             <source>Pre&amp;vious File</source>
             <translation>V&amp;orige Datei</translation>
+        </message>
+        <message>
+            <source>Loading the simulator</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>Show File &amp;Beside</source>
