@@ -1383,7 +1383,7 @@ Einen anderen Namen wählen.</translation>
         </message>
         <message>
             <source>different</source>
-            <translation type="unfinished" />
+            <translation>verschieden</translation>
         </message>
     </context>
     <context>
@@ -3270,11 +3270,11 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>Simulated motion</source>
-            <translation type="unfinished" />
+            <translation>Simulierte Bewegung</translation>
         </message>
         <message>
             <source>Figures of the motion</source>
-            <translation type="unfinished" />
+            <translation>Zahlen der Bewegung</translation>
         </message>
         <message>
             <source>S&amp;cenario</source>
@@ -3769,7 +3769,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>Findings of each file</source>
-            <translation type="unfinished" />
+            <translation>Befunde jeder Datei</translation>
         </message>
     </context>
     <context>
@@ -4620,15 +4620,15 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>Search all tables</source>
-            <translation type="unfinished" />
+            <translation>Alle Tabellen durchsuchen</translation>
         </message>
         <message>
             <source>Tables</source>
-            <translation type="unfinished" />
+            <translation>Tabellen</translation>
         </message>
         <message>
             <source>Table</source>
-            <translation type="unfinished" />
+            <translation>Tabelle</translation>
         </message>
         <message>
             <source>No table contains these words.</source>
@@ -5020,7 +5020,7 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>Loading the simulator</source>
-            <translation type="unfinished" />
+            <translation>Der Simulator wird geladen</translation>
         </message>
         <message>
             <source>Show File &amp;Beside</source>
