@@ -18,7 +18,7 @@ class LanguageActions(QObject):
     def __init__(self, window: StudioWindow, menu: QMenu) -> None:
         super().__init__(window)
         self._window = window
-        inner = menu.addMenu(self.tr("Lan&guage"))
+        inner = menu.addMenu(self.tr("La&nguage"))
         self.group = QActionGroup(inner)
         for choice, name in {"system": self.tr("&System"), **LANGUAGES}.items():
             action = QAction(name, self.group)

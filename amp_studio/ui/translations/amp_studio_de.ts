@@ -2381,7 +2381,7 @@ Importieren und als erzwungen kennzeichnen?</translation>
     <context>
         <name>LanguageActions</name>
         <message>
-            <source>Lan&amp;guage</source>
+            <source>La&amp;nguage</source>
             <translation>S&amp;prache</translation>
         </message>
         <message>
