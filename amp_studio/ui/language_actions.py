@@ -20,7 +20,9 @@ class LanguageActions(QObject):
         self._window = window
         inner = menu.addMenu(self.tr("La&nguage"))
         self.group = QActionGroup(inner)
-        for choice, name in {"system": self.tr("&System"), **LANGUAGES}.items():
+        for choice, name in {"system": self.tr("&System")} | {
+            code: f"&{own}" for code, own in LANGUAGES.items()
+        }:
             action = QAction(name, self.group)
             action.setCheckable(True)
             action.setChecked(window.settings.language() == choice)
