@@ -20,9 +20,8 @@ class LanguageActions(QObject):
         self._window = window
         inner = menu.addMenu(self.tr("La&nguage"))
         self.group = QActionGroup(inner)
-        for choice, name in {"system": self.tr("&System")} | {
-            code: f"&{own}" for code, own in LANGUAGES.items()
-        }:
+        names = {"system": self.tr("&System"), **{code: f"&{own}" for code, own in LANGUAGES.items()}}
+        for choice, name in names.items():
             action = QAction(name, self.group)
             action.setCheckable(True)
             action.setChecked(window.settings.language() == choice)
