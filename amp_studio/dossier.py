@@ -8,7 +8,7 @@ from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, real_path, text_of_name
 from amp_studio.files.local_time import local_time
-from amp_studio.report import Contents, ExchangeLine, PrintedFigure, write_report
+from amp_studio.report import Contents, ExchangeLine, PrintedFigure, report_pages, write_report
 from amp_studio.validate import NO_RULES, BuilderRules
 
 _DRAWN = (".pdf", ".html")
@@ -38,6 +38,23 @@ def write_dossier(
         file, path, contents, source=source, date=date, own=own, notify=notify,
         motion=tuple(motion_figures(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
+    )  # fmt: skip
+
+
+def dossier_pages(
+    file: ParameterFile,
+    contents: Contents,
+    ppi: int,
+    *,
+    source: Path,
+    own: BuilderRules = NO_RULES,
+    notify: Notify = lambda _note: None,
+) -> list[bytes]:
+    """Return the pages of what ``write_dossier`` writes as PDF, as PNG with ``ppi`` pixels to the inch, for a printer."""
+    return report_pages(
+        file, contents, ppi, source=source, own=own, notify=notify,
+        motion=() if "motion" in contents.without else tuple(motion_figures(file)),
+        exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
     )  # fmt: skip
 
 

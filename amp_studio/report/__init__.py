@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .printed_table import cells_of, table_lines, tables_of
     from .why import why_parts, why_text
     from .wording import counted
-    from .write import FORMATS, write_report
+    from .write import FORMATS, report_pages, write_report
 
 _PLACES = {
     "CHAPTERS": "model",
@@ -69,6 +69,7 @@ _PLACES = {
     "tables_of": "printed_table",
     "why_parts": "why",
     "why_text": "why",
+    "report_pages": "write",
     "write_report": "write",
 }
 """Name -> its module."""
@@ -111,6 +112,7 @@ __all__ = [
     "one_line",
     "page_of",
     "range_text",
+    "report_pages",
     "same_finding_text",
     "suppressed_text",
     "table_lines",

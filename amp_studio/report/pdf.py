@@ -106,6 +106,26 @@ def render_pdf(report: Report, own: Path | None = None) -> bytes:
         raise TemplateMistakeError(own, f"Typst: {error}") from None
 
 
+def render_pages(report: Report, ppi: int, own: Path | None = None) -> list[bytes]:
+    """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project. Raises TemplateMistakeError."""
+    import typst
+
+    source, root = typst_source(report, own), own.parent if own else TEMPLATES
+    try:
+        pages = typst.compile(  # type: ignore[call-overload]  # as in ``typeset``
+            source.encode("utf-8"),
+            root=root,
+            format="png",
+            ppi=ppi,
+            ignore_system_fonts=_FOREIGN.search(source) is None,
+        )
+    except typst.TypstError as error:
+        if own is None:
+            raise
+        raise TemplateMistakeError(own, f"Typst: {error}") from None
+    return [pages] if isinstance(pages, bytes) else list(pages)
+
+
 def typeset(source: str, root: Path = TEMPLATES) -> bytes:
     """Return the PDF of Typst source, which may read the files under ``root``."""
     import typst

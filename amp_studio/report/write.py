@@ -13,7 +13,7 @@ from .build import build_report
 from .everything import render_json, render_workbook
 from .model import Contents, ExchangeLine, PrintedFigure, Report
 from .page import render_html
-from .pdf import render_pdf
+from .pdf import render_pages, render_pdf
 from .table_csv import render_csv
 from .templating import TemplateMistakeError, own_template
 from .text import render_text
@@ -63,6 +63,35 @@ def write_report(
     write_atomic(
         path, _rendered(report, path.suffix.lower(), folder, notify), keep_backup=False, notify=notify
     )
+
+
+def report_pages(
+    file: ParameterFile,
+    contents: Contents,
+    ppi: int,
+    *,
+    source: Path,
+    own: BuilderRules = NO_RULES,
+    motion: Sequence[PrintedFigure] = (),
+    exchanges: Sequence[ExchangeLine] = (),
+    notify: Notify = lambda _note: None,
+) -> list[bytes]:
+    """Return the pages of a report as PNG, for a printer: what ``write_report`` writes as PDF, ``ppi`` pixels to the inch."""
+    report = build_report(
+        file,
+        contents,
+        source=source,
+        project=project_beside(source),
+        own=own,
+        motion=motion,
+        exchanges=exchanges,
+    )
+    template = own_template(real_path(source).parent, "report.typ.j2")
+    try:
+        return render_pages(report, ppi, template)
+    except TemplateMistakeError as error:
+        notify(f"{error}. The standard report was printed")
+        return render_pages(report, ppi)
 
 
 def _rendered(report: Report, ending: str, folder: Path | None, notify: Notify) -> bytes:

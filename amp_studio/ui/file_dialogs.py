@@ -125,6 +125,12 @@ class ReportDialog(_Form):
         self.form.addRow("", self.inactive)
         self.form.addRow(label, row)
         self.form.addRow("", self.show_it)
+        self.to_printer = False
+        """Whether it goes to a printer instead of into a file."""
+        to_printer = QPushButton(self.tr("Pre&view and Print…"))
+        to_printer.setAutoDefault(False)
+        to_printer.clicked.connect(self._print)
+        self.form.addRow("", to_printer)
         self.add_buttons(self.tr("&Write Report"))
 
     def _browse(self) -> None:
@@ -135,6 +141,10 @@ class ReportDialog(_Form):
             self.path.setText(
                 text if path.suffix else str(path.with_suffix(chosen[chosen.index("*") + 1 : -1]))
             )
+
+    def _print(self) -> None:
+        self.to_printer = True
+        self.accept()
 
     @property
     def output(self) -> Path:

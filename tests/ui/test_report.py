@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtGui import QDesktopServices
+from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
 
 from amp_studio.ui.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
@@ -81,3 +82,27 @@ def test_what_a_written_file_could_not_keep_is_said(
     action(window, verb).trigger()
     assert "1 other name of this file (a hard link) still has" in window.statusBar().currentMessage()
     assert (tmp_path / "other name").read_bytes() == b"old"
+
+
+def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
+    window: MainWindow, tmp_path: Path, accept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out, shown = tmp_path / "printed.pdf", []
+
+    def printed(preview: QPrintPreviewDialog) -> int:
+        printer = preview.printer()
+        printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
+        printer.setOutputFileName(str(out))
+        shown.append(preview.windowTitle())
+        preview.paintRequested.emit(printer)
+        return 1
+
+    monkeypatch.setattr(QPrintPreviewDialog, "exec", printed)
+    monkeypatch.setattr("amp_studio.ui.printing.PPI", 40)
+    accept(ReportDialog, lambda d: (d.changed.setChecked(True), setattr(d, "to_printer", True)))
+    action(window, "Report").trigger()
+    assert shown == ["Report"]
+    content = out.read_bytes()
+    assert content.startswith(b"%PDF")
+    assert content.count(b"/Type /Page\n") > 5
+    assert not (tmp_path / "mill.pdf").exists()

@@ -573,6 +573,14 @@ Woher ist bekannt, was sie enthält?</translation>
             <comment>language of the names of months</comment>
             <translation>de</translation>
         </message>
+        <message>
+            <source>Report</source>
+            <translation>Bericht</translation>
+        </message>
+        <message>
+            <source>Setting the pages …</source>
+            <translation>Die Seiten werden gesetzt …</translation>
+        </message>
     </context>
     <context>
         <name>AddAxisDialog</name>
@@ -4131,6 +4139,10 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>&amp;Language</source>
             <translation>&amp;Sprache</translation>
+        </message>
+        <message>
+            <source>Pre&amp;view and Print…</source>
+            <translation>&amp;Vorschau und drucken…</translation>
         </message>
         <message>
             <source>&amp;Write Report</source>
