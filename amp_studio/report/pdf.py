@@ -95,46 +95,42 @@ def _drawing(svg: str) -> Exact:
 
 def render_pdf(report: Report, own: Path | None = None) -> bytes:
     """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project. Raises TemplateMistakeError."""
-    source = typst_source(report, own)
-    if own is None:
-        return typeset(source)
-    from typst import TypstError
-
-    try:
-        return typeset(source, own.parent)
-    except TypstError as error:
-        raise TemplateMistakeError(own, f"Typst: {error}") from None
+    (pdf,) = _set(report, own, format="pdf")
+    return pdf
 
 
 def render_pages(report: Report, ppi: int, own: Path | None = None) -> list[bytes]:
     """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project. Raises TemplateMistakeError."""
-    import typst
+    return _set(report, own, format="png", ppi=ppi)
 
-    source, root = typst_source(report, own), own.parent if own else TEMPLATES
+
+def _set(report: Report, own: Path | None, **form: object) -> list[bytes]:
+    """Return the files that Typst makes of a report; raises TemplateMistakeError."""
+    source = typst_source(report, own)
+    if own is None:
+        return _compiled(source, TEMPLATES, **form)
+    from typst import TypstError
+
     try:
-        pages = typst.compile(  # type: ignore[call-overload]  # as in ``typeset``
-            source.encode("utf-8"),
-            root=root,
-            format="png",
-            ppi=ppi,
-            ignore_system_fonts=_FOREIGN.search(source) is None,
-        )
-    except typst.TypstError as error:
-        if own is None:
-            raise
+        return _compiled(source, own.parent, **form)
+    except TypstError as error:
         raise TemplateMistakeError(own, f"Typst: {error}") from None
-    return [pages] if isinstance(pages, bytes) else list(pages)
 
 
-def typeset(source: str, root: Path = TEMPLATES) -> bytes:
-    """Return the PDF of Typst source, which may read the files under ``root``."""
+def typeset(source: str) -> bytes:
+    """Return the PDF of Typst source."""
+    (pdf,) = _compiled(source, TEMPLATES, format="pdf")
+    return pdf
+
+
+def _compiled(source: str, root: Path, **form: object) -> list[bytes]:
+    """Return what Typst makes of source that may read the files under ``root``: one file, or one for each page."""
     import typst
 
     own_fonts = _FOREIGN.search(source) is None
     # The root is given because Typst takes the working folder otherwise, which may be gone;
     # the library's stubs require the type of the source, the library itself does not.
-    pages = typst.compile(  # type: ignore[call-overload]
-        source.encode("utf-8"), root=root, format="pdf", ignore_system_fonts=own_fonts
+    made = typst.compile(  # type: ignore[call-overload]
+        source.encode("utf-8"), root=root, ignore_system_fonts=own_fonts, **form
     )
-    assert isinstance(pages, bytes)
-    return pages
+    return [made] if isinstance(made, bytes) else list(made)
