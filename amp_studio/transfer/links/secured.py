@@ -47,12 +47,13 @@ class SecuredListener:
         end = self._clock() + timeout
         while True:
             left = max(0.0, end - self._clock())
-            caller = self._listener.accept(min(left, SLICE) if self._entering else left)
+            wait = min(left, SLICE) if self._entering else left
             for _ in range(WAITING):
+                caller = self._listener.accept(wait)
                 if caller is None:
                     break
                 self._begin(caller)
-                caller = self._listener.accept(0)
+                wait = 0.0
             link = self._let_in()
             if link is not None or self._clock() >= end:
                 return link

@@ -27,7 +27,7 @@ from amp_studio.transfer.links.password import (
     key_of,
     proof_of,
 )
-from amp_studio.transfer.links.secured import SecuredListener, neighbourhood
+from amp_studio.transfer.links.secured import WAITING, SecuredListener, neighbourhood
 from amp_studio.transfer.links.security import Security, exposure, read_password
 
 HERE = Path(__file__).with_name("certificates")
@@ -348,6 +348,17 @@ def test_who_does_not_prove_it_is_not_let_in_and_holds_nobody_up(
             assert b"WRONG" in attacker.recv(1000) + attacker.recv(1000)
             return
         assert echo(place) == b"\x00\xffframe"
+
+
+def test_who_comes_right_behind_a_crowd_is_asked_too() -> None:
+    listener = listen(replace(parse_endpoint("tcp://127.0.0.1:0"), security=Security(PASSWORD)))
+    with contextlib.closing(listener), contextlib.ExitStack() as stack:
+        *_, last = [
+            stack.enter_context(socket.create_connection(("127.0.0.1", listener.endpoint.port), timeout=5))
+            for _ in range(WAITING + 1)
+        ]
+        assert listener.accept(0.05) is None
+        assert last.recv(1000).startswith(b"AMP-STUDIO-PASSWORD 1 ")
 
 
 def test_a_handshake_that_is_never_ended_is_ended_by_the_control(monkeypatch: pytest.MonkeyPatch) -> None:
