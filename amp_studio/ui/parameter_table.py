@@ -25,6 +25,8 @@ CONTROL = ""
 """The column of values that belong to no axis; every other column is an axis."""
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+_READABLE = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
+_EDITABLE = _READABLE | Qt.ItemFlag.ItemIsEditable
 _FEWEST_A_SECTION = 2
 """Rows that a section has at least on average; a search that finds one here and one there has none."""
 
@@ -69,6 +71,7 @@ class ParameterTable(QAbstractTableModel):
         """Column -> its head, until a value changes."""
         self._heads: dict[int, str] = {}
         """TableRow -> its head, for the rows that are shown."""
+        self._numbers: dict[int, str] = {}
         self._machine = ""
         self._layouts: dict[str, list[TableRow]] = {}
         self._needed: dict[str, None] | None = None
@@ -130,7 +133,7 @@ class ParameterTable(QAbstractTableModel):
         family = self.workspace.file.schema.family
         effects = {id(e): e for row in self.rows for e in [row.parameter.effect or family.effect]}
         self._shows_commands = any(e.level == "command" for e in effects.values())
-        self._heads.clear()
+        self._forget_heads()
         self._axis_heads.clear()
         self._looks.clear()
         self.endResetModel()
@@ -315,6 +318,12 @@ class ParameterTable(QAbstractTableModel):
 
     def number(self, row: int) -> str:
         """Return the number of a row: that of its first value that exists, if it belongs to this parameter."""
+        found = self._numbers.get(row)
+        if found is None:
+            found = self._numbers[row] = self._number(row)
+        return found
+
+    def _number(self, row: int) -> str:
         if self.rows[row].section:
             return ""
         here = self.workspace.file.machine_schema
@@ -350,9 +359,8 @@ class ParameterTable(QAbstractTableModel):
         address = self.address_at(index.row(), index.column()) if index.isValid() else None
         if address is None or not self.values.exists(address):
             return Qt.ItemFlag.NoItemFlags  # keys pass over it
-        flags = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
         can_be_set = self.rows[index.row()].parameter.access != "read"
-        return flags | Qt.ItemFlag.ItemIsEditable if self.workspace.may_edit and can_be_set else flags
+        return _EDITABLE if self.workspace.may_edit and can_be_set else _READABLE
 
     # -- following the file ----------------------------------------------------
 
@@ -370,9 +378,13 @@ class ParameterTable(QAbstractTableModel):
             if columns != self.columns or rows != self.rows:
                 self._lay_out(columns, rows)
                 return
-            self._heads.clear()  # the number of a row is that of its first value that exists
+            self._forget_heads()  # the number of a row is that of its first value that exists
         self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
         self._forget_looks()
+
+    def _forget_heads(self) -> None:
+        self._heads.clear()
+        self._numbers.clear()
 
     def _forget_looks(self) -> None:
         self._looks.clear()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
@@ -19,6 +20,9 @@ Result = TypeVar("Result")
 PATIENCE_MS = 300
 """Milliseconds that work may last before a progress dialog is shown."""
 
+TURN_S = 0.0005
+"""Seconds after which a thread lets the window have its turn. Python's own 5 ms, paid several times while a frame is painted, would be
+seen."""
 STOPPING = "Stopping at the next safe point …"
 
 
@@ -45,6 +49,7 @@ class Task(QThread):
         """Start the thread."""
         Task.running.add(self)
         collect_by_timer()
+        sys.setswitchinterval(TURN_S)
         self.finished.connect(self._leave)
         self.start()
 

@@ -197,6 +197,33 @@ def test_garbage_is_collected_by_the_event_loop_alone(window: MainWindow) -> Non
         gc.callbacks.remove(note)
 
 
+def test_after_an_opening_only_the_youngest_garbage_is_looked_at(window: MainWindow) -> None:
+    """What a file needs has just been made and stays: a look at all of it costs a frame of a scrolling table."""
+    seen: list[int] = []
+    gc.callbacks.append(
+        note := lambda phase, about: seen.append(about["generation"]) if phase == "stop" else None
+    )
+    before = gc.get_threshold()
+    gc.set_threshold(10, 1, 1)
+    try:
+        for remaining in (60_000, 0):
+            garbage.set_apart(window)
+            garbage._opening.setRemainingTime(remaining)
+            gc.collect(0), gc.collect(0)
+            seen.clear()
+            kept = [[] for _ in range(1000)]
+            garbage.collect()
+            assert (len(kept), seen) == (1000, [0 if remaining else 1])
+    finally:
+        gc.set_threshold(*before)
+        gc.callbacks.remove(note)
+
+
+def test_a_thread_lets_the_window_have_its_turn_within_a_millisecond(window: MainWindow) -> None:
+    """Python's own five are paid several times while one frame is painted."""
+    assert ProgressDialog("Work", lambda *_: sys.getswitchinterval(), window).run() <= 0.001
+
+
 def test_a_silence_is_shown_below_what_is_waited_for_and_goes(window: MainWindow) -> None:
     texts: list[str] = []
 
