@@ -18,8 +18,8 @@ from amp_studio.transfer.progress import Progress
 
 from .console import note, progress
 from .errors import UsageError
+from .options.exchanges import RECEIVING, SENDING
 from .output import check_new
-from .parser import RECEIVING, SENDING
 from .screen import print_over
 from .stopping import asked_politely
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
-from amp_studio.cli.parser import RECEIVING as OFFERED_RECEIVING
-from amp_studio.cli.parser import SENDING as OFFERED_SENDING
+from amp_studio.cli.options.exchanges import RECEIVING as OFFERED_RECEIVING
+from amp_studio.cli.options.exchanges import SENDING as OFFERED_SENDING
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.tcp import TcpLink
 from amp_studio.transfer.plain.files import RECEIVING, SENDING

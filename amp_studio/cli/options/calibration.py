@@ -1,13 +1,13 @@
-"""The options of calibrate; a module without imports of a room, as all help is."""
+"""The verb that calibrates an axis."""
 
 from __future__ import annotations
 
 import re
 
-from .arguments import Verbs, json_option, path_of
+from amp_studio.cli.arguments import Verbs, json_option, path_of
 
 
-def calibrate_options(verbs: Verbs) -> None:
+def add(verbs: Verbs) -> None:
     """Add the verb that calibrates an axis."""
     sub = verbs.add(
         "calibrate",
