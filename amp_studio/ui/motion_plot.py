@@ -14,7 +14,7 @@ from PySide6.QtGui import QColor, QFont, QKeyEvent
 from amp_studio.sim.picture import Curve, Panel, Picture, Ring, unheld
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
-from amp_studio.sim.svg import ring_levels
+from amp_studio.sim.ticks import ring_levels
 
 from .theme import Token, colour, scheme
 

@@ -10,7 +10,9 @@ import pytest
 
 from amp_studio.sim import SCENARIOS, Trace
 from amp_studio.sim.picture import Ring, banded, picture_of, settling_span, thinned, unheld
-from amp_studio.sim.svg import COLOURS, plot_svg, ring_levels
+from amp_studio.sim.svg import plot_svg
+from amp_studio.sim.svg_parts import COLOURS
+from amp_studio.sim.ticks import ring_levels
 from tests.sim.tiny import tiny
 
 
