@@ -6,10 +6,9 @@ import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QFileDialog, QMenu
+from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
     Document,
@@ -31,20 +30,14 @@ from .compare_actions import FILTER, CompareActions
 from .file_page import FilePage
 from .format_actions import FormatActions
 from .questions import ask
-from .settings import is_there
+from .recent_files import RecentFiles
 from .studio_window import StudioWindow
 from .task import in_background
 from .translated import Translated
 from .workspace import Workspace
 
-if TYPE_CHECKING:
-    pass
-
-_RECENT, _IN_MENU = 24, 9
-
 CheckedDocument = tuple[Document, Validator]
-"""A document, its validator (already run), and the errors in the rules file beside it."""
-
+"""A document and its validator, already run."""
 
 Show = Callable[[Workspace, FilePage | None], FilePage]
 """Shows a workspace in a new tab, or in the place of a page."""
@@ -64,10 +57,8 @@ class FileActions(Translated):
         report = act(self.tr("&Report…"), self.report, keys.Print, "file", "printer", self.tr("Report"))
         menu = window.menuBar().addMenu(self.tr("&File"))
         menu.addActions([new, opened])
-        self._recent_menu = QMenu(self.tr("Open R&ecent"), window)
-        self._recent_menu.aboutToShow.connect(self._fill_recent)
-        self._recent_menu.setEnabled(bool(self.recent()))
-        menu.addMenu(self._recent_menu)
+        self.recent = RecentFiles(window, self.open_path)
+        menu.addMenu(self.recent.menu)
         menu.addActions([save, save_as, close])
         menu.addSeparator()
         self.comparing = CompareActions(window, self.ask_path, self.write_new)
@@ -83,47 +74,6 @@ class FileActions(Translated):
         """The files that were open when the program was left; none once they have been opened again."""
         self.toolbar: list[QAction] = [new, opened, save]
 
-    # -- recent files ----------------------------------------------------------
-
-    def recent(self) -> list[Path]:
-        """Return the recent files that still exist, the pinned ones first."""
-        settings = self.window.settings
-        pinned = settings.pinned()
-        paths = dict.fromkeys((*pinned, *settings.recent()[:_RECENT]))
-        return [path for path in paths if is_there(path)]
-
-    def pin(self, path: Path) -> None:
-        """Keep a file at the top of the recent ones, or no longer."""
-        pinned = self.window.settings.pinned()
-        self.window.settings.keep_pinned(
-            [p for p in pinned if p != path] if path in pinned else [*pinned, path]
-        )
-
-    def forget(self, path: Path) -> None:
-        """Take a file off the list of recent files; the file itself stays."""
-        settings = self.window.settings
-        settings.keep_pinned([p for p in settings.pinned() if p != path])
-        settings.keep_recent([p for p in settings.recent() if p != path])
-
-    def _remember(self, path: Path) -> None:
-        path = path.absolute()
-        paths = [path, *(p for p in self.window.settings.recent() if p != path and is_there(p))][:_RECENT]
-        self.window.settings.keep_recent(paths)
-        self._recent_menu.setEnabled(True)
-
-    def _fill_recent(self) -> None:
-        paths = self.recent()[:_IN_MENU]
-        if paths == [action.data() for action in self._recent_menu.actions()]:
-            return
-        self._recent_menu.clear()
-        for n, path in enumerate(paths, 1):
-            action = QAction(f"&{n} {path.name.replace('&', '&&')}  ({path.parent})", self._recent_menu)
-            action.setData(path)
-            action.triggered.connect(
-                lambda *_, path=path: self.window.guarded(lambda: self.open_path(path), self.tr("Open"))
-            )
-            self._recent_menu.addAction(action)
-
     # -- opening ---------------------------------------------------------------
 
     def new(self, family: str = "") -> None:
@@ -132,8 +82,10 @@ class FileActions(Translated):
 
         project, workspace = self.window.project, self.window.workspace
         now = project.info.family if project else workspace.file.schema.family.family if workspace else ""
-        in_background(self.window, "Reading the families", read_families)  # the dialog offers all of them
-        dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent())
+        in_background(
+            self.window, self.tr("Reading the families"), read_families
+        )  # the dialog offers all of them
+        dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent.paths())
         if not dialog.exec():
             return
         file = dialog.make()
@@ -220,9 +172,7 @@ class FileActions(Translated):
             self.window.tabs.bring(page)
             return
         try:
-            opened = in_background(
-                self.window, self.tr(self.tr("Opening")), lambda: _opened(Document.open, path)
-            )
+            opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.open, path))
         except InUseError as error:
             question = self.tr("{error}.\n\nOpen it read-only?").format(error=error)
             if ask(
@@ -233,9 +183,7 @@ class FileActions(Translated):
                 self.tr("Cancel"),
             ) != self.tr("&Open Read-Only"):
                 return
-            opened = in_background(
-                self.window, self.tr(self.tr("Opening")), lambda: _opened(Document.view, path)
-            )
+            opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.view, path))
         self._show(opened)
 
     def reload(self, page: FilePage) -> None:
@@ -261,11 +209,11 @@ class FileActions(Translated):
             try:
                 try:
                     opened = in_background(
-                        self.window, self.tr(self.tr("Opening")), partial(_opened, Document.open, path)
+                        self.window, self.tr("Opening"), partial(_opened, Document.open, path)
                     )
                 except InUseError:
                     opened = in_background(
-                        self.window, self.tr(self.tr("Opening")), partial(_opened, Document.view, path)
+                        self.window, self.tr("Opening"), partial(_opened, Document.view, path)
                     )
             except (OSError, ValueError):
                 missing.append(path.name)
@@ -294,7 +242,7 @@ class FileActions(Translated):
         """Show a document; returns its page, None where it was closed again."""
         document, validator = opened
         page = self._show_in_tab(Workspace(document, validator), instead)
-        self._remember(document.path)
+        self.recent.remember(document.path)
         if document.is_locked:
             self._offer_unsaved(page)
         return page if page in self.window.tabs.pages() else None

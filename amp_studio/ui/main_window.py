@@ -155,7 +155,7 @@ class MainWindow(StudioWindow):
     def _show_page(self, page: FilePage | None) -> None:
         """Make the window that of the file in front, or show the welcome page."""
         if page is None:
-            self.welcome.show_recent(self.files.recent())
+            self.welcome.show_recent(self.files.recent.paths())
             self.centre.setCurrentWidget(self.welcome)
             self.status.value.clear()
         else:

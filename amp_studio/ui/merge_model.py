@@ -4,31 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 
 from amp_studio.files import Merge, Row, RowGroup, Typed
 from amp_studio.files.axis_match import axis_letters
-from amp_studio.files.diff import in_one_unit
 from amp_studio.files.merging import ENTRIES, FACTS, HEADER_TEXTS, NOTES, Choice, RowId, Side
 from amp_studio.schema import (
-    MASKED,
-    Parameter,
     Value,
     fault,
     read_address,
     read_real,
     read_value,
     same_value,
-    show_value,
-    shown,
 )
 from amp_studio.schema.address import whole_of
-from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.schema.visible import visible
 
-from .cell_look import THIN, grouped
+from .cell_look import THIN
+from .merge_cells import Cell, cells_of
 
 Index = QModelIndex | QPersistentModelIndex
 NAME, AXIS, BASE, A, B, RESULT = range(6)
@@ -37,20 +32,6 @@ SIDES: dict[int, Side] = {BASE: "base", A: "a", B: "b"}
 """Column -> the source it shows."""
 _TYPABLE = (*HEADER_TEXTS, "value_notes", "group_notes")
 """Entries of the header that are free texts."""
-
-
-class Cell(NamedTuple):
-    """A value as it is painted: the number or the text, and the unit (of a mask its number) apart."""
-
-    text: str
-    unit: str = ""
-    typed: str = ""
-    """What a person types for it; empty for the text itself."""
-
-    @property
-    def whole(self) -> str:
-        """The text with its unit."""
-        return f"{self.text}{'' if self.unit == '°' or not self.unit else ' '}{self.unit}"
 
 
 @dataclass(frozen=True)
@@ -184,33 +165,10 @@ class MergeModel(QAbstractItemModel):
         """Return the value of a source, or of the result, as it is shown."""
         cells = self._cells.get(row.id)
         if cells is None:
-            cells = self._cells[row.id] = self._row_cells(row)
+            values = (row.base, row.a, row.b, self.result_of(row))
+            made = cells_of(self.merge, row, values, units=self.units, secrets=self.secrets)
+            cells = self._cells[row.id] = dict(zip((BASE, A, B, RESULT), made, strict=True))
         return cells[column]
-
-    def _row_cells(self, row: Row) -> dict[int, Cell]:
-        values = [row.base, row.a, row.b, self.result_of(row)]
-        if row.id.part != "value":
-            texts = [None if value is None else str(value.value) for value in values]
-            cells = [Cell("–" if text is None else visible(text)) for text in texts]
-            return dict(zip((BASE, A, B, RESULT), cells, strict=True))
-        parameter = self.merge.a.schema.parameters[row.address[0]]
-        if self.units is not None and any(value is not None and value.unit for value in values):
-            values = in_one_unit(values, self.merge.a.evaluation.unit(row.address, self.units))
-        elif (first := next((v for v in values if v is not None and v.unit), None)) is not None:
-            values = in_one_unit(values, first.unit)
-        masked = parameter.secret and not self.secrets
-        made = []
-        for value in values:
-            if value is None:
-                made.append(Cell(self.tr("not set")))
-            elif masked:
-                made.append(Cell(MASKED))
-            elif isinstance(value.value, (str, bool)) or not value.unit:
-                made.append(_bare_cell(parameter, value))
-            else:
-                bare = show_value(parameter, Value(value.value), secrets=True)
-                made.append(Cell(grouped(bare), shown(value.unit)))
-        return dict(zip((BASE, A, B, RESULT), made, strict=True))
 
     def result_of(self, row: Row) -> Value | None:
         """Return what the result really has: on an axis that begins to turn, the figure in degrees."""
@@ -401,11 +359,3 @@ class MergeModel(QAbstractItemModel):
             name = self.tr("base") if column == BASE else "A" if column == A else "B"
             return f"{name}: {text}, {self.tr('taken')}" if taken else f"{name}: {text}"
         return f"{self.tr('Result')}: {text}" if column == RESULT else text
-
-
-def _bare_cell(parameter: Parameter, value: Value) -> Cell:
-    """Return how a value without a unit is painted: a mask by the names of its bits, a number in groups of digits."""
-    text = show_value(parameter, value, secrets=True)
-    if parameter.bits and isinstance(value.value, int) and value.value >= 0:
-        return Cell(labels_of_word(parameter, value.value), f"0x{value.value:X}", text)
-    return Cell(text if parameter.secret or parameter.choices else grouped(text))

@@ -326,12 +326,12 @@ class WelcomePage(QWidget):
         self._window.guarded(partial(self._files.open_example, item.data(KEY).path), self.tr("Example"))
 
     def _pin(self, path: Path) -> None:
-        self._files.pin(path)
-        self.show_recent(self._files.recent())
+        self._files.recent.pin(path)
+        self.show_recent(self._files.recent.paths())
 
     def _forget(self, path: Path) -> None:
-        self._files.forget(path)
-        self.show_recent(self._files.recent())
+        self._files.recent.forget(path)
+        self.show_recent(self._files.recent.paths())
 
     def _recent_menu(self, place: QPoint) -> None:
         item = self.list.itemAt(place)

@@ -301,7 +301,7 @@ def test_close_shows_the_welcome_page_with_the_file(window: MainWindow, path: Pa
     window.files.close()
     assert window.workspace is None
     assert window.windowTitle() == "AMP Studio"
-    assert window.files.recent() == [path]
+    assert window.files.recent.paths() == [path]
     page = window.welcome
     assert page.isVisible()
     page.list.itemActivated.emit(page.list.item(0))

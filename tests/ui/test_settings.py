@@ -34,9 +34,9 @@ def remember(**entries: object) -> None:
 def test_recent_files_that_cannot_be_looked_at_are_left_out(open_window, path: Path, recent: object) -> None:
     remember(recent=recent, control=recent, geometry=recent, layout=recent)
     window: MainWindow = open_window()
-    assert window.files.recent() == []
+    assert window.files.recent.paths() == []
     window.open_first(path)
-    assert window.files.recent() == [path]
+    assert window.files.recent.paths() == [path]
     assert window.workspace is not None
 
 
@@ -50,7 +50,7 @@ def test_a_recent_file_in_a_folder_without_permission_is_left_out(
     with monkeypatch.context() as patched:
         patched.setattr(Path, "stat", refused)
         assert not is_there(path)
-        assert open_window().files.recent() == []
+        assert open_window().files.recent.paths() == []
     assert is_there(path)
 
 
@@ -59,7 +59,7 @@ def test_a_folder_really_without_permission(open_window, path: Path) -> None:
     remember(recent=[str(path)])
     path.parent.chmod(0)
     try:
-        assert open_window().files.recent() == []
+        assert open_window().files.recent.paths() == []
     finally:
         path.parent.chmod(stat.S_IRWXU)
 

@@ -40,7 +40,7 @@ def two(path: Path, tmp_path: Path, open_window: Callable[..., MainWindow]) -> C
         UserSettings().keep_recent([broken, path])
         window = open_window()
         UserSettings().keep_recent([broken, path])
-        window.welcome.show_recent(window.files.recent())
+        window.welcome.show_recent(window.files.recent.paths())
         return window.welcome
 
     return open_it
@@ -104,13 +104,13 @@ def test_recent_files_show_machine_and_findings_once_the_page_is_at_rest(two, qt
 def test_findings_of_a_file_that_has_changed_are_counted_again(open_window, qtbot: QtBot, path: Path) -> None:
     window = open_window()
     window.settings.keep_recent([path])
-    window.welcome.show_recent(window.files.recent())
+    window.welcome.show_recent(window.files.recent.paths())
     read_all(window.welcome, qtbot)
     file = on_disk(path)
     file.set(("servo.excess_error", "1"), Value(0.01, "mm"))
     path.write_bytes(content_of(file))
     os.utime(path, (1, 1))
-    window.welcome.show_recent(window.files.recent())
+    window.welcome.show_recent(window.files.recent.paths())
     assert rows(window.welcome.list)[0].second == "…"
     window.welcome._rest.start(0)
     qtbot.waitUntil(lambda: bool(rows(window.welcome.list)[0].counts), timeout=WAIT_MS)
@@ -128,20 +128,20 @@ def test_a_file_is_pinned_by_its_star_and_taken_off_the_list_by_delete(two, path
     page.list.setCurrentRow(1)
     page.list.setFocus()
     QTest.keyClick(page.list, Qt.Key.Key_Delete)
-    assert page._files.recent() == [path]
+    assert page._files.recent.paths() == [path]
     QTest.keyClick(page.list, Qt.Key.Key_B, Qt.KeyboardModifier.ControlModifier)
     assert page._window.settings.pinned() == []
 
 
 def test_a_pinned_file_stays_when_many_others_were_opened(two, path: Path, tmp_path: Path) -> None:
     page = two()
-    page._files.pin(path)
+    page._files.recent.pin(path)
     others = [tmp_path / f"{n}.amp" for n in range(40)]
     for other in others:
         other.touch()
-        page._files._remember(other)
-    assert page._files.recent()[0] == path
-    assert len(page._files.recent()) == 25
+        page._files.recent.remember(other)
+    assert page._files.recent.paths()[0] == path
+    assert len(page._files.recent.paths()) == 25
 
 
 def test_the_filter_finds_by_name_folder_and_machine(two, qtbot: QtBot) -> None:

@@ -581,6 +581,10 @@ Woher ist bekannt, was sie enthält?</translation>
             <source>Setting the pages …</source>
             <translation>Die Seiten werden gesetzt …</translation>
         </message>
+        <message>
+            <source>not set</source>
+            <translation>nicht gesetzt</translation>
+        </message>
     </context>
     <context>
         <name>AddAxisDialog</name>
@@ -1723,10 +1727,6 @@ Behaltene Kopie: {kept}</translation>
             <translation>&amp;Datei</translation>
         </message>
         <message>
-            <source>Open R&amp;ecent</source>
-            <translation>Zule&amp;tzt offen</translation>
-        </message>
-        <message>
             <source>Recover &amp;Backup…</source>
             <translation>Si&amp;cherung zurückholen…</translation>
         </message>
@@ -1737,6 +1737,10 @@ Behaltene Kopie: {kept}</translation>
         <message>
             <source>E&amp;xit</source>
             <translation>Been&amp;den</translation>
+        </message>
+        <message>
+            <source>Reading the families</source>
+            <translation>Die Familien werden gelesen</translation>
         </message>
         <message>
             <source>New parameter file</source>
@@ -2861,10 +2865,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Step {step} ticked as done</source>
             <translation>Schritt {step} als erledigt abgehakt</translation>
-        </message>
-        <message>
-            <source>not set</source>
-            <translation>nicht gesetzt</translation>
         </message>
         <message>
             <source>The text contains a character that no file can contain.</source>
@@ -4058,6 +4058,17 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>Reading …</source>
             <translation>Wird gelesen …</translation>
+        </message>
+    </context>
+    <context>
+        <name>RecentFiles</name>
+        <message>
+            <source>Open R&amp;ecent</source>
+            <translation>Zule&amp;tzt offen</translation>
+        </message>
+        <message>
+            <source>Open</source>
+            <translation>Öffnen</translation>
         </message>
     </context>
     <context>
@@ -5296,13 +5307,6 @@ Die Arbeit ist noch offen.</translation>
         <message>
             <source>Did you mean “{words}”?</source>
             <translation>Gemeint „{words}“?</translation>
-        </message>
-    </context>
-    <context>
-        <name>self.self</name>
-        <message>
-            <source>Opening</source>
-            <translation>Öffnen</translation>
         </message>
     </context>
 </TS>
