@@ -21,25 +21,6 @@ def test_the_page_of_a_parameter_shows_what_the_manual_warns_of() -> None:
     assert "(page 4-17)" in page
 
 
-def test_the_manual_speaks_of_danger_at_these_parameters_of_the_9pc_alone() -> None:
-    parameters = load_schema("9pc").parameters.values()
-    assert {p.id for p in parameters if p.help.danger} == {
-        "control.cancel_tool_offsets",
-        "deskew.slave",
-        "deskew.slave_2",
-        "servo.excess_error",
-        "servo.position_sign",
-        "servo.velocity_sign",
-        "zone.limit2_max",
-        "zone.limit2_min",
-        "zone.limit3_max",
-        "zone.limit3_min",
-        "zone.overtravel_negative",
-        "zone.overtravel_positive",
-        "zone.overtravel_used",
-    }
-
-
 @pytest.mark.parametrize("family", family_ids())
 def test_every_statement_is_whole_sentences_and_not_the_help_again(family: str) -> None:
     for parameter in load_schema(family).parameters.values():
