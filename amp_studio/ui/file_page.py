@@ -21,6 +21,7 @@ from .findings_panel import FindingsPanel
 from .left_panel import LeftPanel
 from .message_bar import MessageBar
 from .parameter_table import ParameterTable
+from .picture_split import PictureSplit
 from .value_table import ValueTable
 from .workspace import Workspace
 
@@ -58,15 +59,23 @@ class FilePage(QWidget):
         self.bar = MessageBar()
         self._title = ""
         self.pictures: QWidget | None = None
-        """In the place of the table, once they were asked for."""
+        """Beside the table or in its place, once they were asked for."""
         self.list_title = QLabel()
         self.list_title.setContentsMargins(6, 4, 6, 4)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         self.filters = FilterBar(self.list_title, self.table)
-        for widget in (self.bar, self.filters, self.table_view):
-            layout.addWidget(widget)
+        sheet = QWidget()
+        inner = QVBoxLayout(sheet)
+        inner.setContentsMargins(0, 0, 0, 0)
+        inner.setSpacing(0)
+        inner.addWidget(self.filters)
+        inner.addWidget(self.table_view)
+        self.middle = PictureSplit(sheet)
+        self.middle.rearranged.connect(self._note_cover)
+        layout.addWidget(self.bar)
+        layout.addWidget(self.middle, 1)
         self.setFocusProxy(self.table_view)
         self.left.chosen.connect(self._show_parameters)
         self.left.steps.wanted.connect(self.go_to)
@@ -124,7 +133,7 @@ class FilePage(QWidget):
     def show_found(self, words: str, ids: Iterable[str]) -> None:
         """Show the parameters that were found for some words."""
         self.front_wanted.emit(self)
-        self.show_pictures(False)
+        self.uncover()
         self.groups.show_none()
         title = self.tr("Found: {words}").format(words=words)
         self._show_parameters(title, [self.workspace.file.schema.parameters[i] for i in ids])
@@ -153,29 +162,35 @@ class FilePage(QWidget):
             self.table.show_again()
             self.changed.emit(self)
 
-    # -- pictures in its place -----------------------------------------------------
+    # -- pictures beside it --------------------------------------------------------
 
     @property
     def shows_pictures(self) -> bool:
-        """Whether the pictures are shown instead of the table."""
-        return self.pictures is not None and not self.pictures.isHidden()
+        """Whether the pictures are shown."""
+        return self.middle.is_shown
 
     def take_pictures(self, pictures: QWidget) -> None:
         """Take the page of pictures in, hidden."""
         self.pictures = pictures
-        pictures.hide()
-        self.layout().addWidget(pictures)
+        self.middle.take(pictures)
 
     def show_pictures(self, wanted: bool) -> None:
-        """Show the pictures, or the table."""
-        if self.pictures is None or wanted == self.shows_pictures:
-            return
-        for widget in (self.filters, self.table_view):
-            widget.setVisible(not wanted)
-        self.pictures.setVisible(wanted)
-        self.setFocusProxy(self.pictures if wanted else self.table_view)
-        self.focusProxy().setFocus()
-        self.changed.emit(self)
+        """Show the pictures, or the table alone."""
+        if self.pictures is not None and wanted != self.shows_pictures:
+            self.middle.show_pictures(wanted)
+            self.changed.emit(self)
+
+    def uncover(self) -> None:
+        """Show the table where the pictures are in its place."""
+        if self.middle.covers:
+            self.show_pictures(False)
+
+    def _note_cover(self) -> None:
+        """Give the keyboard to what is seen."""
+        front = self.pictures if self.middle.covers and self.pictures is not None else self.table_view
+        if self.focusProxy() is not front:
+            self.setFocusProxy(front)
+            front.setFocus()
 
     # -- selection -------------------------------------------------------------
 
@@ -211,7 +226,11 @@ class FilePage(QWidget):
     def go_to(self, address: Address) -> None:
         """Select an address and come to the front; shows its group when the table does not contain it."""
         self.front_wanted.emit(self)
-        self.show_pictures(False)
+        self.uncover()
+        self.select(address)
+
+    def select(self, address: Address) -> None:
+        """Select an address in the table, wherever the focus is; shows its group when the table does not contain it."""
         if not self.table.index_of(address).isValid() and self.filters.active:
             self.filters.clear()
         if not self.table.index_of(address).isValid():

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPalette
+from PySide6.QtGui import QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
 )
 
@@ -23,8 +22,12 @@ from amp_studio.schema import (
     write_value,
 )
 
+from .elided_label import ElidedLabel
 from .theme import CONTROL, GAP3, font
 from .workspace import Workspace
+
+_WITH_KEYS = 620
+"""Width from which the keys are told."""
 
 
 class HandleFooter(QFrame):
@@ -36,7 +39,8 @@ class HandleFooter(QFrame):
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self._workspace = workspace
-        self.name, self.more, self.keys = QLabel(), QLabel(), QLabel()
+        self._handle: Handle | None = None
+        self.name, self.more, self.keys = ElidedLabel(), ElidedLabel(), ElidedLabel()
         self.name.setFont(font("text", own=True))
         self.field = QLineEdit()
         self.field.setFixedWidth(150)
@@ -46,8 +50,6 @@ class HandleFooter(QFrame):
         for label in (self.more, self.keys):
             label.setFont(font("small"))
             label.setForegroundRole(QPalette.ColorRole.PlaceholderText)
-        for label in (self.name, self.more, self.keys):
-            label.setMinimumWidth(1)  # a long name never widens the page
         row = QHBoxLayout(self)
         row.setContentsMargins(GAP3, 4, GAP3, 4)
         row.setSpacing(GAP3)
@@ -63,7 +65,8 @@ class HandleFooter(QFrame):
         self.more.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         has_one = handle is not None and len(handle.drags) == 1
         self.field.setVisible(has_one)
-        self.keys.setVisible(handle is not None)
+        self._handle = handle
+        self._fit()
         if handle is None:
             self.name.setText("")
             self.more.setText(self.tr("Drag a handle, or go to it with Tab and use the arrow keys"))
@@ -76,6 +79,14 @@ class HandleFooter(QFrame):
             self.field.setText(self._typed(drag.address))
             self.field.setAccessibleName(handle.label)
         self.more.setText(self._default(drag.address) if has_one else handle.value)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Show the keys where the name has room besides."""
+        self.keys.setVisible(self._handle is not None and self.width() >= _WITH_KEYS)
 
     def _typed(self, address: Address) -> str:
         """Return a value as it would be typed, in the unit of the file."""

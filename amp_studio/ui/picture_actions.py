@@ -1,9 +1,10 @@
-"""The pictures of the file in front, in the place of its table; saving one as a drawing."""
+"""The pictures of the file in front, beside its table or in its place; saving one as a drawing."""
 
 from __future__ import annotations
 
 import sys
 import threading
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -12,8 +13,10 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import check_output, write_atomic
 from amp_studio.pictures import scene_svg
+from amp_studio.schema import Address
 
 from .file_page import FilePage
+from .picture_split import Arrangement, PictureLayout
 from .pictures_page import PicturesPage
 from .studio_window import StudioWindow
 
@@ -30,7 +33,7 @@ def _load_early() -> None:
 
 
 class PictureActions(QObject):
-    """Shows and hides the page of pictures of each file."""
+    """Shows and hides the pictures of each file, beside its table or in its place."""
 
     def __init__(self, window: StudioWindow) -> None:
         super().__init__(window)
@@ -41,28 +44,50 @@ class PictureActions(QObject):
         self._early = QTimer(self)
         self._early.setSingleShot(True)
         self._early.setInterval(LOAD_MS)
-        self._early.timeout.connect(_load_early)
+        self._early.timeout.connect(self._prepare)
         window.tabs.current_changed.connect(lambda _: self._early.start())
         self.save = window.action(self.tr("Save P&icture As SVG…"), self._save)
+
+    def _prepare(self) -> None:
+        """Load what pictures need; then show them for a file that comes to the front as for the files before it."""
+        page, layout = self.window.page, self.window.settings.pictures()
+        if page is None:
+            return
+        _load_early()
+        wants = layout.is_shown and page.pictures is None
+        page.middle.arrange(layout)
+        if wants and page.middle.arrangement != "instead":
+            if RAMPS in sys.modules:
+                self.show(page, True)
+            else:
+                self._early.start()
 
     def pages(self, page: FilePage) -> PicturesPage:
         """Return the pictures of a file, made when they are first asked for."""
         if page.pictures is None:
             pictures = PicturesPage(page.workspace)
             pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
-            pictures.left.connect(lambda: self.show(page, False))
+            pictures.left.connect(lambda: self._leave(page))
+            pictures.closed.connect(lambda: self._close(page))
             pictures.told.connect(page.noted)
-            pictures.parameter_chosen.connect(page.detail.show_address)
+            pictures.parameter_chosen.connect(lambda address: _select(page, address))
+            pictures.head.place_wanted.connect(lambda place: self._place(page, place))
+            page.table_view.selected.connect(pictures.show_selected)
             page.take_pictures(pictures)
+            page.middle.arranged.connect(self._keep)
+            page.middle.rearranged.connect(lambda: pictures.head.show_place(page.middle.arrangement))
             return pictures
         assert isinstance(page.pictures, PicturesPage)
         return page.pictures
 
     def show(self, page: FilePage, wanted: bool) -> None:
-        """Show the pictures of a file, or its table."""
+        """Show the pictures of a file, or its table alone."""
         if wanted:
             self.pages(page)
+            page.middle.arrange(self.window.settings.pictures())
         page.show_pictures(wanted)
+        if not wanted:
+            page.table_view.setFocus()
         self.check(self.window.page)
 
     def check(self, page: FilePage | None) -> None:
@@ -72,15 +97,41 @@ class PictureActions(QObject):
     def _toggle(self) -> None:
         page = self.window.page
         assert page is not None
-        address = page.table_view.address()
-        self.show(page, not page.shows_pictures)
-        if page.shows_pictures and address is not None:
-            self.pages(page).show_handle_of(address)
+        if page.shows_pictures:
+            self._close(page)
+            return
+        self._keep(replace(self.window.settings.pictures(), is_shown=True))
+        self.show(page, True)
+        if (address := page.table_view.address()) is not None:
+            self.pages(page).show_handle_of(address, focus=page.middle.covers)
 
-    def _to_parameter(self, page: FilePage, address: object) -> None:
+    def _close(self, page: FilePage) -> None:
+        self._keep(replace(self.window.settings.pictures(), is_shown=False))
         self.show(page, False)
-        page.go_to(address)  # type: ignore[arg-type]
+
+    def _leave(self, page: FilePage) -> None:
+        """Go back to the table, which is seen already where the pictures are beside it."""
+        if page.middle.covers:
+            self._close(page)
         page.table_view.setFocus()
+
+    def _keep(self, layout: PictureLayout) -> None:
+        self.window.settings.keep_pictures(layout)
+
+    def _place(self, page: FilePage, place: Arrangement) -> None:
+        """Put the pictures where a person wants them; a smaller room than that needs is said."""
+        layout = replace(self.window.settings.pictures(), choice=place)
+        self._keep(layout)
+        page.middle.arrange(layout)
+        if page.middle.arrangement != place:
+            page.noted.emit(
+                self.tr("The window is too small for that; the pictures are there once it is larger")
+            )
+
+    def _to_parameter(self, page: FilePage, address: Address) -> None:
+        page.go_to(address)
+        page.table_view.setFocus()
+        self.check(self.window.page)
 
     def _save(self) -> None:
         page = self.window.page
@@ -97,3 +148,9 @@ class PictureActions(QObject):
             check_output(path, own)
             write_atomic(path, scene_svg(card.canvas.scene).encode(), keep_backup=False)
             self.window.show_status(self.tr("{path} written").format(path=path))
+
+
+def _select(page: FilePage, address: Address) -> None:
+    """Select the value of a handle in the table; what is selected there already stays."""
+    if page.table_view.address() != address:
+        page.select(address)

@@ -71,7 +71,7 @@ class PictureCanvas(QWidget):
         return QSize(480, 320)
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(220, 150)
+        return QSize(160, 80)
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Give the old values back where the picture goes while a handle is dragged."""
@@ -167,7 +167,7 @@ class PictureCanvas(QWidget):
         shapes = ScenePainter(painter, self.place, float(self.width()))
         shapes.paint()
         self._names = list(shapes.named)
-        chosen = self.handle if self.hasFocus() or self._drag or self._has_spot_focus() else None
+        chosen = self.handle
         corners_last = sorted(self.scene.handles, key=lambda handle: handle is chosen)
         found = ((handle, self._finding(handle, self._causes)) for handle in corners_last)
         paint_handles(
@@ -175,7 +175,7 @@ class PictureCanvas(QWidget):
             self.place,
             ((h, h is chosen, finding.severity if finding else "") for h, finding in found),
         )
-        if chosen is not None:
+        if chosen is not None and (self._drag or self._has_focus()):
             paint_tag(painter, self.place, chosen.at, self.tag(chosen))
 
     def tag(self, handle: Handle) -> Tag:
@@ -188,8 +188,8 @@ class PictureCanvas(QWidget):
         severity = "error" if self._refused else finding.severity if finding else ""
         return Tag(handle.label, handle.value, old, reason, severity)
 
-    def _has_spot_focus(self) -> bool:
-        return any(spot.hasFocus() for spot in self._spots)
+    def _has_focus(self) -> bool:
+        return self.hasFocus() or any(spot.hasFocus() for spot in self._spots)
 
     @property
     def is_dragging(self) -> bool:

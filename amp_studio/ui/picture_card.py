@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPalette
+from PySide6.QtGui import QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.pictures import FilePicture, Scene
 
+from .elided_label import ElidedLabel
 from .picture_canvas import PictureCanvas
 from .segment import Segment
 from .theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
@@ -27,6 +28,9 @@ MOST_PARTS = 6
 """Parts that are buttons; more of them are a list."""
 MOST_NOTES = {True: 1, False: 4}
 """Notes under a picture: beside others, alone."""
+
+_MORE = 110
+"""Width of what follows an elided note."""
 
 
 class PictureCard(QFrame):
@@ -43,11 +47,10 @@ class PictureCard(QFrame):
         self.small = True
         """Whether it is beside others."""
         self.canvas = PictureCanvas(workspace, self._draw)
-        self.title, self.subtitle = QLabel(), QLabel()
+        self.title, self.subtitle = QLabel(), ElidedLabel()
         self.title.setFont(font("text", own=True))
         self.subtitle.setFont(font("small"))
         self.subtitle.setForegroundRole(QPalette.ColorRole.PlaceholderText)
-        self.subtitle.setMinimumWidth(20)
         self.parts = Segment(self.tr("Part of {name}").format(name=picture.title))
         self.parts.chosen.connect(self.show_part)
         self.more_parts = QComboBox()
@@ -55,7 +58,7 @@ class PictureCard(QFrame):
         self.more_parts.activated.connect(lambda n: self.show_part(self.more_parts.itemData(n)))
         self.notes = QLabel()
         self.notes.setFont(font("small"))
-        self.notes.setWordWrap(True)
+        self.notes.setMinimumWidth(1)
         self.notes.setTextInteractionFlags(Qt.TextInteractionFlag.LinksAccessibleByMouse)
         self.notes.setContentsMargins(GAP3, 2, GAP3, GAP2)
         self.notes.linkActivated.connect(self._follow)
@@ -136,12 +139,13 @@ class PictureCard(QFrame):
     def show_notes(self) -> None:
         """Show what is not drawn and why, what is wrong first; each leads to its parameter."""
         self.enlarge.setVisible(self.small)
+        self.notes.setWordWrap(not self.small)
         notes = sorted(self.canvas.scene.notes, key=lambda note: note.order)
         most = MOST_NOTES[self.small]
         lines = []
         for note in notes[:most]:
             ink = colour("error" if note.wrong else "dim").name()
-            text = escape(note.text)
+            text = escape(self._room_for(note.text))
             if note.address is not None:
                 link = f"{note.address[0]}@{note.address[1]}"
                 text = f'<a href="{link}" style="color: {ink}; text-decoration: none">{text}</a>'
@@ -152,6 +156,17 @@ class PictureCard(QFrame):
         self.notes.setVisible(bool(lines))
         self.notes.setText("<br>".join(lines) if not self.small else " · ".join(lines))
         self.notes.setToolTip("\n".join(note.text for note in notes))
+
+    def _room_for(self, text: str) -> str:
+        """Return a note in one line where the picture is beside others: a second line would take its room."""
+        if not self.small:
+            return text
+        return self.notes.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, self.width() - _MORE)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self.small:
+            self.show_notes()
 
     def _follow(self, link: str) -> None:
         parameter, _, instance = link.partition("@")

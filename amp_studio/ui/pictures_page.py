@@ -4,16 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from amp_studio.files import RangeError
 from amp_studio.pictures import Handle, drawn_in, pictures_of
@@ -24,15 +17,23 @@ from amp_studio.schema import (
 
 from .handle_footer import HandleFooter
 from .picture_card import PictureCard
-from .segment import Segment
-from .theme import GAP2, GAP3, HEAD, font, icon
+from .pictures_head import PicturesHead
+from .theme import GAP2, HEAD
 from .workspace import Workspace
 
 ALL = "all"
 TWO_COLUMNS = 760
 """Width from which pictures are side by side."""
+LOW = 420
+"""Height below which they are in one row."""
+LEAST_CARD = 370, 230
+"""Width and height from which a picture has its place in a row or in a column."""
+AROUND = 2 * HEAD + 24
+"""Height of head and footer, about."""
 TELL_MS = 200
 """Milliseconds until the other views show the parameter of a handle; passing by on the way to another one costs nothing."""
+MARK_MS = 60
+"""Milliseconds until the handle of a value that was selected elsewhere is shown; likewise."""
 SIDE = 3
 """Pictures beside the first one."""
 
@@ -43,6 +44,7 @@ class PicturesPage(QWidget):
     parameter_wanted = Signal(object)
     left = Signal()
     """Esc: back to the table."""
+    closed = Signal()
     told = Signal(str)
     parameter_chosen = Signal(object)
     """The address of a handle that has had the focus for a moment and is not dragged."""
@@ -56,37 +58,32 @@ class PicturesPage(QWidget):
         self.cards: dict[str, PictureCard] = {}
         """Those that were seen already."""
         self._active: PictureCard | None = None
+        self._placed = (0, False)
         self._stale = False
         self._tell = QTimer(self)
         self._tell.setSingleShot(True)
         self._tell.setInterval(TELL_MS)
         self._tell.timeout.connect(self._tell_parameter)
         self._seen: list[PictureCard] = []
-        self.names = Segment(self.tr("Pictures"))
-        self.names.chosen.connect(self.show_picture)
-        self.close_button = QToolButton()
-        self.close_button.setIcon(icon("x"))
-        self.close_button.setToolTip(self.tr("Back to the table (Esc)"))
-        self.close_button.setAccessibleName(self.tr("Back to the table"))
-        self.close_button.clicked.connect(self.left)
-        heading = QLabel(self.tr("Pictures"))
-        heading.setFont(font("title"))
-        head = QHBoxLayout()
-        head.setContentsMargins(GAP3, 0, GAP2, 0)
-        head.addWidget(heading)
-        head.addStretch(1)
-        head.addWidget(self.names)
-        head.addWidget(self.close_button)
-        bar = QWidget()
-        bar.setFixedHeight(HEAD + 6)
-        bar.setLayout(head)
+        self._selected: Address | None = None
+        """The value that is selected elsewhere."""
+        self._front = ""
+        """The picture that must be seen among all: the one of the selected value."""
+        self._mark = QTimer(self)
+        self._mark.setSingleShot(True)
+        self._mark.setInterval(MARK_MS)
+        self._mark.timeout.connect(self._mark_selected)
+        self.head = PicturesHead()
+        self.head.chosen.connect(self.show_picture)
+        self.head.closed.connect(self.closed)
+        self._shown = ALL
         self.grid = QGridLayout()
         self.grid.setContentsMargins(GAP2, 0, GAP2, GAP2)
         self.grid.setSpacing(GAP2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        layout.addWidget(bar)
+        layout.addWidget(self.head)
         layout.addLayout(self.grid, 1)
         self.footer = HandleFooter(workspace)
         layout.addWidget(self.footer)
@@ -99,7 +96,7 @@ class PicturesPage(QWidget):
 
     def _build(self) -> None:
         options = [(name, picture.title, "") for name, picture in self._pictures.items()]
-        self.names.offer([(ALL, self.tr("All"), ""), *options])
+        self.head.offer([(ALL, self.tr("All"), ""), *options])
         if not self._pictures:
             nothing = QLabel(self.tr("This family has no pictures."))
             nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -126,18 +123,36 @@ class PicturesPage(QWidget):
     @property
     def shown(self) -> str:
         """The name of the picture that is shown, or ``all``."""
-        return self.names.choice or ALL
+        return self._shown
 
     def show_picture(self, name: str) -> None:
         """Show one picture large, or all of them."""
-        self.names.show_choice(name)
+        self._shown = name
+        self.head.show_choice(name)
         self._arrange()
 
+    def _shape(self) -> tuple[int, bool]:
+        """Return how many pictures there is room for, and whether the first one is larger than the others."""
+        if self._shown != ALL:
+            return 1, False
+        if self.width() >= TWO_COLUMNS and self.height() >= LOW:
+            return 1 + SIDE, True
+        across, down = self.width() // LEAST_CARD[0], (self.height() - AROUND) // LEAST_CARD[1]
+        return min(max(across if self.height() < LOW else down, 1), 1 + SIDE), False
+
+    def _wanted(self, count: int) -> list[str]:
+        """Return the pictures for so many places, that of the selected value among them."""
+        names = list(self._pictures)
+        if self._shown in names:
+            return [self._shown]
+        first = names[:count]
+        return first if self._front in ("", *first) else [*first[:-1], self._front]
+
     def _arrange(self) -> None:
-        """Put the cards into the grid: the first one large and others beside it, or one alone."""
-        name, names = self.shown, list(self._pictures)
-        two = name == ALL and self.width() >= TWO_COLUMNS and len(names) > 1
-        wanted = names[: 1 + SIDE] if two else [name] if name in self._pictures else names[:1]
+        """Put the cards into the grid: the first one large and others beside it, in a row or a column, or one alone."""
+        self._placed = count, is_large = self._shape()
+        wanted = self._wanted(count)
+        several = len(wanted) > 1
         hidden = [card for card in self.cards.values() if card not in self._seen]
         seen = [self.card(each) for each in wanted]
         for card in seen:
@@ -145,23 +160,33 @@ class PicturesPage(QWidget):
                 card.follow(self._pictures[card.picture.name])
         for card in self.cards.values():
             self.grid.removeWidget(card)
+        is_row = self.height() < LOW
         for n, card in enumerate(seen):
-            card.small = two
-            if n == 0:
-                self.grid.addWidget(card, 0, 0, max(len(seen) - 1, 1), 1)
+            card.small = several
+            if is_large:
+                place = (0, 0, max(len(seen) - 1, 1), 1) if n == 0 else (n - 1, 1, 1, 1)
             else:
-                self.grid.addWidget(card, n - 1, 1)
+                place = (0, n, 1, 1) if is_row else (n, 0, 1, 1)
+            self.grid.addWidget(card, *place)
             card.show_notes()
-        self.grid.setColumnStretch(0, 6)
-        self.grid.setColumnStretch(1, 5 if two else 0)
+        for column in range(1 + SIDE):
+            used = column < len(seen)
+            self.grid.setColumnStretch(column, int(used if is_row else column == 0))
+            self.grid.setRowStretch(column, int(used and not is_row))
+        if is_large:
+            self.grid.setColumnStretch(0, 6)
+            self.grid.setColumnStretch(1, 5 if several else 0)
         for card in self.cards.values():
             card.setVisible(card in seen)
         self._seen = seen
 
+    def minimumSizeHint(self) -> QSize:
+        """Return room for one picture: more of them go where there is no room."""
+        return QSize(240, 200)
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        two = self.width() >= TWO_COLUMNS
-        if self.shown == ALL and two != (len(self._seen) > 1) and len(self._pictures) > 1:
+        if self._shape() != self._placed:
             QTimer.singleShot(0, self, self._arrange)  # not while the layout is at work
 
     # -- following the file ------------------------------------------------------------
@@ -196,22 +221,51 @@ class PicturesPage(QWidget):
 
     # -- the chosen handle ---------------------------------------------------------------
 
-    def show_handle_of(self, address: Address) -> None:
+    def show_handle_of(self, address: Address, *, focus: bool = True) -> None:
         """Choose the handle of a value, in its picture; nothing where no picture has one."""
-        found = drawn_in(self._pictures.values(), address)
+        inner = sorted(self._pictures.values(), key=lambda each: each.name not in self._seen_names())
+        found = drawn_in(inner, address)
         if found is None:
+            self._choose_alone(None)
             return
         name, part = found
+        self._front = name
         if self.card(name) not in self._seen:
-            self.show_picture(name)
+            self._arrange() if self._shown == ALL and not focus else self.show_picture(name)
         card = self.card(name)
         if card.part != part:
             card.show_part(part)
         handles = card.canvas.scene.handles
         own = [n for n, h in enumerate(handles) if [drag.address for drag in h.drags] == [address]]
         if own:
+            self._choose_alone(card)
             card.canvas.choose(own[0])
-            card.canvas.focus_handle()
+            if focus:
+                card.canvas.focus_handle()
+            else:
+                self._tell.stop()  # who selected the value knows it
+
+    def _seen_names(self) -> set[str]:
+        return {card.picture.name for card in self._seen}
+
+    def _choose_alone(self, card: PictureCard | None) -> None:
+        """Let one card have the chosen handle."""
+        for each in self.cards.values():
+            if each is not card:
+                each.canvas.choose(None)
+
+    def show_selected(self, address: Address | None) -> None:
+        """Mark the handle of a value that was selected elsewhere, without taking the focus."""
+        self._selected = address
+        if self.isVisible():
+            self._mark.start()
+
+    def _mark_selected(self) -> None:
+        handle = self._active.canvas.handle if self._active in self._seen and self._active else None
+        known = () if handle is None else [drag.address for drag in handle.drags]
+        is_dragging = any(card.canvas.is_dragging for card in self._seen)
+        if self._selected is not None and self._selected not in known and not is_dragging:
+            self.show_handle_of(self._selected, focus=False)
 
     def _tell_parameter(self) -> None:
         handle = self._active.canvas.handle if self._active else None
@@ -226,6 +280,7 @@ class PicturesPage(QWidget):
         if card is self._active:
             self.footer.show_handle(handle)
         if handle is not None and not card.canvas.is_dragging:
+            self._mark.stop()  # what was selected before is of the past
             self._tell.start()
 
     def _enter(self, text: str) -> None:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 from amp_studio.schema.regular_file import read_file
 
+from .picture_split import PictureLayout
 from .theme import ThemeChoice, as_choice
 
 _NEVER_STORED = re.compile(rb"@\s*(?:Variant|DateTime)")
@@ -107,6 +108,14 @@ class UserSettings:
     def keep_left_side(self, side: str) -> None:
         """Store which side the left panel is turned to."""
         self._stored.setValue("left", side)
+
+    def pictures(self) -> PictureLayout:
+        """Return where a person wants pictures."""
+        return PictureLayout.read(self._value("pictures"))
+
+    def keep_pictures(self, layout: PictureLayout) -> None:
+        """Store where a person wants pictures."""
+        self._stored.setValue("pictures", str(layout))
 
     def bookmarks(self, path: Path) -> set[str]:
         """Return the ids of the parameters that this person has bookmarked in a file."""

@@ -298,7 +298,7 @@ def test_every_family_has_a_page_of_pictures(
     window = open_window(path)
     action(window, "Pictures").trigger()
     page = window.page.pictures
-    for name in list(page.names.buttons)[1:]:
+    for name in list(page.head.names.buttons)[1:]:
         page.show_picture(name)
         card = page.chosen_card
         assert (card.picture.name, card.grab().isNull()) == (name, False)

@@ -3505,6 +3505,10 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <translation>B&amp;ild als SVG speichern…</translation>
         </message>
         <message>
+            <source>The window is too small for that; the pictures are there once it is larger</source>
+            <translation>Das Fenster ist dafür zu klein; die Bilder sind dort, sobald es größer ist</translation>
+        </message>
+        <message>
             <source>Save Picture</source>
             <translation>Bild speichern</translation>
         </message>
@@ -3571,18 +3575,41 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
-        <name>PicturesPage</name>
+        <name>PicturesHead</name>
         <message>
             <source>Pictures</source>
             <translation>Bilder</translation>
         </message>
         <message>
-            <source>Back to the table (Esc)</source>
-            <translation>Zurück zur Tabelle (Esc)</translation>
+            <source>Place of the pictures</source>
+            <translation>Platz der Bilder</translation>
         </message>
         <message>
-            <source>Back to the table</source>
-            <translation>Zurück zur Tabelle</translation>
+            <source>Pictures beside the table</source>
+            <translation>Bilder neben der Tabelle</translation>
+        </message>
+        <message>
+            <source>Pictures below the table</source>
+            <translation>Bilder unter der Tabelle</translation>
+        </message>
+        <message>
+            <source>Pictures instead of the table</source>
+            <translation>Bilder statt der Tabelle</translation>
+        </message>
+        <message>
+            <source>Close the pictures (F12)</source>
+            <translation>Bilder schließen (F12)</translation>
+        </message>
+        <message>
+            <source>Close the pictures</source>
+            <translation>Bilder schließen</translation>
+        </message>
+    </context>
+    <context>
+        <name>PicturesPage</name>
+        <message>
+            <source>Pictures</source>
+            <translation>Bilder</translation>
         </message>
         <message>
             <source>All</source>
