@@ -1,4 +1,4 @@
-"""Lists of what a manual states, each statement with its line, its page and what tells it to a person."""
+"""Lists of what a manual states, each statement with its line, its page and what shows it to a person."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def missing(schema: Schema, teller: str) -> str | None:
 
 
 def untold(path: Path) -> list[str]:
-    """Return the statements of a list that nothing tells although the list says so."""
+    """Return the statements that nothing shows although their list names something."""
     return [
         f"line {statement.line}: {said}"
         for statement in statements(path)
